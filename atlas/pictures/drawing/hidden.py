@@ -45,17 +45,15 @@ def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) 
     cuts = [np.zeros((len(start), 1)), np.ones((len(start), 1))]
     cuts += [_changes(surface, start, step, towards) for surface in surfaces]
     s = np.sort(np.clip(np.nan_to_num(np.concatenate(cuts, axis=1), nan=0.0), 0.0, 1.0), axis=1)
-    middle = start[:, None] + (0.5 * (s[:, :-1] + s[:, 1:]))[..., None] * step[:, None]
-    hidden = np.zeros(middle.shape[:-1], dtype=bool)
-    for surface, on in zip(surfaces, touching, strict=True):
-        rests = on[:-1] & on[1:]
-        hidden |= _hides(surface, middle, towards, rests[:, None])
-    row, column = np.nonzero(np.diff(s, axis=1) > _NOTHING)
+    row, column = np.nonzero(np.diff(s, axis=1) > _NOTHING)  # most cuts are none, at an end of their chord
     if len(row) == 0:
         return []
-    first = start[row] + s[row, column, None] * step[row]
-    last = start[row] + s[row, column + 1, None] * step[row]
-    answers = hidden[row, column]
+    low, high = s[row, column, None], s[row, column + 1, None]
+    middle = start[row] + 0.5 * (low + high) * step[row]
+    answers = np.zeros(len(row), dtype=bool)
+    for surface, on in zip(surfaces, touching, strict=True):
+        answers |= _hides(surface, middle, towards, (on[:-1] & on[1:])[row])
+    first, last = start[row] + low * step[row], start[row] + high * step[row]
     ends = np.concatenate([np.flatnonzero(np.diff(answers)) + 1, [len(answers)]])
     pieces, begin = [], 0
     for end in ends:
