@@ -5,6 +5,7 @@ import pytest
 
 import atlas
 from atlas.motions.torus import approximate_periods as clebsch_periods
+from atlas.motions.torus import certified_flow
 from atlas.motions.torus.approximate_periods import complex_of
 from atlas.motions.torus.certified import AsymmetricMotion
 from atlas.motions.torus.kernel import SingleAsymmetric
@@ -120,3 +121,15 @@ def test_integrals_without_digits_are_an_error_in_one_line(monkeypatch: pytest.M
     monkeypatch.setattr(clebsch_periods, "MAX_COEFFICIENT_BITS", 10**6)
     motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (3e35, 1e36, 6e35), (1.0, 0.7, 2.0))
     assert motion.agreement == "certified at each time: integrals between zeros of the motion's torus lose all digits."
+
+
+def test_many_times_without_a_closed_form_take_one_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Moments that differ by rounding: each value of an array is that of its time alone, and few steps are gone."""
+    inertia, field, omega = (1.0, 1.0 + 2.0**-52, 1.9), (0.3, -0.7, 0.5), (0.4, 0.2, -0.6)
+    times = np.linspace(-3.0, 5.0, 101)
+    alone = [SingleAsymmetric(AsymmetricMotion(inertia, field, omega)).rotation(t) for t in times[[0, 50, 77, 100]]]
+    count, step = [], certified_flow._Way.step
+    monkeypatch.setattr(certified_flow._Way, "step", lambda way: (count.append(way), step(way))[1])
+    together = SingleAsymmetric(AsymmetricMotion(inertia, field, omega)).rotation(times)
+    assert np.array_equal(together[[0, 50, 77, 100]], alone)
+    assert len(set(map(id, count))) == 2

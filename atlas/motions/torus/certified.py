@@ -9,6 +9,7 @@ and the remainder goes by Taylor series, `atlas.motions.torus.certified_flow`:
 Nothing is taken from the theory of theta functions but where to look for the periods, which are then proved.
 """
 
+from collections.abc import Iterable
 from itertools import chain
 from operator import mul
 from typing import Any
@@ -42,7 +43,7 @@ NEARLY = fmpq(1, 1 << 40)
 
 REMEDY = " A body for which they are equal is atlas.SymmetricBody(I2, I3, axes), with any times."
 
-STATE_CACHE_SIZE = 256
+STATE_CACHE_SIZE = 4096
 """Size of the cache of states, for further quantities at the same times."""
 
 MAX_GROWTH_PRECISION = 600
@@ -105,19 +106,47 @@ class OnTorus:
             arrived = self._arrived[key] = self._state(t)
         return arrived
 
+    def follow(self, times: Iterable[fmpq]) -> None:
+        """Keep the states at times that are reached by Taylor's series alone: one way past all instead of one to each.
+
+        At most `STATE_CACHE_SIZE` are kept; where the errors grow beyond their bounds, the rest is left to `state`.
+        """
+        ascending = sorted({t * self.rate for t in times} - {t for t, _ in self._arrived}, key=abs)
+        if len(self._arrived) + len(ascending) > STATE_CACHE_SIZE:
+            self._arrived.clear()
+        for side in (1, -1):
+            passed = [t for t in ascending if NEAR < side * t <= MAX_FLOW_TIME]
+            if len(passed) < 2 or not self._without_periods(passed[-1]):
+                continue
+            last = passed[-1]
+            try:
+                arrivals = self.torus.flow.pass_by(last, [t / last for t in passed], ctx.prec + 2 * GUARD_BITS)
+                for t, arrival in zip(passed, arrivals, strict=True):
+                    self._arrived[t, ctx.prec] = arrival, self._turn(t)
+            except NotCertifiedError:
+                continue
+
+    def _turn(self, t: fmpq) -> arb:
+        """Return the angle about the field that comes before S."""
+        with workprec(ctx.prec + GUARD_BITS + _digits_before_point(t)):
+            return -t * self.b
+
+    def _without_periods(self, t: fmpq) -> str:
+        """Return why Taylor's series goes all the way to a time, empty where it starts from a period."""
+        if not self.is_regular:
+            return "the motion is one where two periods of its torus fall together"
+        if self.too_near or abs(t) > MAX_FLOW_TIME:
+            return self.too_near
+        if self.torus.spin is not None and self.torus.pushed is None:
+            return "the motion is next to an unstable spin"
+        return "a period of its torus is long" if self.torus.is_long else ""
+
     def _state(self, t: fmpq) -> tuple[Arrival, arb]:
-        bits, extra_bits = ctx.prec + GUARD_BITS, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
-        with workprec(bits + extra_bits):
-            turn = -t * self.b
+        bits, extra_bits, turn = ctx.prec + GUARD_BITS, _digits_before_point(t), self._turn(t)
         if abs(t) <= MAX_DIRECT_TIME:
             return self.torus.flow.go(t, fmpq(0), bits), turn
-        together = "" if self.is_regular else "the motion is one where two periods of its torus fall together"
-        if why := together or self.too_near:
+        if why := self._without_periods(t):
             return self._directly(t, why), turn
-        if abs(t) <= MAX_FLOW_TIME and self.torus.spin is not None and self.torus.pushed is None:
-            return self._directly(t, "the motion is next to an unstable spin"), turn
-        if abs(t) <= MAX_FLOW_TIME and self.torus.is_long:
-            return self._directly(t, "a period of its torus is long"), turn
         try:
             r1, r2 = self.periods(ctx.prec + extra_bits)
         except NotCertifiedError as reason:
@@ -233,6 +262,11 @@ class OnTorus:
         return [(w - k) * self.rate for w, k in zip(arrival.W, arrival.K, strict=True)]
 
 
+def _digits_before_point(t: fmpq) -> int:
+    """Return the binary digits of a time before its point, and eight more."""
+    return max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
+
+
 class AsymmetricMotion:
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3), from omega.
 
@@ -277,6 +311,11 @@ class AsymmetricMotion:
         if isinstance(self._motion, EllipticMotion):
             return self._motion
         return None if any(self.field) else EulerTop(self.inertia, self.omega)
+
+    def follow(self, times: Iterable[fmpq]) -> None:
+        """Prepare the states at times (rationals), where that is faster for all together than for each."""
+        if isinstance(self._motion, OnTorus):
+            self._motion.follow(times)
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""

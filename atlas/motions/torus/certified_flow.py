@@ -90,45 +90,6 @@ class GrowthError(NotCertifiedError):
     """Errors of Taylor's series grow beyond their bounds, which are wider for more bits."""
 
 
-class Flow:
-    """The flow from a state (W, K) with rational components, of a body with rational moments."""
-
-    def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
-        self.moments = list(moments)
-        self.start = [*W, *K]
-
-    def rates(self, a: fmpq, g: fmpq) -> Rates:
-        """Return V_i/W_i, and the coefficients of W_j W_k and K_j K_k in the rates of W."""
-        I = self.moments
-        moment_ratios = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
-        return (
-            [a + g * x for x in I],
-            [a * x for x in moment_ratios],
-            [-(a + g * x) * y for x, y in zip(I, moment_ratios, strict=True)],
-        )
-
-    def length(self, a: fmpq, g: fmpq) -> float:
-        """Return the largest rate of the flow of a H + g F/2 times the size of (W, K): a step is one to five of it."""
-        return float(max(abs(x) for row in self.rates(a, g) for x in row)) * float(sum(abs(x) for x in self.start))
-
-    def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
-        """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
-
-        Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
-        """
-        if bits > MAX_PRECISION:
-            raise NotCertifiedError(
-                f"not certified: so many digits would take more than {MAX_PRECISION} binary ones; of three moments "
-                "some 1000 decimal ones can be had, fewer of numbers near zero."
-            )
-        w_rates = max(1, min(PARTS, int(PARTS / max(self.length(a, g), 1e-9))))
-        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, w_rates, proven=proven)
-        while way.remaining:
-            way.step()
-        with workprec(2 * bits):
-            return way.arrival()
-
-
 class _Way:
     """The state of a flow under way, and the bound on its error."""
 
@@ -141,6 +102,8 @@ class _Way:
         self.X: Matrix = np.eye(6)
         self.w: Matrix = np.ones(6)  # the start is rounded
         self.q_error = 1.0
+        self.rows: Series = []
+        self.error_in_step = 0.0
 
     def step(self) -> None:
         """Go one step, as long as the series allows."""
@@ -163,6 +126,7 @@ class _Way:
             step_parts, rows = int(step_parts * factor), [_scaled(row, factor) for row in rows]
         if self.proven:
             self._account(rows, fmpq(step_parts, PARTS))
+        self.rows = rows
         self.state = [sum(row) for row in rows]
         self.remaining -= step_parts
         self.guess = max(1, min(PARTS, int(self.guess * scale)))
@@ -202,6 +166,7 @@ class _Way:
         if not np.linalg.cond(J @ self.X) < MAX_CONDITION:
             self._straighten()
         following: Matrix = J @ self.X
+        self.error_in_step = (before + added) * spread
         self.w = self.w + _inverse_rows(following) * ((eta + ROUNDING * np.linalg.norm(J)) * before + added)
         self.X = following
         self.q_error += turn + len(rows[0]) * 4 + size_V * (before + added) * spread
@@ -260,6 +225,70 @@ class _Way:
         errors = [*(error * self.proven).tolist()] + [self.q_error * 1.01 * self.proven] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
         return Arrival(balls[:3], balls[3:6], balls[6:])
+
+    def passed(self, fraction: fmpq) -> Arrival:
+        """Return the state at a fraction of the last step as balls, as wide as the errors grow in all of the step."""
+        state = [int(fmpz_poly(row)(fraction).floor()) for row in self.rows]
+        errors = [1.01 * self.error_in_step + 1] * 6 + [1.01 * self.q_error + 1] * 4
+        balls = [_ball(x, e, self.bits) for x, e in zip(state, errors, strict=True)]
+        return Arrival(balls[:3], balls[3:6], balls[6:])
+
+
+class Flow:
+    """The flow from a state (W, K) with rational components, of a body with rational moments."""
+
+    def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
+        self.moments = list(moments)
+        self.start = [*W, *K]
+
+    def rates(self, a: fmpq, g: fmpq) -> Rates:
+        """Return V_i/W_i, and the coefficients of W_j W_k and K_j K_k in the rates of W."""
+        I = self.moments
+        moment_ratios = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
+        return (
+            [a + g * x for x in I],
+            [a * x for x in moment_ratios],
+            [-(a + g * x) * y for x, y in zip(I, moment_ratios, strict=True)],
+        )
+
+    def length(self, a: fmpq, g: fmpq) -> float:
+        """Return the largest rate of the flow of a H + g F/2 times the size of (W, K): a step is one to five of it."""
+        return float(max(abs(x) for row in self.rates(a, g) for x in row)) * float(sum(abs(x) for x in self.start))
+
+    def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
+        """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
+
+        Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
+        """
+        if bits > MAX_PRECISION:
+            raise NotCertifiedError(
+                f"not certified: so many digits would take more than {MAX_PRECISION} binary ones; of three moments "
+                "some 1000 decimal ones can be had, fewer of numbers near zero."
+            )
+        way = self._way(a, g, bits, proven=proven)
+        while way.remaining:
+            way.step()
+        with workprec(2 * bits):
+            return way.arrival()
+
+    def pass_by(self, a: fmpq, fractions: Sequence[fmpq], bits: int) -> Iterator[Arrival]:
+        """Yield where the flow of a H is at fractions in (0, 1] of its way, which ascend: one way for all.
+
+        Raises NotCertifiedError as `go` does, where the way goes on no further.
+        """
+        way, k = self._way(a, fmpq(0), bits, proven=True), 0
+        while k < len(fractions):
+            start = PARTS - way.remaining
+            way.step()
+            while k < len(fractions) and fractions[k] * PARTS <= PARTS - way.remaining:
+                with workprec(2 * bits):
+                    arrival = way.passed((fractions[k] * PARTS - start) / (PARTS - way.remaining - start))
+                yield arrival
+                k += 1
+
+    def _way(self, a: fmpq, g: fmpq, bits: int, *, proven: bool) -> _Way:
+        guess = max(1, min(PARTS, int(PARTS / max(self.length(a, g), 1e-9))))
+        return _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, guess, proven=proven)
 
 
 def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:

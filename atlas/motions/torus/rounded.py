@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from flint import arb
+from flint import arb, fmpq
 
 from atlas.arithmetic.certified_digits import numbers
 from atlas.arithmetic.certified_inputs import rational
@@ -15,7 +15,7 @@ from atlas.arithmetic.rotation import target
 from atlas.arithmetic.words import floats
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.motions.euler_poisson import angular_acceleration, field_rate
-from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.certified import STATE_CACHE_SIZE, AsymmetricMotion
 
 FIRST_BITS = 80
 """Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
@@ -83,9 +83,8 @@ class Certified:
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
         """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
-        start_time, further = rational(start, "The start"), rational(step, "The step")
-        for i, matrix in enumerate(out):
-            matrix[...] = rounded(lambda i=i: self.exact.rotation(start_time + i * further), 1.0).reshape(3, 3)  # type: ignore[misc]
+        start_time, interval = rational(start, "The start"), rational(step, "The step")
+        self._fill(self.exact.rotation, [start_time + i * interval for i in range(len(out))], 1.0, out)
 
     def _filled(
         self, function: Callable[[Any], Any], t: Any, shape: tuple[int, ...], size: float, out: FloatArray | None
@@ -98,10 +97,19 @@ class Certified:
                 "reaches 2^50 and is lost."
             )
         out = target(out, times.shape + shape)
-        rows = out.reshape(times.size, *shape)
-        for row, time in zip(rows, times.flat, strict=True):
-            row[...] = rounded(lambda time=time: function(float(time)), size).reshape(shape)  # type: ignore[misc]
+        self._fill(function, [rational(time, "The time") for time in times.flat], size, out.reshape(times.size, *shape))
         return out
+
+    def _fill(self, function: Callable[[Any], Any], times: list[fmpq], size: float, rows: FloatArray) -> None:
+        """Fill rows (n, ...) with the values of a function at n times, those near one another together."""
+        ascending = sorted(range(len(times)), key=times.__getitem__)
+        for first in range(0, len(times), STATE_CACHE_SIZE):
+            block = ascending[first : first + STATE_CACHE_SIZE]
+            if len(block) > 1:
+                with workprec(FIRST_BITS):
+                    self.exact.follow([times[i] for i in block])
+            for i in block:
+                rows[i] = rounded(lambda t=times[i]: function(t), size).reshape(rows[i].shape)  # type: ignore[misc]
 
 
 def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
