@@ -1,6 +1,6 @@
 """Recorded results as a report shows them, plain data: the trial of the ledger's entries, and tables by name.
 
-The floor above reads the records; this one sets them out and never runs what they record.
+The floor above reads the records; this one sets them out and never runs a benchmark or a proof.
 """
 
 from collections.abc import Mapping
@@ -14,12 +14,12 @@ class Finding:
     """Finding of the trial on one entry of the ledger, in the plain letters of its record.
 
     verdict         proved, refuted, undecided, definition, or supported, then with the count in `method`
-    method          how it was decided, and `follows`: from what the printed form was derived
+    method          how it was decided, and `follows`: source from which the printed form was derived
     corrected       TeX of the true form where the printed one is refuted, and the verdict on it
-    counterexample  values of the letters that break the printed form, and what its two sides then are
-    note            what the verdict means, where it needs a word
+    counterexample  values of the letters that break the printed form, and the values of its two sides there
+    note            meaning of the verdict, where it needs a word
     modules         the modules that cite the entry, such as ``motions/elementary/kernel_hyperbola.py``
-    grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
+    grade, slip     kind of slip, if it needs an erratum, and the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
     script          plain SymPy that shows it, or the line that says why there is none
     said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed

@@ -61,6 +61,6 @@ def _citation(key: str, mode: str) -> dict[str, Any]:
 
 
 def _words(nodes: list[Any]) -> str:
-    """Return the words of inlines; what is nested in them comes last in each."""
+    """Return the words of inlines; nested inlines come last in each."""
     inner = (node.get("c", " ") for node in nodes)
     return "".join(words if isinstance(words, str) else _words(words[-1]) for words in inner)

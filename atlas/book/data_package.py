@@ -116,7 +116,7 @@ def _table(table: TableView, texts: Sequence[str]) -> Resource:
 
 
 def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence[str]) -> dict[str, Any]:
-    """Return what is said of a column: a number only if all of its cells are, its unit, and its most digits."""
+    """Return the description of a column: a number only if all of its cells are, its unit, and its most digits."""
     numbers = [cell for cell in cells if cell.text is None and cell.whole]
     numeric = bool(numbers) and all(cell.text is None for cell in cells)
     field: dict[str, Any] = {

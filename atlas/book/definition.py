@@ -70,7 +70,7 @@ class Report(StrictStruct, frozen=True):
     """The whole file.
 
     ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
-    this one: the contents lead to them, and so do citations of what they have and this one has not.
+    this one: the contents lead to them, and so do citations of names that only they have.
     ``gallery`` names recipes, ``*`` for all, which the pages show in pictures on ``gallery.html``.
     ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is a
     style sheet of Matplotlib for the figures, a name or a file beside this one. Without

@@ -21,7 +21,7 @@ class Number:
         return cls(plain(value))
 
     def parts(self) -> tuple[str, str, str]:
-        """Return what stands before the point, the point and what follows, and the power of ten.
+        """Return the whole part, the point with the fraction, and the power of ten.
 
         The digits after the point are grouped in threes where there are more than four; a question mark stands where
         no digit is proven.

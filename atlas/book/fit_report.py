@@ -1,4 +1,4 @@
-"""The report of a fit: parameters with errors, what data do not see, residuals, the motion, and how to repeat it."""
+"""The report of a fit: parameters with errors, those that the data do not determine, residuals, the motion, and how to repeat it."""
 
 import re
 import shlex
@@ -43,11 +43,11 @@ ENDS = {float("inf"): "any time", -float("inf"): "nowhere"}
 class Fitted:
     """A page of a fit.
 
-    fit       an `atlas.fit`, of the data in `file`, a path from the folder of the page; `digest` of what it holds
-    options   the options of the command that makes the page, each with what was typed, by name
+    fit       an `atlas.fit`, of the data in `file`, a path from the folder of the page; `digest` that of its content
+    options   the options of the command that makes the page, each with the typed words, by name
     given     arguments of `fit_file` by which it is made, from values that were found before
-    motion    what a page of the fitted motion is asked for
-    ahead     lines on what was asked of the time to come
+    motion    request of a page of the fitted motion
+    ahead     lines on the predictions that were asked for
     """
 
     fit: Any

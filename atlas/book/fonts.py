@@ -96,7 +96,7 @@ Recall: TypeAlias = Callable[[Sequence[str], Callable[[], bytes]], bytes]
 def all_subsets(pages: Iterable[str], recall: Recall) -> dict[str, bytes]:
     """Cut every face for the letters of some pages; the keys are file names.
 
-    `recall` may return what was made from the same parts before: the face, its package and the characters.
+    `recall` may return a font made from the same parts before: the face, its package and the characters.
     """
     text, formulas = characters(pages)
     subsets = {}

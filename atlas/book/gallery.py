@@ -51,7 +51,7 @@ class GalleryView:
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
-        """Return the pictures, which say what scripts the page needs."""
+        """Return the pictures, from which the page takes the scripts that it needs."""
         return tuple(plate.picture for plate in self.plates)
 
 

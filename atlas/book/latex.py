@@ -1,6 +1,6 @@
 r"""A report as LaTeX to be taken into a manuscript: numbers by key, tables, figures, references, and all as one paper.
 
-Numbers go through siunitx, which rounds them; what is asked for beyond the proven digits is an error of LaTeX. Tables
+Numbers go through siunitx, which rounds them; a request beyond the proven digits is an error of LaTeX. Tables
 are booktabs' with columns of siunitx made for their numbers. A report in REVTeX stands beside them as `paper.tex`.
 """
 
@@ -147,8 +147,8 @@ def _references(document: Document) -> str:
 def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
     """Yield the sections; blocks that have no place in a paper are named in a comment.
 
-    Displays that follow one another are set together. They belong to the paragraph before them, and so does what goes
-    on after them with a small letter. Of figures and tables that follow one another those that are `wide`, over both
+    Displays that follow one another are set together. They belong to the paragraph before them, and so does text
+    after them that goes on with a small letter. Of figures and tables that follow one another those that are `wide`, over both
     columns, come last, so that the others fill the columns before them.
     """
     for page in document.pages:

@@ -29,7 +29,7 @@ MAX_NAME_LENGTH = 48
 class Asked:
     """Request of a page.
 
-    options   the options that say which object it is, each with what was typed, by name
+    options   the options that say which object it is, each with the typed words, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
     units     the system of units, si or gaussian, of a family whose parameters have different units
     values    the other parameters of the family
@@ -169,7 +169,7 @@ def _deviations(request: Asked) -> Iterator[dict[str, Any]]:
 
 
 def _holds(family: Family, kind: Family) -> bool:
-    """Whether an object of a family has one of another: what that is given is among what it is given."""
+    """Whether the inputs of one family are among those of another."""
     names = {p.name for p in family.parameters}
     return {"ratio", "field"} <= {p.name for p in kind.parameters} <= names
 
@@ -192,7 +192,7 @@ def _table(request: Asked, table: str, family: str, values: Mapping[str, Any]) -
 
 
 def _too_slow(motion: Any, time: str) -> Iterator[str]:
-    """Yield what is too slow to be seen in a figure of some periods of nutation, or too small to be seen in others."""
+    """Yield sentences on rotations too slow or too small to be seen in a figure of some periods of nutation."""
     from atlas.pictures.any_motion import slow_turn
     from atlas.pictures.captions import lasting
 

@@ -1,6 +1,6 @@
 """pandoc: Markdown with TeX to its tree, and trees to HTML with MathML, Typst or LaTeX; one run for many texts.
 
-What can be written is a choice of Markdown in which nothing is passed through: HTML, TeX outside formulas, attributes
+Texts are a subset of Markdown in which nothing is passed through: HTML, TeX outside formulas, attributes
 and metadata are text like any other. A formula that pandoc can't read is left as TeX with a warning: here that is an
 error which names the formula.
 """
@@ -169,7 +169,7 @@ _FACTORS = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 
 
 def mend_all(html: str) -> str:
-    """Mend every formula of a piece of HTML; what touches it stands on its line: a comma, a bracket, a unit."""
+    """Mend every formula of a piece of HTML; signs that touch it stand on its line: a comma, a bracket, a unit."""
 
     def together(match: re.Match[str]) -> str:
         before, formula, sign = match[1], mend(match[2]), match[3]
@@ -184,7 +184,7 @@ def mend(math: str) -> str:
     r"""Mend one formula.
 
     The TeX repeated inside it goes. ``\mathbf`` is upright, as in print. Accents don't stretch. A prime, which the math
-    font draws raised, isn't raised again, and stands above an index. What ``\boxed`` marks gets its class. Function
+    font draws raised, isn't raised again, and stands above an index. A formula marked by ``\boxed`` gets its class. Function
     names get the thin spaces that TeX gives them.
     """
     root = ET.fromstring(math.replace(_NAMESPACE, ""))  # noqa: S314  pandoc's output, not a stranger's

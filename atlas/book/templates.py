@@ -1,4 +1,4 @@
-"""The templates of pages and of what is typeset, opened where nothing of a report is loaded."""
+"""The templates of pages and of print, in a module that loads nothing else of a report."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal

@@ -41,9 +41,9 @@ _FORMULA = re.compile(r"((?<!\\)\$(?=\S)[^$]+(?<=\S)\$(?!\d))")
 
 
 class Link(NamedTuple):
-    """What a citation says, the page (none in the PDF) and anchor that it leads to, if any, and what stands there.
+    """Words of a citation, the page (none in the PDF) and anchor that it leads to, if any, and a summary of the target.
 
-    `bracketed` is what it says in brackets if it cites a work, else empty.
+    `bracketed` are the words in brackets if it cites a work, else empty.
     """
 
     words: str
@@ -70,7 +70,7 @@ class Text:
 class Texts:
     """The texts of one report, set together.
 
-    `memory` holds what was made of a source before, by that source; `used` is what of it was asked for.
+    `memory` holds the results of sources set before, by source; `used` those that were asked for.
     """
 
     texts: list[Text] = field(default_factory=list)
@@ -177,7 +177,7 @@ def _braced(markdown: str) -> str:
 
 
 class _Checked:
-    """The tree of a text made safe, its citations resolved: only what is written as text and formula reaches a page."""
+    """The tree of a text made safe, its citations resolved: only text and formulas reach a page."""
 
     def __init__(self, text: Text, target: Target, cite: Callable[[str, str], Link]) -> None:
         self.text, self.target, self.cite = text, target, cite
@@ -301,7 +301,7 @@ def _said(node: Any) -> str:
 
 
 def _words(text: str) -> Tree:
-    """Return words as nodes, a number tied to its word and a formula set; what stands between two carets is raised."""
+    """Return words as nodes, a number tied to its word and a formula set; words between two carets are raised."""
     text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
     nodes: Tree = []
     for k, piece in enumerate(_FORMULA.split(text)):
@@ -321,7 +321,7 @@ def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:
 
 
 def _tex(tex: str, target: Target) -> str:
-    r"""Avoid what pandoc gets wrong: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
+    r"""Avoid mistakes of pandoc: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
     tex = re.sub(r"\\mathrm\{([A-Za-z]{2,})\}", r"\\text{\1}", tex)
     return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
 
@@ -332,7 +332,7 @@ def _mark(text: Text) -> str:
 
 
 def _finished(piece: str, target: Target, text: Text) -> str:
-    """Mend what pandoc made of the formulas of a text, in Typst of those between marks, and of nothing else."""
+    """Mend the formulas of a text that pandoc wrote, in Typst those between marks, and nothing else."""
     if target != "typst":
         return mend_all(piece) if target == "html" else piece
     pieces = piece.split(_mark(text))
@@ -344,7 +344,7 @@ def _finished(piece: str, target: Target, text: Text) -> str:
 def _mended(formula: str, text: Text) -> str:
     r"""Mend a formula: ``\;`` and ``\!`` get their widths, which pandoc rounds to whole ems, bars are delimiters again.
 
-    What ``\boxed`` marks gets its colour.
+    A formula marked by ``\boxed`` gets its colour.
     """
     if _CHAIN.search(formula):
         raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")

@@ -21,7 +21,7 @@ class Use:
 
 
 class Composer:
-    """Goes through the blocks of a report, and collects in its `document` what they have.
+    """Goes through the blocks of a report, and collects their texts, numbers and names in its `document`.
 
     slug, title      the page
     where            the place that an error names
@@ -72,7 +72,7 @@ class Composer:
         return sentence if new else ""
 
     def anchors(self, names: Iterable[str]) -> list[str]:
-        """Return where names lead in the PDF, but for what stands beside this report. Raises for an unknown one."""
+        """Return the anchors of names in the PDF, without those of other reports. Raises for an unknown name."""
         find, targets = self.document.cite("typst"), self.document.targets
         anchors = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
         return [anchor for anchor in anchors if anchor]

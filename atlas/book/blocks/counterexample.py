@@ -34,7 +34,7 @@ _CALLS = {
 
 
 def written(values_by_name: Mapping[str, str], section: str) -> str:
-    """Return a counterexample in Markdown with TeX: values of the letters, and what they break or why nothing is said.
+    """Return a counterexample in Markdown with TeX: values of the letters, and the broken equation or a reason.
 
     `section` is that of the paper, on which the meaning of a letter depends.
     """
@@ -76,7 +76,7 @@ class _Letters:
         return self.tex(ast.parse(python, mode="eval").body)
 
     def letter(self, name: str, *, bold: bool, accent: str = "") -> str:
-        """Return a letter: a hat, what it is called, its dots, and what stands below it."""
+        """Return a letter: a hat, the name, its dots, and the index below it."""
         if name in _LETTERS:
             letter, below = _LETTERS[name], ""
         else:

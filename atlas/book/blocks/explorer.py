@@ -25,11 +25,11 @@ Panel = Literal["plane", "space", "body", "frequencies", "portrait", "rosette"]
 class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     """A sentence in Markdown with TeX, and below it the motion that the sliders choose.
 
-    ``panels`` are what is seen: the ``plane`` of omega2 and omega3 with the hyperbola, the ``space`` with the quadric,
+    ``panels`` are the pictures: the ``plane`` of omega2 and omega3 with the hyperbola, the ``space`` with the quadric,
     the ``body``; the ``frequencies`` over omega2, the phase ``portrait``, the ``rosette`` of a point, 40 degrees
     from the axis, as seen along the field.
-    ``sliders`` are among I, angle, omega1, omega2, omega3, p and q; what has none keeps the register's start, and
-    omega3 is that of the hyperbola. ``start`` sets some of them, ``at`` the field (B2, B3).
+    ``sliders`` are among I, angle, omega1, omega2, omega3, p and q; a parameter without a slider keeps the
+    register's start, and omega3 is that of the hyperbola. ``start`` sets some of them, ``at`` the field (B2, B3).
     """
 
     text: str

@@ -34,14 +34,14 @@ class Picture:
     """A picture that is drawn once for all the blocks that show it: its recipe, and its files or failure.
 
     stem        its name among the files of the report
-    recipe, renderer, parameters    what to draw: a name in figures/ or a file; `title` is that of the recipe
-    caption, alt, size    what the scene says of itself, and its size in millimetres
+    recipe, renderer, parameters    the drawing: a name in figures/ or a file; `title` is that of the recipe
+    caption, alt, size    caption and alternative text of the scene, and its size in millimetres
     given       all parameters of the scene as text
     file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
     tables      the commands that make tables of the numbers that it shows
-    beside      the places of what else the page shows it with, where it has that: the same for a `narrow` screen, the
+    beside      places of further files for the page, where there are any: the same for a `narrow` screen, the
                 script with which the page turns the `scene`, the one that tells how it `moves`
-    failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
+    failure     why there is none, or nothing; `remark` a sentence for the reader on how it was drawn
     """
 
     stem: str

@@ -17,7 +17,7 @@ GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint
 
 @dataclass(frozen=True)
 class EntryView:
-    """An entry of the ledger, what the trial found on it, and the numbers of its texts, None of what it does not have.
+    """An entry of the ledger, the finding of the trial, and the numbers of its texts, None for a text that it lacks.
 
     `uses` fills while the report is gone through.
     """

@@ -15,7 +15,7 @@ CELL = "```{code-cell} ipython3"
 class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
     """Paragraphs in Markdown with TeX; ``@(67)`` cites an equation, ``@fig:ID`` a figure, ``@tab:ID`` a table.
 
-    ``@cell:ID-3-6`` is the number in row 3 and column 6 of a table, so that what a sentence says is what was computed.
+    ``@cell:ID-3-6`` is the number in row 3 and column 6 of a table, so that a sentence holds the computed number.
     """
 
     text: str

@@ -86,7 +86,7 @@ class ColumnView:
 class TableView:
     """A table, of numbers or of words; `name` is that of a computed one, whose rows are single lines.
 
-    `command` is what makes recorded results.
+    `command` makes recorded results.
     """
 
     number: int

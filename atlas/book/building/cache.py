@@ -1,10 +1,10 @@
-"""A folder of what was built, each thing in a file named after the digest of everything it depends on.
+"""A folder of built files, each in a file named after the digest of everything it depends on.
 
-An entry begins with the digest of its key and of what follows. It is written whole or not at all, and checked when it
+An entry begins with the digest of its key and content. It is written whole or not at all, and checked when it
 is read: one that was damaged, or that is the entry of another key, counts as missing and is made again. Two processes
 that write the same entry do no harm. The folder may be deleted at any time.
 
-It is not diskcache, which has had no release since 2023 and unpickles what it reads (CVE-2025-69872), nor
+It is not diskcache, which has had no release since 2023 and unpickles its files (CVE-2025-69872), nor
 joblib.Memory, which pickles too: nothing that is read here can run code.
 """
 

@@ -77,7 +77,7 @@ def build_data(
 
     They are CSV, and Parquet if that is wanted.
 
-    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
+    The folder is replaced at once, with files that the user put there. Raises AtlasError for a mistake in the report, a
     figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
     written.
     """

@@ -35,12 +35,12 @@ class FigureBuild:
     The recipe is a name, or the place of a file.
 
     The kinds are svg, pdf, png, pgf, csv, csv.gz, and two that may be empty: narrow, an SVG for a narrow screen, a PNG
-    of what is shaded, where the figure itself won't do; and scene, a script for the viewer of the pages, and moves, one
+    where it is shaded, if the figure itself won't do; and scene, a script for the viewer of the pages, and moves, one
     that tells how it moves.
 
     It is made for the first of its `targets` that is wide enough, see `atlas.pictures.arrange.suited`.
 
-    `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
+    `keys` are those of its files in the cache, `contents` the files, `facts` its caption, size and cost.
     """
 
     recipe: str
@@ -127,7 +127,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
 def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Progress) -> None:
     """Draw the missing files of some figures: a single one in this process, several by `jobs` workers.
 
-    What is shaded is drawn first, for it takes longest. Raises OSError when the cache can't be written.
+    Shaded figures are drawn first, since they take longest. Raises OSError when the cache can't be written.
     """
     missing = sorted((one for one in figures if one.missing()), key=lambda one: one.renderer != "shaded")
     for done, (figure, failure) in enumerate(_drawn(missing, cache, jobs), len(figures) - len(missing) + 1):
@@ -141,7 +141,7 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
     """Draw figures, and go through them as they are finished, each with the reason if it failed.
 
-    If a worker dies, what was not finished is drawn again by a single one, which is no fork, so that it is known which
+    If a worker dies, unfinished figures are drawn again by a single one, which is no fork, so that it is known which
     figure it is that kills its process; the others are drawn.
     """
     settle_matplotlib()
@@ -220,7 +220,7 @@ def build_figures(
 
     A name with the ending .py is that of a recipe's file, wherever it is.
     `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
-    drawn at once, one a core when it is not given. What the cache has is not drawn again. The format csv is
+    drawn at once, one a core when it is not given. Figures in the cache are not drawn again. The format csv is
     the data of the figure, see `atlas.pictures.data`. A figure that fails does not stop the others. Raises AtlasError
     for a shaded figure that is neither PNG nor CSV.
     """

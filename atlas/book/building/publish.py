@@ -20,7 +20,7 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, know
 
     Those below `name`/ take theirs at once: they are a folder that is exchanged with the one before, if the system can
     do that and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one
-    before; what else it leaves is removed by the next one. Two builds at once take turns.
+    before; other files that it leaves are removed by the next one. Two builds at once take turns.
 
     Only files that are still as they were written are replaced or removed; `known` are lines of such a list, by names
     in `out`, for a folder without one. Raises AtlasError, with all written, where a file was edited: the new one is

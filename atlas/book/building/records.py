@@ -222,7 +222,7 @@ def _three(value: float | None) -> str | Number:
 
 
 def _words(text: str) -> str:
-    """Write out what is plain in a terminal."""
+    """Write out abbreviations of the terminal."""
     text = re.sub(r"\(us\b", "(µs", text)
     return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)
 

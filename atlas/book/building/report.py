@@ -37,7 +37,7 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(frozen=True)
 class Built:
-    """What a build made or found, which figures failed and why, lines to tell the user, and why each part was made."""
+    """Result of a build: places, counts, failed figures with reasons, lines for the user, reason of each part."""
 
     name: str
     index: Path
@@ -71,8 +71,8 @@ def build_report(
 ) -> Built:
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
-    `progress` is called with the steps done, their number, and what comes next; `formats` may leave out the pages or
-    the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all that belongs to it; `style`
+    `progress` is called with the steps done, their number, and the name of the next; `formats` may leave out the pages or
+    the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all its files; `style`
     is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
     them, one a core when it is not given. A figure that fails leaves a framed note in its place and an entry in
     `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something
@@ -135,7 +135,7 @@ def _build(
     key: str | None,
     progress: Progress,
 ) -> Built:
-    """Build a report, and note in the cache from what and with which files.
+    """Build a report, and note its sources and files in the cache.
 
     The key of one that was never built is found out while its figures are drawn.
     """
@@ -248,7 +248,7 @@ def _figures(
     """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
 
     The pages offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen, and turn
-    those in space. What `cards` are cut from, pictures by their keys, is drawn as PNG as well.
+    those in space. Pictures from which `cards` are cut, by their keys, are drawn as PNG as well.
     """
     from atlas.book.building.figures import FigureBuild
 

@@ -218,7 +218,7 @@ def samples(request: Request, setup: Samples) -> Data:
 
 
 def sheet(request: Request, setup: Motion) -> Data:
-    """List what the tables `quadric` and `motion` have, for the motion that starts with `omega2`."""
+    """List the rows of the tables `quadric` and `motion` for the motion that starts with `omega2`."""
     columns, rows = side_by_side(
         request,
         [[*of_quadric(case, request.digits), *of_motion(case, setup, request.digits)] for case in request.cases],

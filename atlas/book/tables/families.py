@@ -1,4 +1,4 @@
-"""Tables of what a user may choose: families with their quantities, targets of figures, and roles of layers."""
+"""Tables of choices for the user: families with their quantities, targets of figures, and roles of layers."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -51,7 +51,7 @@ def _promise(family: Family, checked: str) -> str:
 
 
 def targets() -> Data:
-    """List the targets of figures with width and height, type, lines, resolution, what is asked, and the source."""
+    """List the targets of figures with width and height, type, lines, resolution, the publisher's rules, and the source."""
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),

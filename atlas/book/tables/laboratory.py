@@ -1,4 +1,4 @@
-"""A levitated ball with an electric dipole, its lines and what they tell; bodies that would show the paper's term."""
+"""A levitated ball with an electric dipole, its lines and the parameters that they determine; bodies that would show the paper's term."""
 
 import json
 from math import asin, atanh, pi, sqrt
@@ -54,7 +54,7 @@ class Dipole(StrictStruct, frozen=True):
 
 
 def levitated(setup: Dipole) -> Data:
-    """Return nutation and precession of a ball with a dipole, beside what is expected of small and of fast turns."""
+    """Return nutation and precession of a ball with a dipole, beside the values expected for small and for fast rotations."""
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
         motion = setup.motion(spin)
@@ -136,7 +136,7 @@ class Watch(Dipole, frozen=True):
 
 
 def inferred(setup: Watch) -> Data:
-    """Return how well the axis alone tells what the ball and its field are, by the derivatives of the motion."""
+    """Return standard deviations of the parameters from the axis alone, by the derivatives of the motion."""
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []
     for spin in setup.spins:
@@ -188,10 +188,10 @@ class Design(StrictStruct, frozen=True):
 
 
 def beyond_larmor(setup: Design) -> Data:
-    """Return the precession beyond Larmor's turn by the charge, by magnetisation and by both, and what would spoil it.
+    """Return the precession beyond Larmor's turn by the charge, by magnetisation and by both, and the disturbances that would hide it.
 
-    All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: what the charge
-    changes is the rate by both less that by magnetisation alone.
+    All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: the effect of
+    the charge is the rate by both less that by magnetisation alone.
     """
     moment_along = demagnetization(setup.aspect)
     rows: list[tuple[str | Number, ...]] = []

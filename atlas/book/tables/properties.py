@@ -29,7 +29,7 @@ Row = tuple[str, str, str | Number, str, str, str]
 class Thing:
     """An object of a family: the parameters as given, and how to make it of kernels and of balls.
 
-    `units` are those of the register by another name, and `described` tells whether what is given stands in a table.
+    `units` are those of the register by another name, and `described` is true if the inputs stand in a table.
     """
 
     family: Family
@@ -115,7 +115,7 @@ def _units(name: Any) -> dict[str, str]:
 def properties(request: Request, item: Thing) -> Data:
     """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
 
-    With ``given = false`` what is given is left out. Why a quantity has no value stands below the table.
+    With ``given = false`` the inputs are left out. Why a quantity has no value stands below the table.
     """
     rows = [*_rows_given(item)] if item.described else []
     rows += [row for q in item.family.quantities for row in rows_of(item, q, request.digits)]
@@ -261,7 +261,7 @@ def body_and_field(request: Request) -> Data:
 
 
 def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
-    """Go through what the user gave."""
+    """Yield words, symbol, value and unit of each input."""
     for key, (words, symbol, unit) in DIMENSIONS.items():
         value = getattr(case.body_record, key)
         if value is not None:
@@ -276,7 +276,7 @@ def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
 
 
 def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
-    """Go through what the formulas take of it."""
+    """Yield words, symbol, value and unit of each derived quantity."""
     from atlas.bodies.certified_body import ratio_of
 
     exact = case.exact
