@@ -82,8 +82,8 @@ class Document:
     ledger; `errata` the page of the errata; `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas`, the
     equations that are cited here and stand in no page of this report, are numbers of texts. `gallery` is the page of
     pictures, which only the HTML has. `related` holds the reports
-    beside this one, in outline; a citation of a name that is not here leads there. `bibliography` holds the works that can be
-    cited, `listed_on` is the page of their list.
+    beside this one, in outline; a citation of a name that is not here leads there. `bibliography` holds
+    the works that can be cited, `listed_on` is the page of their list.
     """
 
     report: Report

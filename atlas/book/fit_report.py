@@ -1,4 +1,4 @@
-"""The report of a fit: parameters with errors, those that the data do not determine, residuals, the motion, and how to repeat it."""
+"""The report of a fit: parameters with errors, undetermined ones, residuals, the motion, and how to repeat it."""
 
 import re
 import shlex

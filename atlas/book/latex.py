@@ -148,8 +148,8 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
     """Yield the sections; blocks that have no place in a paper are named in a comment.
 
     Displays that follow one another are set together. They belong to the paragraph before them, and so does text
-    after them that goes on with a small letter. Of figures and tables that follow one another those that are `wide`, over both
-    columns, come last, so that the others fill the columns before them.
+    after them that goes on with a small letter. Of figures and tables that follow one another those
+    that are `wide`, over both columns, come last, so that the others fill the columns before them.
     """
     for page in document.pages:
         text = rf"\section{{{_heading(texts[page.heading], page.title)}}}" + "\n"

@@ -184,7 +184,8 @@ def mend(math: str) -> str:
     r"""Mend one formula.
 
     The TeX repeated inside it goes. ``\mathbf`` is upright, as in print. Accents don't stretch. A prime, which the math
-    font draws raised, isn't raised again, and stands above an index. A formula marked by ``\boxed`` gets its class. Function
+    font draws raised, isn't raised again, and stands above an index. A formula marked by ``\boxed`` gets its class.
+    Function
     names get the thin spaces that TeX gives them.
     """
     root = ET.fromstring(math.replace(_NAMESPACE, ""))  # noqa: S314  pandoc's output, not a stranger's

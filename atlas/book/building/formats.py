@@ -104,7 +104,8 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
     """Put the files of a report of one page into one page. Raises AtlasError for a report of several.
 
     `files` has the page, index.html, and the files that belong to it, by their places; `name` is that of the
-    report, whose PDF may lie beside the page. Figures can be saved from it; its policy lets it run the scripts in it, by their digests.
+    report, whose PDF may lie beside the page. Figures can be saved from it; its policy lets it run its own
+    scripts, by their digests.
     """
     pages = [file for file in files if file.endswith(".html")]
     if pages != [INDEX]:

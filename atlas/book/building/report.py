@@ -71,7 +71,7 @@ def build_report(
 ) -> Built:
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
-    `progress` is called with the steps done, their number, and the name of the next; `formats` may leave out the pages or
+    `progress` is called with steps done, their number, name of the next step; `formats` may leave out the pages or
     the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all its files; `style`
     is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
     them, one a core when it is not given. A figure that fails leaves a framed note in its place and an entry in

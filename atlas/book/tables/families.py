@@ -51,7 +51,7 @@ def _promise(family: Family, checked: str) -> str:
 
 
 def targets() -> Data:
-    """List the targets of figures with width and height, type, lines, resolution, the publisher's rules, and the source."""
+    """List the targets of figures with width, height, type, lines, resolution, the publisher's rules and source."""
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),

@@ -1,4 +1,4 @@
-"""A levitated ball with an electric dipole, its lines and the parameters that they determine; bodies that would show the paper's term."""
+"""A levitated ball with an electric dipole, its lines and their parameters; bodies that show the paper's term."""
 
 import json
 from math import asin, atanh, pi, sqrt
@@ -54,7 +54,7 @@ class Dipole(StrictStruct, frozen=True):
 
 
 def levitated(setup: Dipole) -> Data:
-    """Return nutation and precession of a ball with a dipole, beside the values expected for small and for fast rotations."""
+    """Return nutation and precession of a ball with a dipole, beside the limits of small and of fast rotations."""
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
         motion = setup.motion(spin)
@@ -188,7 +188,7 @@ class Design(StrictStruct, frozen=True):
 
 
 def beyond_larmor(setup: Design) -> Data:
-    """Return the precession beyond Larmor's turn by the charge, by magnetisation and by both, and the disturbances that would hide it.
+    """Return the precession beyond Larmor's turn by charge, magnetisation and both, and disturbances that hide it.
 
     All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: the effect of
     the charge is the rate by both less that by magnetisation alone.
