@@ -183,9 +183,9 @@ def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fr
     return exact
 
 
-def parameters(known: BodiesAndFields) -> list[str]:
+def parameters(known_records: BodiesAndFields) -> list[str]:
     """Return each body and field in a line of Markdown."""
-    records: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
+    records: list[Body | Field] = [*known_records.bodies.values(), *known_records.fields.values()]
     return [f"{record.title}: {_written_out(record)}" for record in records]
 
 

@@ -61,7 +61,7 @@ def compose(
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
         composer.begin(page.slug, title_words(page.title))
-        composer.where = f"{report.place(page)}, its title"
+        composer.place = f"{report.place(page)}, its title"
         heading = composer.text(title(page.title), inline=True)
         blocks = tuple(_views(composer, page, outline=outline))
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
@@ -95,16 +95,16 @@ def _pages_of(report: Report) -> dict[str, str]:
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
     """Yield the views of the blocks of a page; an error says which of them it is about."""
     for place, block in enumerate(page.blocks):
-        composer.where, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
+        composer.place, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
         try:
             yield (kind.outline if outline and kind.outline else kind.view)(block, composer)
         except AtlasError as error:
-            raise AtlasError(f"{composer.where}: {error}") from error
+            raise AtlasError(f"{composer.place}: {error}") from error
 
 
 def _cite_formulas(composer: Composer) -> None:
     """Take in the formulas of the equations that are cited and stand on no page of this report."""
-    document, composer.where = composer.document, "the equations cited"
+    document, composer.place = composer.document, "the equations cited"
     for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
         if name in EQUATIONS and name not in document.targets and name not in document.ledger:
             document.formulas[name] = composer.text(f"$${EQUATIONS[name].tex.strip()}$$")
@@ -112,11 +112,11 @@ def _cite_formulas(composer: Composer) -> None:
 
 def _explain_symbols(composer: Composer) -> None:
     """Take in the symbols of the index. AtlasError for one that is explained nowhere in this report."""
-    document, composer.where = composer.document, "the index"
+    document, composer.place = composer.document, "the index"
     for symbol in document.report.index.symbols:
         anchors = composer.anchors(symbol.at)
         if not anchors:
             raise AtlasError(
-                f"{composer.where}: {symbol.tex} is explained nowhere in this report, only in one beside it."
+                f"{composer.place}: {symbol.tex} is explained nowhere in this report, only in one beside it."
             )
         document.symbols.append((composer.text(f"${symbol.tex}$", inline=True), anchors))

@@ -129,25 +129,25 @@ def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence
     return field
 
 
-def _figures(document: Document, texts: Sequence[str], drawn: Mapping[str, str]) -> Iterator[Resource]:
+def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str]) -> Iterator[Resource]:
     """Yield the points that the figures of a report draw; see `atlas.pictures.data`."""
     views: list[FigureView] = document.listed("figure")
     for figure in views:
-        if figure.id not in drawn:
+        if figure.id not in files:
             continue
-        lines = drawn[figure.id].splitlines()
+        lines = files[figure.id].splitlines()
         said = [line.removeprefix("# ") for line in lines if line.startswith("# ")]
         heading, *rows = csv.reader(line for line in lines if not line.startswith("#"))
         numbers = {"panel": "integer", "layer": "integer"} | dict.fromkeys(("x", "y", "z", "value"), "number")
         fields = [{"name": name, "type": numbers.get(name, "string")} for name in heading]
-        caption, first = texts[figure.caption], figure.pictures[0]
+        caption, picture = texts[figure.caption], figure.pictures[0]
         facts = {
             "title": f"Figure {figure.number}",
             "description": words(caption),
             "equations": [name for name in EQUATIONS if name in citations(caption)],
             "axes": [line for line in said if line.startswith("panel ")],
-            "parameters": dict(first.given),
-            "command": first.command,
+            "parameters": dict(picture.given),
+            "command": picture.command,
         }
         yield Resource(f"figures/{figure.id.removeprefix('fig-')}", facts, fields, rows)
 

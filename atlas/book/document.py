@@ -117,22 +117,22 @@ class Document:
     def cite(self, target: Target) -> Callable[[str, str], Link]:
         """Return the function from the name and place of a citation to its text and target."""
 
-        def link(name: str, where: str) -> Link:
+        def link(name: str, place: str) -> Link:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
             if here := self.place(name):
                 file, anchor, words = here
                 return Link(words, file if target == "html" else "", anchor, says)
-            beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
-            if beside:
-                return beside._replace(says=says) if target == "html" else Link(beside.words)
+            link_beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
+            if link_beside:
+                return link_beside._replace(says=says) if target == "html" else Link(link_beside.words)
             if name in EQUATIONS:
                 return Link(self.number(name))
             if name in self.bibliography.named:
                 if not self.listed_on:
-                    raise AtlasError(f"{where}: @{name} is cited, but no block of the kind 'bibliography' lists it.")
+                    raise AtlasError(f"{place}: @{name} is cited, but no block of the kind 'bibliography' lists it.")
                 page = f"{self.listed_on}.html" if target == "html" else ""
                 return Link(self.bibliography.named[name], page, f"work-{name}", "", self.bibliography.bracketed[name])
-            raise AtlasError(f"{where}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
+            raise AtlasError(f"{place}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
 
         return link
 

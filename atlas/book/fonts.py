@@ -64,7 +64,7 @@ def characters(pages: Iterable[str]) -> tuple[str, str]:
     return "".join(sorted(text - {"\n"})), "".join(sorted(formulas - {"\n"}))
 
 
-def subset(face: Face, wanted: str) -> bytes:
+def subset(face: Face, letters: str) -> bytes:
     """Cut a face down to some characters, as WOFF; the same characters give the same bytes.
 
     WOFF2 would be a quarter smaller, a hundredth of a page with figures, and takes three times as long.
@@ -84,7 +84,7 @@ def subset(face: Face, wanted: str) -> bytes:
     out = BytesIO()
     with load_font(str(source(face)), options) as font:
         subsetter = Subsetter(options)
-        subsetter.populate(text=wanted)
+        subsetter.populate(text=letters)
         subsetter.subset(font)
         save_font(font, out, options)
     return out.getvalue()

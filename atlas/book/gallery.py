@@ -57,12 +57,12 @@ class GalleryView:
 
 def page(composer: "Composer") -> PageView:
     """Return the page of a report's gallery; a recipe that failed is left out."""
-    composer.where, document = "the gallery", composer.document
+    composer.place, document = "the gallery", composer.document
     places: dict[int, str] = {}
-    for there in document.pages:
-        for block in there.blocks:
+    for view_of_page in document.pages:
+        for block in view_of_page.blocks:
             for picture in block.pictures if isinstance(block, FigureView) else ():
-                places.setdefault(id(picture), f"{there.file}#{block.id}")
+                places.setdefault(id(picture), f"{view_of_page.file}#{block.id}")
     rows: dict[str, list[Plate]] = {row: [] for row in (*recipes.ROWS, "")}
     for name in document.report.gallery:
         picture = min(

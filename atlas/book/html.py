@@ -60,14 +60,14 @@ def pages(document: Document) -> dict[str, str]:
         "cover": _cover(document),
         "cards": cards(document),
     }
-    there = document.pages
+    views = document.pages
     set_pages = {
         page.file: anchored(template.render(page=page, before=before, after=after, **common))
-        for before, page, after in zip([None, *there], there, [*there[1:], None], strict=False)
+        for before, page, after in zip([None, *views], views, [*views[1:], None], strict=False)
     }
     if document.gallery:
-        shown = template.render(page=document.gallery, before=None, after=None, **common)
-        set_pages[document.gallery.file] = anchored(shown)
+        gallery = template.render(page=document.gallery, before=None, after=None, **common)
+        set_pages[document.gallery.file] = anchored(gallery)
     if len(set_pages) == 1:
         set_pages = {name: _with_sections(page) for name, page in set_pages.items()}
     style = environment.get_template("style.css").render(faces=FACES, looks=STYLES)
@@ -113,10 +113,12 @@ def _figures(document: Document) -> list[Card]:
 def cards(document: Document) -> list[Card]:
     """Return the cards of the pages: of the figures `pictures.on_cards`, those that are drawn."""
     figures, cards = _figures(document), []
-    cuts = {one.slug: one.thumbnail for one in document.report.pages}
+    cuts = {card.slug: card.thumbnail for card in document.report.pages}
     for page in document.pages:
         cut = cuts.get(page.slug, Thumbnail())
-        fits = (one for one in figures if (one.figure.id == f"fig-{cut.figure}" if cut.figure else one.page is page))
+        fits = (
+            card for card in figures if (card.figure.id == f"fig-{cut.figure}" if cut.figure else card.page is page)
+        )
         chosen = next(fits, None)
         if chosen and not chosen.figure.failure:
             cards.append(Card(page, chosen.figure, cut))

@@ -159,8 +159,8 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
             floats = groupby(parts, lambda piece: piece.startswith(r"\input{"))
             parts = [
                 piece
-                for floating, some in floats
-                for piece in (sorted(some, key=lambda piece: f"{piece[7:-1]}.tex" in wide) if floating else some)
+                for floating, group in floats
+                for piece in (sorted(group, key=lambda piece: f"{piece[7:-1]}.tex" in wide) if floating else group)
             ]
             if equations:
                 text += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
@@ -273,13 +273,13 @@ def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
     numbers = [value(cell, markdown) for cell in cells if cell.text is None and cell.whole not in {"", "?"}]
     if not numbers:
         return "l"
-    parts = [re.fullmatch(r"(-?)(\d*)(?:\.(\d*))?(?:e(-?)(\d+))?", number) for number in numbers]
-    groups = [field.groups(default="") for field in parts if field]
+    matches = [re.fullmatch(r"(-?)(\d*)(?:\.(\d*))?(?:e(-?)(\d+))?", number) for number in numbers]
+    groups = [field.groups(default="") for field in matches if field]
     sign = "-" if any(field[0] for field in groups) else ""
-    whole, fraction = (max(len(field[place]) for field in groups) for place in (1, 2))
+    digits_before, fraction = (max(len(field[place]) for field in groups) for place in (1, 2))
     power = max(len(field[4]) for field in groups)
     exponent = f"e{'-' if any(field[3] for field in groups) else ''}{power}" if power else ""
-    return f"S[table-format={sign}{whole or 1}.{fraction}{exponent}]"
+    return f"S[table-format={sign}{digits_before or 1}.{fraction}{exponent}]"
 
 
 def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:

@@ -100,16 +100,16 @@ def _filled(report: Report, folder: Path) -> Report:
 def _called(block: Block, report: Report, path: tuple[int, int]) -> None:
     """Raise for a body, a field or a set of parameters that a block names and that is not there."""
     records = report.parameters
-    for kind, there, key, words in (
+    for kind, names_there, key, words in (
         ("body", records.bodies, "body", (getattr(block, "body", None),)),
         ("body", records.bodies, "bodies", getattr(block, "bodies", ())),
         ("field", records.fields, "field", (getattr(block, "field", None),)),
         ("set", records.sets, "sets", getattr(block, "sets", ())),
     ):
         for name in filter(None, words):
-            if name not in there:
+            if name not in names_there:
                 place = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
-                raise SchemaError(place, str(unknown(kind, name, there, "in [parameters]")), key, path)
+                raise SchemaError(place, str(unknown(kind, name, names_there, "in [parameters]")), key, path)
 
 
 def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> None:

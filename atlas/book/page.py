@@ -78,12 +78,15 @@ class Asked:
     def changed(self, family: str, **options: Any) -> "Asked":
         """Return the request of another object near it; an option that is None is left out."""
         new = {name: _texts(value) for name, value in options.items() if value is not None}
-        kept = {
+        kept_options = {
             name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
         }
         ratio = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
         return replace(
-            self, called="", family=FAMILIES[family], options=kept | new if "ratio" in kept else ratio | kept | new
+            self,
+            called="",
+            family=FAMILIES[family],
+            options=kept_options | new if "ratio" in kept_options else ratio | kept_options | new,
         )
 
 
@@ -131,13 +134,20 @@ def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
     parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in request.options.items())
     figures = list(figures_of(request, left_out))
     left_out += _too_slow(motion, request.time)
-    beside = [other for other in FAMILIES.values() if other is not family and _holds(family, other)]
+    other_families = [
+        neighbour_family
+        for neighbour_family in FAMILIES.values()
+        if neighbour_family is not family and _holds(family, neighbour_family)
+    ]
     blocks = [
         _table(request, "properties", family.name, request.values),
         *_deviations(request),
         *figures[:1],
         *([SETTING] if request.field and "B" in request.field else []),
-        *(_table(request, "properties", other.name, {"given": False}) for other in beside),
+        *(
+            _table(request, "properties", neighbour_family.name, {"given": False})
+            for neighbour_family in other_families
+        ),
         *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
         *_closed(request, left_out),
         *_neighbours(request, exists),

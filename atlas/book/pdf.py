@@ -39,12 +39,12 @@ def source(document: Document) -> str:
 class Compiler:
     """Typst, for sources whose pictures are in one folder; parts that two sources share are laid out once."""
 
-    def __init__(self, where: Path) -> None:
+    def __init__(self, folder: Path) -> None:
         import typst
 
         folders = sorted({str(path.parent) for path in map(fonts.source, fonts.FACES.values())})
-        where.mkdir(parents=True, exist_ok=True)
-        self._file = where.resolve() / "report.typ"
+        folder.mkdir(parents=True, exist_ok=True)
+        self._file = folder.resolve() / "report.typ"
         self._compiler = typst.Compiler(root=str(self._file.parent), font_paths=folders, ignore_system_fonts=True)
 
     def compile(self, typst_source: str) -> bytes:
@@ -68,8 +68,8 @@ def _reason(error: Any) -> str:
     message = str(error.message).removeprefix("error: ").strip()
     place = re.search(r"\.typ:(\d+):\d+", error.diagnostic or "")
     excerpt = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)
-    where = f" at line {place[1]} of its source" if place else ""
-    return " ".join(f"{message}{where}{f': {excerpt[1].strip()[:160]}' if excerpt else ''}".split())
+    line = f" at line {place[1]} of its source" if place else ""
+    return " ".join(f"{message}{line}{f': {excerpt[1].strip()[:160]}' if excerpt else ''}".split())
 
 
 def _string(text: str) -> str:

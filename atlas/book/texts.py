@@ -230,8 +230,8 @@ class _Checked:
             prefix, suffix = self.around(work).values()
             space = [{"t": "Space"}] if prefix else []
             nodes += [*(_words("; ") if nodes else ()), *prefix, *space, *self.cited(work, link, bracketed), *suffix]
-        first, last = "()" if works else "[]"
-        return [*_words(first), *nodes, *_words(last)] if bracketed else nodes
+        start, end = "()" if works else "[]"
+        return [*_words(start), *nodes, *_words(end)] if bracketed else nodes
 
     def are_works(self, citations: Any, links: Sequence[Link]) -> bool:
         """Return whether a citation is of works, not of equations; it can't be of both."""

@@ -24,7 +24,7 @@ class Composer:
     """Goes through the blocks of a report, and collects their texts, numbers and names in its `document`.
 
     slug, title      the page
-    where            the place that an error names
+    place            the place that an error names
     figures, tables  how many there are so far
     parameters       the bodies and fields of the report
     recorded         the recorded results that its blocks show
@@ -34,7 +34,7 @@ class Composer:
 
     def __init__(self, document: Any, recorded: Appendices) -> None:
         self.document, self.recorded = document, recorded
-        self.where = self.slug = self.title = ""
+        self.place = self.slug = self.title = ""
         self.figures = self.tables = 0
         self.uses, self.ledger, self.parameters = document.uses, document.ledger, document.report.parameters
 
@@ -46,7 +46,7 @@ class Composer:
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
         """Take in a text and return its number."""
-        return int(self.document.texts.add(markdown, self.where, inline=inline))
+        return int(self.document.texts.add(markdown, self.place, inline=inline))
 
     def paragraphs(self, markdown: str) -> int:
         """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
@@ -56,7 +56,7 @@ class Composer:
                 self.cited.add(name)
                 anchors[name] = f"cite-{self.slug}-{slug(name)}"
                 self.use(name, anchors[name], "text")
-        return int(self.document.texts.add(markdown, self.where, anchors=anchors))
+        return int(self.document.texts.add(markdown, self.place, anchors=anchors))
 
     def caption(self, markdown: str, anchor: str, words: str) -> int:
         """Add a caption; its citations count as uses by its figure or table."""
@@ -74,7 +74,7 @@ class Composer:
     def anchors(self, names: Iterable[str]) -> list[str]:
         """Return the anchors of names in the PDF, without those of other reports. Raises for an unknown name."""
         find, targets = self.document.cite("typst"), self.document.targets
-        anchors = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
+        anchors = (targets[name][1] if name in targets else find(name, self.place).anchor for name in names)
         return [anchor for anchor in anchors if anchor]
 
     def use(self, name: str, anchor: str, words: str) -> None:

@@ -61,9 +61,9 @@ class _Letters:
 
     def value(self, name: str, value: str) -> str:
         """Return the value of a letter as TeX."""
-        other = "any other " if name.startswith("any other ") else ""
+        partner = "any other " if name.startswith("any other ") else ""
         number = "1" if value == _ONE else value.replace("[", "(").replace("]", ")")
-        return f"{other}${self.formula(name.removeprefix(other))}={number}$"
+        return f"{partner}${self.formula(name.removeprefix(partner))}={number}$"
 
     def told(self, side: str) -> str:
         """Return the value of a side as TeX: a number, or the sentence on a formula."""

@@ -86,15 +86,15 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
 def _sliders(B2: float, B3: float) -> dict[str, Slider]:
     """Return all sliders by name."""
-    known = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
+    defaults = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
     (low2, high2), (low3, high3) = _PLANE
-    turned = "angle of the field with e2, in degrees"
+    bound = "angle of the field with e2, in degrees"
     sliders: list[Any] = [
-        replace(known["ratio"], name="I", symbol="I"),
-        Slider("angle", turned, *_OBLIQUE, _STEP, round(degrees(atan2(B3, B2)), 2), "∠(e₂, B)"),
-        replace(known["omega1"], symbol="ω₁", start=0.0),
-        replace(known["omega2"], symbol="ω₂", low=low2, high=high2),
-        replace(known["omega3"], symbol="ω₃", low=low3, high=high3, step=_STEP, start=0.0),
+        replace(defaults["ratio"], name="I", symbol="I"),
+        Slider("angle", bound, *_OBLIQUE, _STEP, round(degrees(atan2(B3, B2)), 2), "∠(e₂, B)"),
+        replace(defaults["omega1"], symbol="ω₁", start=0.0),
+        replace(defaults["omega2"], symbol="ω₂", low=low2, high=high2),
+        replace(defaults["omega3"], symbol="ω₃", low=low3, high=high3, step=_STEP, start=0.0),
         Slider("p", "turns of the body about its axis", -7.0, 7.0, 1.0, 1.0),
         Slider("q", "turns of the axis about the field", 1.0, 9.0, 1.0, 2.0),
     ]

@@ -58,14 +58,14 @@ class EntryView:
         return slug(self.finding.slip)
 
 
-def entries(composer: Composer, wanted: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
+def entries(composer: Composer, names: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
     """Return the entries that are wanted, in the paper's order, their texts taken in.
 
     An entry that the trial has no finding on is undecided.
     """
     nothing = Finding("undecided", "not tried", "")
     pairs = ((entry, composer.recorded.findings.get(name, nothing)) for name, entry in EQUATIONS.items())
-    return tuple(_entry(entry, finding, composer) for entry, finding in pairs if wanted(entry, finding))
+    return tuple(_entry(entry, finding, composer) for entry, finding in pairs if names(entry, finding))
 
 
 def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
@@ -100,8 +100,8 @@ def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
     place = {entry.name: number for number, entry in enumerate(entries)}
 
     def order(entry: EntryView) -> tuple[int, int, bool, int]:
-        own, found = place[entry.name], entry.finding
-        return GRADES.index(found.grade), place.get(found.slip, own), bool(found.slip), own
+        rank, grades = place[entry.name], entry.finding
+        return GRADES.index(grades.grade), place.get(grades.slip, rank), bool(grades.slip), rank
 
     return tuple(sorted(entries, key=order))
 

@@ -58,16 +58,16 @@ class ReferenceView:
 
 def view_reference(block: Reference, composer: Composer) -> ReferenceView:
     """Take in the docstrings of the names that a block lists."""
-    known = composer.recorded.reference
+    records = composer.recorded.reference
 
-    def described(name: str, thing: Described) -> DescribedView:
-        members = tuple(described(inner, what) for inner, what in thing.members.items())
-        return DescribedView(name, thing.arguments, composer.text(markdown_of_sections(thing.docstring)), members)
+    def described(name: str, member: Described) -> DescribedView:
+        members = tuple(described(inner, item) for inner, item in member.members.items())
+        return DescribedView(name, member.arguments, composer.text(markdown_of_sections(member.docstring)), members)
 
     for name in block.names:
-        if name not in known:
-            raise unknown("public name", name, known, "in atlas")
-    return ReferenceView(tuple(described(name, known[name]) for name in block.names))
+        if name not in records:
+            raise unknown("public name", name, records, "in atlas")
+    return ReferenceView(tuple(described(name, records[name]) for name in block.names))
 
 
 def outline(_block: Reference, _composer: Composer) -> None:
@@ -105,10 +105,10 @@ def markdown(docstring: str) -> str:
         if paragraph.startswith(">>> "):
             paragraphs.append(indent(paragraph, "    "))
             continue
-        parts = _CODE.split(paragraph)  # text, backticks, code, text, ...
+        pieces = _CODE.split(paragraph)  # text, backticks, code, text, ...
         words = "".join(
             f"`{piece}`" if place % 3 == 2 else _SIGN.sub(r"\\\1", piece)
-            for place, piece in enumerate(parts)
+            for place, piece in enumerate(pieces)
             if place % 3 != 1
         )
         paragraphs.append(re.sub(r"^\\- ", "- ", words, flags=re.MULTILINE))

@@ -129,7 +129,7 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 
     Shaded figures are drawn first, since they take longest. Raises OSError when the cache can't be written.
     """
-    missing = sorted((one for one in figures if one.missing()), key=lambda one: one.renderer != "shaded")
+    missing = sorted((build for build in figures if build.missing()), key=lambda build: build.renderer != "shaded")
     for done, (figure, failure) in enumerate(_drawn(missing, cache, jobs), len(figures) - len(missing) + 1):
         figure.new, figure.failure = True, failure
         figure.take(cache)
@@ -146,13 +146,15 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
     """
     settle_matplotlib()
     waiting = {
-        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.missing(), cache.folder, one.targets)
-        for one in figures
+        build: worker.Task(
+            build.recipe, build.parameters, build.renderer, build.style, build.missing(), cache.folder, build.targets
+        )
+        for build in figures
     }
-    several, workers = len(figures) > 1, min(jobs, len(waiting))
-    begin, context = partial(worker.begin, {**os.environ}), processes.prepare(processes.DRAWING) if several else ""
+    has_several, workers = len(figures) > 1, min(jobs, len(waiting))
+    begin, context = partial(worker.begin, {**os.environ}), processes.prepare(processes.DRAWING) if has_several else ""
     while waiting:
-        pool = processes.pool(workers, begin, context) if several else None
+        pool = processes.pool(workers, begin, context) if has_several else None
         if pool is None:
             yield from ((figure, worker.draw(task)) for figure, task in waiting.items())
             return

@@ -86,7 +86,7 @@ def _pages(
                 digest("card", cutting, png, card.cut), partial(html.thumbnail, png, card.cut)
             )
     texts = (text for name, text in pages.items() if name.endswith(".html"))
-    files |= fonts.all_subsets(texts, lambda parts, make: cache.recall(digest("font", code, parts), make))
+    files |= fonts.all_subsets(texts, lambda pieces, make: cache.recall(digest("font", code, pieces), make))
     files[MANIFEST] = manifest_of(document)
     return {f"{document.report.name}/{name}": content for name, content in files.items()}
 

@@ -15,7 +15,7 @@ UNFINISHED = ".atlas-"
 """How the folder begins that files stand in until all of them are written, on the disk that they are for."""
 
 
-def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, known: Iterable[str] = ()) -> None:
+def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, lines_before: Iterable[str] = ()) -> None:
     """Write the files of each format, all of them before the first takes its place.
 
     Those below `name`/ take theirs at once: they are a folder that is exchanged with the one before, if the system can
@@ -30,41 +30,43 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, know
     inner = f"{name}/"
     inside = {path.removeprefix(inner): content for path, content in contents.items() if path.startswith(inner)}
     lone = {path: content for path, content in contents.items() if not path.startswith(inner)}
-    known, edited = {*known}, dict[str, str]()
+    lines_before, edited = {*lines_before}, dict[str, str]()
     with named(out / name), _work(out) as work:
         _write(lone, work)
         if inside:
-            of_pages = {f"{line[:66]}{line[66:].removeprefix(inner)}" for line in known if line[66:].startswith(inner)}
-            beside = _pages(inside, out / name, of_pages, work / name)
-            edited |= {f"{inner}{old}": new for old, new in beside.items()}
+            of_pages = {
+                f"{line[:66]}{line[66:].removeprefix(inner)}" for line in lines_before if line[66:].startswith(inner)
+            }
+            renamed = _pages(inside, out / name, of_pages, work / name)
+            edited |= {f"{inner}{old}": new for old, new in renamed.items()}
         if lone:
-            edited |= files.settle({path: work / path for path in lone}, out, known)
+            edited |= files.settle({path: work / path for path in lone}, out, lines_before)
     files.tell(out, edited)
 
 
-def _pages(inside: Mapping[str, bytes], place: Path, known: set[str], work: Path) -> dict[str, str]:
+def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], work: Path) -> dict[str, str]:
     """Let the files of a folder take their places at once; return which were edited, and the names of the new ones."""
-    before = files.lines(place) | known
+    before = files.lines(place) | lines_before
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
     places = files.free(digests, place, before)
-    beside = {path: new for path, new in places.items() if new != path}
-    foreign = _foreign(place, before, {*places.values()})
-    lines = {line for line in before if line[66:] in beside}
+    renamed = {path: new for path, new in places.items() if new != path}
+    foreign_paths = _foreign(place, before, {*places.values()})
+    lines = {line for line in before if line[66:] in renamed}
     lines |= {f"{digests[path]}  {name}" for path, new in places.items() for name in (path, new)}
     content = {new: inside[path] for path, new in places.items()}
     _write(content | {WRITTEN: files.listed(lines).encode()}, work)
-    whole = not place.is_symlink()
-    for path in foreign if whole else ():
+    is_folder = not place.is_symlink()
+    for path in foreign_paths if is_folder else ():
         (work / path).parent.mkdir(parents=True, exist_ok=True)
         os.link(place / path, work / path, follow_symlinks=False)
-    if not (whole and exchange(work, place)):
+    if not (is_folder and exchange(work, place)):
         place.mkdir(parents=True, exist_ok=True)
         (place / WRITTEN).write_text(files.listed(before | lines), encoding="utf-8")
         stay = [*content, WRITTEN]
         _place(work, place, stay)
-        _remove_others(place, {*stay, *foreign})
+        _remove_others(place, {*stay, *foreign_paths})
     files.hide_notes(place)
-    return beside
+    return renamed
 
 
 def replace(place: Path, contents: Mapping[str, bytes]) -> None:
@@ -75,8 +77,8 @@ def replace(place: Path, contents: Mapping[str, bytes]) -> None:
 
 def _foreign(place: Path, lines: set[str], names: set[str]) -> list[str]:
     """Return the paths in a folder, other than these files, that the build did not write."""
-    there = (path.relative_to(place).as_posix() for path in place.rglob("*"))
-    return sorted(name for name in there if name not in {WRITTEN, *names} and files.edited(place, name, lines))
+    paths = (path.relative_to(place).as_posix() for path in place.rglob("*"))
+    return sorted(name for name in paths if name not in {WRITTEN, *names} and files.edited(place, name, lines))
 
 
 @contextmanager

@@ -40,10 +40,10 @@ def gather(report: Report) -> Appendices:
     """Read the records that the blocks of a report show, and no others."""
     blocks = [block for page in report.pages for block in page.blocks]
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
-    wanted = {block.source for block in blocks if isinstance(block, Recorded)}
+    requests = {block.source for block in blocks if isinstance(block, Recorded)}
     tables: dict[str, Data] = {}
     for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "machines": _machines}.items():
-        if source in wanted:
+        if source in requests:
             tables |= {f"{source}: {name}": data for name, data in read().items()}
     names = described() if any(isinstance(block, Reference) for block in blocks) else {}
     return Appendices(_findings() if trial else {}, tables, names)
@@ -188,15 +188,15 @@ def title(name: str) -> str:
     """Return the Markdown of a quantity or a regime of the stress runs, with letters and numbers as TeX."""
     pieces = re.split(r"(, | )", name)
     formulas = [bool(_FORMULA.fullmatch(piece)) for piece in pieces]
-    found = ""
+    heading = ""
     for formula, group in groupby(zip(pieces, formulas, strict=True), lambda pair: pair[1] or pair[0] == " "):
         text = "".join(piece for piece, _ in group)
         core = text.strip()
         if formula and core and not core.isdecimal():
             tex = _LETTERS.sub(lambda match: _tex(*match.groups()), core)
             text = text.replace(core, f"${tex}$")
-        found += text
-    return found
+        heading += text
+    return heading
 
 
 def _tex(letter: str, index: str, power: str) -> str:
@@ -260,5 +260,5 @@ def _arguments(member: Any) -> str:
         for name, parameter in signature.parameters.items()
         if name not in {"self", "cls"}
     ]
-    shown = str(signature.replace(parameters=plain, return_annotation=inspect.Signature.empty))
-    return shown.replace("<factory>", "...")
+    text = str(signature.replace(parameters=plain, return_annotation=inspect.Signature.empty))
+    return text.replace("<factory>", "...")

@@ -110,13 +110,13 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
     """Return the report that is there, if it was made from the same and its files are as they were written."""
-    last = cache.load(_noted(name, out))
+    record_before = cache.load(_noted(name, out))
     for form in formats:
-        record = last.get(form, {"key": None})
+        record = record_before.get(form, {"key": None})
         if record["key"] != key or any(digest_of(out / file) != digest for file, digest in record["files"].items()):
             return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
-    return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
+    return Built(name, *_places(out, name), record_before["pages"], record_before["figures"], reasons=reasons)
 
 
 def _noted(name: str, out: Path) -> str:
@@ -152,55 +152,57 @@ def _build(
     cache.prune()
     drawings = pictures(report)
     cards = on_cards(report) if "html" in formats and len(report.pages) > 1 else ()
-    wanted = _figures(drawings, formats, style, gl.library(), cards)
-    figures.find(list(wanted), cache, sources, gl.library())
+    builds = _figures(drawings, formats, style, gl.library(), cards)
+    figures.find(list(builds), cache, sources, gl.library())
     times["look"] = time.perf_counter()
-    steps, jobs = len(wanted) + 2, jobs or figures.cores()
-    with ThreadPoolExecutor(1) as beside:
-        found_out = beside.submit(lambda: key or key_of(file, sources, style))
+    steps, jobs = len(builds) + 2, jobs or figures.cores()
+    with ThreadPoolExecutor(1) as pool:
+        found_out = pool.submit(lambda: key or key_of(file, sources, style))
         if DISTURBED:  # by Matplotlib, which parses its style sheets
             found_out.result()
-        figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
+        figures.draw(list(builds), cache, jobs, lambda done, _, what: progress(done, steps, what))
     key = found_out.result()
     times["figures"] = time.perf_counter()
     progress(steps - 2, steps, "texts")
-    document = document_of(report, file, drawings, wanted)
+    document = document_of(report, file, drawings, builds)
     times["tables"] = time.perf_counter()
     set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
-    contents = {form: MAKERS[form](document, wanted, cache, sources) for form in formats}
-    last: dict[str, Any] = cache.load(_noted(report.name, out))
-    noted = [item for form in LANGUAGES for item in last.get(form, {"files": {}})["files"].items()]
-    publish(contents, out, report.name, [f"{there}  {path}" for path, there in noted])
+    contents = {form: MAKERS[form](document, builds, cache, sources) for form in formats}
+    record_before: dict[str, Any] = cache.load(_noted(report.name, out))
+    noted = [item for form in LANGUAGES for item in record_before.get(form, {"files": {}})["files"].items()]
+    publish(contents, out, report.name, [f"{digest_before}  {path}" for path, digest_before in noted])
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
-    failures = [figure for figure in wanted if figure.failure]
+    failures = [figure for figure in builds if figure.failure]
     for form, files in contents.items():
         digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
-        last[form] = {"key": None if failures else key, "files": digests}
-    cache.save(_noted(report.name, out), last | {"pages": len(document.pages), "figures": len(wanted) - len(failures)})
+        record_before[form] = {"key": None if failures else key, "files": digests}
+    cache.save(
+        _noted(report.name, out), record_before | {"pages": len(document.pages), "figures": len(builds) - len(failures)}
+    )
     return Built(
         report.name,
         *_places(out, report.name),
         len(document.pages),
-        len(wanted) - len(failures),
+        len(builds) - len(failures),
         failures=tuple((figure.stem, figure.failure) for figure in failures),
-        notes=tuple(dict.fromkeys(note for figure in wanted if (note := figure.facts.get("note")))),
-        reasons=tuple(("figure", figure.name, figure.reason) for figure in wanted),
-        costs=figures.write_costs(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),
+        notes=tuple(dict.fromkeys(note for figure in builds if (note := figure.facts.get("note")))),
+        reasons=tuple(("figure", figure.name, figure.reason) for figure in builds),
+        costs=figures.write_costs(out / f"{report.name}.costs.json", report.name, list(builds), times, jobs),
     )
 
 
 def document_of(
-    report: "Report", file: Path, drawings: "Mapping[str, Picture]", drawn: "Mapping[FigureBuild, Picture]"
+    report: "Report", file: Path, drawings: "Mapping[str, Picture]", builds: "Mapping[FigureBuild, Picture]"
 ) -> "Document":
     """Return a report with its tables computed, and its figures with their captions, some of them drawn."""
     from atlas.book import bibliography
     from atlas.book.building.records import gather
     from atlas.book.compose import compose
 
-    for figure, picture in drawn.items():
+    for figure, picture in builds.items():
         describe(figure, picture)
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
     return compose(report, drawings, gather(report), works, outlines(report))

@@ -127,7 +127,7 @@ def companions(request: Request, setup: CompanionParameters) -> Data:
             (r"$\theta_+$", "degrees"),
             (r"$\theta_-$", "degrees"),
         ),
-        tuple((*first, *others) for first, others in zip(motions, zip(*columns, strict=True), strict=True)),
+        tuple((*rates, *others) for rates, others in zip(motions, zip(*columns, strict=True), strict=True)),
         f"Steady precessions of a body with $I={plain(setup.ratio)}$ that others leave and come back to: the angle "
         r"$\theta$ between axis and field, the rate $\sqrt c$ at which a push grows, and the angles $\theta_\pm$ at "
         r"which the companions turn, @theorem-companion-range.",

@@ -115,7 +115,10 @@ def points(request: Request, setup: PointsParameters) -> Data:
     values = certified(lambda: [(x, h.omega3(x), *h.frequencies(x), h.stability(x)) for x in exact], request.digits)
     columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     columns[0] = column(
-        [Number.as_given(float(x)) if Fraction(float(x)) == x else one for x, one in zip(order, exact, strict=True)],
+        [
+            Number.as_given(float(x)) if Fraction(float(x)) == x else point
+            for x, point in zip(order, exact, strict=True)
+        ],
         request.digits,
     )
     rows = tuple(

@@ -123,7 +123,7 @@ def properties(request: Request, item: Thing) -> Data:
     for _, name, value, _, _, reason in rows:
         if value is NONE:
             names.setdefault(reason, []).append(name)
-    reasons = [f"{', '.join(of)}: {reason}." for reason, of in names.items()]
+    reasons = [f"{', '.join(symbols)}: {reason}." for reason, symbols in names.items()]
     rows = [(*row[:5], "") if row[2] is NONE else row for row in rows]
     heading = "what is given, and what follows" if rows else "what follows"
     return Data(

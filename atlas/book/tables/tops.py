@@ -50,8 +50,8 @@ def tops(request: Request, setup: TopsParameters) -> Data:
     from atlas.motions.nutation.certified_top import TopMotion
 
     motions = [
-        TopMotion((1.0, one.ratio), one.coupling, one.direction, one.omega, one.linear, one.quadratic)
-        for one in setup.tops
+        TopMotion((1.0, body.ratio), body.coupling, body.direction, body.omega, body.linear, body.quadratic)
+        for body in setup.tops
     ]
     nutations = certified(
         lambda: [(top.period, top.precession_per_period, top.spin_per_period) for top in motions], request.digits
@@ -70,7 +70,7 @@ def tops(request: Request, setup: TopsParameters) -> Data:
             *("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$"),
             *("$T$", r"$\Delta\psi$", r"$\Delta\chi$"),
         ),
-        tuple((*first, *others) for first, others in zip(labels, zip(*columns, strict=True), strict=True)),
+        tuple((*leading, *others) for leading, others in zip(labels, zip(*columns, strict=True), strict=True)),
         r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
         r"$\Delta\chi$ about the axis by which the body turns in it, in units of $J_2$ and of one time.",
         (
