@@ -16,7 +16,7 @@ from atlas.checking.conventions import conventions_that_fit
 from atlas.checking.grades import LINES, MAX_DIGITS, Column, Envelope, Errors, Grade
 from atlas.checking.order import Convergence, convergence
 from atlas.checking.reference import OF_TOPS, reference
-from atlas.checking.trajectory import Trajectory, holes_left_out, of_arrays, opened, whole_rows
+from atlas.checking.trajectory import Trajectory, holes_left_out, of_arrays, opened, whole_rows, with_plurals
 from atlas.checking.truth import truth_of
 from atlas.errors import AtlasError
 from atlas.motions.any_body import AnyMotion
@@ -154,10 +154,6 @@ class Check:
         )
 
 
-SINGULAR = {"rotations": "rotation", "quaternions": "quaternion", "angular_velocities": "angular_velocity"}
-"""Arguments of `check` by their plurals."""
-
-
 class _Options(TypedDict, total=False):
     motion: Required[CheckedMotion]
     quaternion: RealArrayLike | None
@@ -238,13 +234,7 @@ def check(
     2
     """
     columns = {"rotation": rotation, "quaternion": quaternion, "angular_velocity": angular_velocity}
-    for name, values in plural.items():
-        singular = SINGULAR.get(name)
-        if singular is None:
-            raise TypeError(f"check() got an unexpected keyword argument {name!r}")
-        if columns[singular] is not None:
-            raise AtlasError(f"{singular} and {name} are the same data: give one of them.")
-        columns[singular] = values
+    columns = with_plurals("check", columns, plural)
     if isinstance(t, list | tuple) and t and np.ndim(t[0]):
         runs: dict[str, Any] = columns | {"step": step}
         for name, values in runs.items():

@@ -110,6 +110,17 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
 
 
+def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str, Any]) -> dict[str, Any]:
+    """Return data by name, those named in the plural among them. Raises TypeError for another name."""
+    singular = {"axes" if name == "axis" else f"{name}s".replace("ys", "ies"): name for name in columns}
+    for name in plural:
+        if name not in singular:
+            raise TypeError(f"{function}() got an unexpected keyword argument {name!r}")
+        if columns[singular[name]] is not None:
+            raise AtlasError(f"{singular[name]} and {name} are the same data: give one of them.")
+    return dict(columns) | {singular[name]: values for name, values in plural.items()}
+
+
 def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_policy: str = "omit") -> Trajectory:
     """Return the trajectory of times (N,) and arrays, None where one is left out.
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.inputs import FloatArray
+from atlas.checking.trajectory import with_plurals
 from atlas.errors import AtlasError
 from atlas.fitting.conventions import lead_to, others
 from atlas.fitting.data import of_arrays, of_file
@@ -65,6 +66,7 @@ def fit(
     epoch: float = 0.0,
     scalar_first: bool = False,
     nan_policy: Literal["omit", "raise"] = "omit",
+    **plural: RealArrayLike | None,
 ) -> Fit:
     """Find the body, the field and the motion from measurements at the times `t`.
 
@@ -103,6 +105,8 @@ def fit(
         Whether the scalar is the first component of a quaternion.
     nan_policy : {"omit", "raise"}
         Whether times at which a number is NaN are left out, which `Fit.notes` counts, or raise an error.
+    **plural
+        `rotations`, `quaternions`, `axes`, `angular_velocities`: other names of the data, as `check` takes them.
 
     Returns
     -------
@@ -151,6 +155,7 @@ def fit(
         "rotation": rotation, "quaternion": quaternion, "axis": axis, "angular_velocity": angular_velocity,
         "field_in_body": field_in_body, "signal": signal,
     }  # fmt: skip
+    measured = with_plurals("fit", measured, plural)
     data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first, nan_policy=nan_policy)
     if loss not in get_args(Loss):
         raise AtlasError(f"The loss is one of {', '.join(get_args(Loss))}, not {loss!r}.")
@@ -174,7 +179,11 @@ def fit(
         tried, steady = freely(problem, tried)
     found = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
     if not _good(problem, tried[0][1]):
-        more = others(problem, lambda read: parameters_of(model, read, params, fix), quaternions=quaternion is not None)
+        more = others(
+            problem,
+            lambda read: parameters_of(model, read, params, fix),
+            quaternions=measured["quaternion"] is not None,
+        )
         fits = (words for words, other in more if any(_good(other, x) for x in lead_to(other)))
         found.warnings = tuple(islice(fits, 1)) or found.warnings
     return found

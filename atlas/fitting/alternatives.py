@@ -239,35 +239,46 @@ def wider_families(
     Good is a reduced chi square that is no surprise, other a value off by more than `BIASED` standard errors. `scale`
     is the noise that was found, in units of the given one.
     """
-    found = []
-    values = problem.values(x)
+    alternatives = []
+    values, chi_square = problem.values(x), problem.chi_square(x)
     for family in problem.model.wider:
         model = model_of(family)
         if problem.tied or (model.has_direction and problem.data.kind == "field_in_body"):
             continue  # of a top the direction is seen, not the field
         try:
-            other, start = _within(problem, values, model)
-            best, _ = minimum(other, start)
+            wider, start = _within(problem, values, model)
+            units = wider.units_of_free
+            step = units * np.linalg.lstsq(wider.jacobian(start) * units, -problem.residuals(x))[0]
+            if not biased(parameters, _with_field(wider, start + step), BIASED / 2):
+                continue  # a first step changes no value
+            best, _ = minimum(wider, start)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no such motion beside it
-        full, free = other.values(best), other.data.t.size * other.width - len(other.names)
-        redchi = other.chi_square(best) / free / scale**2
-        if model.has_direction:
-            full |= dict(zip(B, (full["k2"] * direction_of(full)).tolist(), strict=True)) | {"ratio": full["I3"]}
+        full, free = _with_field(wider, best), wider.data.t.size * wider.width - len(wider.names)
+        redchi = wider.chi_square(best) / free / scale**2
         if abs(redchi - 1) < BIASED * np.sqrt(2 / free) and biased(parameters, full):
-            fall = (problem.chi_square(x) - other.chi_square(best)) / scale**2
-            found.append((fall, Alternative(redchi, full, equal=False, family=family)))
-    return found
+            fall = (chi_square - wider.chi_square(best)) / scale**2
+            alternatives.append((fall, Alternative(redchi, full, equal=False, family=family)))
+    return alternatives
 
 
-def biased(parameters: Parameters, values: Values) -> dict[str, float]:
-    """Return the parameters that differ by more than `BIASED` standard errors, with the differences in these."""
+def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
+    """Return the parameters at x, those of a top with the ratio and the field k2 n that a general motion calls so."""
+    values = problem.values(x)
+    if problem.model.has_direction:
+        field = values["k2"] * direction_of(values)
+        values |= dict(zip(B, field.tolist(), strict=True)) | {"ratio": values["I3"]}
+    return values
+
+
+def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dict[str, float]:
+    """Return the parameters that differ by more than `least` standard errors, with the differences in these."""
     off = {
         name: (values[name] - p.value) / p.stderr
         for name, p in parameters.items()
         if p.free and p.stderr and name in values and name not in ATTITUDE
     }
-    return {name: size for name, size in off.items() if abs(size) > BIASED}
+    return {name: size for name, size in off.items() if abs(size) > least}
 
 
 def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:

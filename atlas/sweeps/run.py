@@ -40,8 +40,8 @@ PARTS_AHEAD = 4
 """Parts in progress for each worker, few so that results not yet written take little memory."""
 CODE = ("arithmetic", "bodies", "surfaces", "motions", "families", "sweeps")
 """Folders of the code that computes rows and writes them."""
-MIN_PARALLEL_SECONDS = 1.0
-"""Seconds of work from which on processes are worth their start."""
+SECONDS_PER_PROCESS = 1.0
+"""Seconds of work for each process, about twice the processor time of its start."""
 
 Progress = Callable[[int, int], None]
 Made: TypeAlias = tuple[str, bytes | None, float]
@@ -211,9 +211,9 @@ class Spans(Iterator[Span]):
         self.pace = max(seconds, 1e-9) / (span[1] - span[0])
 
     @property
-    def long(self) -> bool:
-        """Whether the remaining work is worth processes of its own."""
-        return self.left * self.pace > MIN_PARALLEL_SECONDS
+    def processes(self) -> int:
+        """The number of processes, at most `workers`, that the remaining work is worth."""
+        return min(self.workers, int(min(self.left * self.pace, 1e9) / SECONDS_PER_PROCESS))
 
 
 def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
@@ -251,10 +251,10 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
     if executor is None:
         for span in spans:
             yield make(plan, *span, table)
-            if workers > 1 and spans.long:
+            if spans.processes > 1:
                 from atlas.processes import pool  # which loads multiprocessing
 
-                if own := pool(workers):  # if the system lets us have any
+                if own := pool(spans.processes):  # if the system lets us have any
                     break
         else:
             return

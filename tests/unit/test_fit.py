@@ -792,3 +792,14 @@ def test_fits_of_tops_have_exact_derivatives(monkeypatch: pytest.MonkeyPatch) ->
     v = replace(top, exact=False).vectors(values, top.names, t, dict.fromkeys(values, 1.0), motion)
     monkeypatch.setattr(type(top), "_beside", None)  # which differences need
     assert top.vectors(values, top.names, t, {}, motion) == pytest.approx(v, abs=1e-7 * abs(v).max())
+
+
+def test_data_are_named_in_the_plural_as_in_check() -> None:
+    """Plural names of the data give the same fit as singular ones; both together, or another name, are refused."""
+    t, R = measured("rotation", 30, 5.0)
+    options = {"sigma": NOISE, "family": "general"}
+    assert atlas.fit(t, rotations=R, **options).redchi == atlas.fit(t, rotation=R, **options).redchi
+    with pytest.raises(AtlasError, match="rotation and rotations are the same data"):
+        atlas.fit(t, rotation=R, rotations=R)
+    with pytest.raises(TypeError, match="'rotatons'"):
+        atlas.fit(t, rotatons=R)
