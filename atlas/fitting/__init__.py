@@ -12,15 +12,15 @@ from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.inputs import FloatArray
 from atlas.checking.trajectory import with_plurals
 from atlas.errors import AtlasError
-from atlas.fitting.conventions import lead_to, others
+from atlas.fitting.conventions import minima_of, other_conventions
 from atlas.fitting.data import of_arrays, of_file
-from atlas.fitting.free import freely
+from atlas.fitting.free import with_free_body
 from atlas.fitting.models import model_of
-from atlas.fitting.nutation import of_ratio_one, settled
+from atlas.fitting.nutation import with_ratio_one, with_small_nutations
 from atlas.fitting.parameters import parameters_of
 from atlas.fitting.problem import Problem, lag
 from atlas.fitting.result import FOLLOWED, Fit
-from atlas.fitting.search import grown, rate_of, tries
+from atlas.fitting.search import follow_data, rate_of, tries
 
 if TYPE_CHECKING:
     import lmfit
@@ -161,32 +161,32 @@ def fit(
         raise AtlasError(f"The loss is one of {', '.join(get_args(Loss))}, not {loss!r}.")
     if loss != "linear" and not data.known:
         data = replace(data, sigma=data.sigma * GUESS * data.spread)
-    free, given_values = parameters_of(model, data, params, fix)
-    problem = Problem(model, data, free, loss, rate_of(data), given_values)
+    parameters, given_values = parameters_of(model, data, params, fix)
+    problem = Problem(model, data, parameters, loss, rate_of(data), given_values)
     numbers = data.t.size * problem.width
     if numbers <= len(problem.names):
         raise AtlasError(f"{numbers} numbers do not determine {len(problem.names)} parameters: measure more times.")
     tried = _tried(problem)
     if loss != "linear" and not data.known:  # a robust loss needs the noise: once by a guess, once as it was found
         noise = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
-        problem = Problem(model, replace(data, sigma=data.sigma * noise), free, loss, problem.rate, given_values)
+        problem = Problem(model, replace(data, sigma=data.sigma * noise), parameters, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
     steady = doubt = ""
     if model.is_any_motion and "ratio" in model.names:
-        tried, steady, doubt = settled(problem, tried, good=_good(problem, tried[0][1]))
-        tried = tried if steady else of_ratio_one(problem, tried)
+        tried, steady, doubt = with_small_nutations(problem, tried, is_followed=_is_followed(problem, tried[0][1]))
+        tried = tried if steady else with_ratio_one(problem, tried)
     elif model.is_any_motion and "I1" in model.names:
-        tried, steady = freely(problem, tried)
-    found = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
-    if not _good(problem, tried[0][1]):
-        more = others(
+        tried, steady = with_free_body(problem, tried)
+    result = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
+    if not _is_followed(problem, tried[0][1]):
+        readings = other_conventions(
             problem,
             lambda read: parameters_of(model, read, params, fix),
             quaternions=measured["quaternion"] is not None,
         )
-        fits = (words for words, other in more if any(_good(other, x) for x in lead_to(other)))
-        found.warnings = tuple(islice(fits, 1)) or found.warnings
-    return found
+        fits = (words for words, candidate in readings if any(_is_followed(candidate, x) for x in minima_of(candidate)))
+        result.warnings = tuple(islice(fits, 1)) or result.warnings
+    return result
 
 
 def fit_file(
@@ -199,9 +199,9 @@ def fit_file(
 ) -> Fit:
     """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
     table = of_file(file, kind)
-    found = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)
-    found.notes, found.time_unit = (*[table.left_out] * bool(table.left_out), *found.notes), table.unit
-    return found
+    result = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)
+    result.notes, result.time_unit = (*[table.left_out] * bool(table.left_out), *result.notes), table.unit
+    return result
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
@@ -210,24 +210,24 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
     Few data whose noise is not known may be followed by a motion that is not theirs: then all starts are tried.
     """
     minima: list[tuple[float, tuple[float, Any]]] = []
-    sure = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
-    for centre, there, start, count in tries(problem):
+    is_clear = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
+    for centre, near_centre, start, count in tries(problem):
         try:
-            x = grown(there, start, count)
-            x = problem.inside(there.carried(x, -centre)) if centre else x
+            x = follow_data(near_centre, start, count)
+            x = problem.inside(near_centre.carried(x, -centre)) if centre else x
             chi = problem.chi_square(x)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so
-        again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
+        again = any(centre != earlier and abs(chi - minimum) < SAME * minimum for earlier, (minimum, _) in minima)
         minima.append((centre, (chi, x)))
-        if sure and (again or _good(problem, x)):
+        if is_clear and (again or _is_followed(problem, x)):
             break
     if not minima:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
     return sorted((minimum for _, minimum in minima), key=lambda minimum: minimum[0])
 
 
-def _good(problem: Problem, x: Any) -> bool:
+def _is_followed(problem: Problem, x: Any) -> bool:
     """Return whether the data are followed, up to noise."""
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
     if problem.data.known:

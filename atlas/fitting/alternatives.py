@@ -91,8 +91,8 @@ class Alternative(NamedTuple):
 
 
 def _biases(parameters: Parameters, values: Values) -> str:
-    off = [f"{name} off by {size:+.0f}" for name, size in biased(parameters, values).items()]
-    return f"{', '.join(off)} standard errors"
+    biases = [f"{name} off by {size:+.0f}" for name, size in biased(parameters, values).items()]
+    return f"{', '.join(biases)} standard errors"
 
 
 def _differences(parameters: Parameters, values: Values) -> list[str]:
@@ -115,11 +115,11 @@ def warnings_of(
             f"{count} exactly the same data by symmetry, such as {different}: no measurement of this kind tells them "
             "apart."
         )
-    for fall, other in wider:
+    for fall, alternative in wider:
         if fall > BETTER:
             yield (
-                f"The wider family {other.family} lowers chi square by {fall:.3g}, more than noise does, with "
-                f"{_biases(parameters, other.values)}."
+                f"The wider family {alternative.family} lowers chi square by {fall:.3g}, more than noise does, with "
+                f"{_biases(parameters, alternative.values)}."
             )
 
 
@@ -147,34 +147,36 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
     With `signs` only axes are reversed, none permuted. Fixed values, bounds and expressions are kept.
     """
     motion, values = problem.model.make(problem.values(x)), problem.values(x)
-    data, kind, one = problem.data, problem.data.kind, np.eye(3)
+    data, kind, identity = problem.data, problem.data.kind, np.eye(3)
     name = kind if kind in IN_BODY else "rotation"
-    seen = {name: np.asarray(getattr(motion, name)(data.t))}
+    observed = {name: np.asarray(getattr(motion, name)(data.t))}
     omega = np.asarray(motion.angular_velocity(0.0))
     group = [S for S in ROTATIONS if not signs or abs(np.diag(S)).all()]
 
-    def changes(S: FloatArray, right: FloatArray, times: int) -> bool:
-        first, other = (data.of(_Turned(seen, *pair), data.t[:times]) for pair in ((one, one), (S, right)))
+    def changes(S: FloatArray, body_turn: FloatArray, times: int) -> bool:
+        data_before, state_known = (
+            data.of(_Turned(observed, *pair), data.t[:times]) for pair in ((identity, identity), (S, body_turn))
+        )
         if kind == "axis":
-            first, other = first[..., 2], other[..., 2]
-        return bool(abs(first - other).max() > SAME_DATA * abs(first).max(initial=1e-300))
+            data_before, state_known = data_before[..., 2], state_known[..., 2]
+        return bool(abs(data_before - state_known).max() > SAME_DATA * abs(data_before).max(initial=1e-300))
 
-    known, found = [state(problem.model, kind, values, attitude(values), omega)], list[Alternative]()
-    for S, right in product([one] if kind in IN_BODY else group, group):
-        if changes(S, right, 3) or changes(S, right, data.t.size):
+    states, solutions = [state(problem.model, kind, values, attitude(values), omega)], list[Alternative]()
+    for S, body_turn in product([identity] if kind in IN_BODY else group, group):
+        if changes(S, body_turn, 3) or changes(S, body_turn, data.t.size):
             continue
-        candidates = [*_turned(problem, values, S, right, omega), *_with_field_reversed(problem, motion, values)]
-        for turned in candidates:
-            if any(_same(problem, turned, other) for other in known):
+        candidates = [*_turned(problem, values, S, body_turn, omega), *_with_field_reversed(problem, motion, values)]
+        for solution in candidates:
+            if any(_same(problem, solution, state_known) for state_known in states):
                 continue
-            known.append(turned)
-            free = np.array([turned[free_name] for free_name in problem.names])
+            states.append(solution)
+            free_values = np.array([solution[free_name] for free_name in problem.names])
             low, high = problem.bounds
-            if (low <= free).all() and (free <= high).all():
-                full = problem.values(free)
-                if _same(problem, full, turned):
-                    found.append(Alternative(redchi, full, equal=True, family=problem.model.name))
-    return found
+            if (low <= free_values).all() and (free_values <= high).all():
+                values_there = problem.values(free_values)
+                if _same(problem, values_there, solution):
+                    solutions.append(Alternative(redchi, values_there, equal=True, family=problem.model.name))
+    return solutions
 
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
@@ -184,50 +186,52 @@ def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Itera
     new = dict(values) | {name: -values[name] for name in (*B, "omega2")}
     t = problem.data.t
     try:
-        moved = problem.model.make(new).third_axis(t) - motion.third_axis(t)
+        change = problem.model.make(new).third_axis(t) - motion.third_axis(t)
     except AtlasError:
         return
-    if abs(moved).max() < SAME_DATA:
+    if abs(change).max() < SAME_DATA:
         yield new
 
 
 def _turned(
-    problem: Problem, values: Values, S: FloatArray, right: FloatArray, omega: FloatArray
+    problem: Problem, values: Values, S: FloatArray, body_turn: FloatArray, omega: FloatArray
 ) -> Iterator[dict[str, float]]:
     """Yield the parameters of the motion S R S', none where they are none of the family; of tops both signs of n."""
     model = problem.model
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
-    turned = moments @ abs(right)
-    turned = turned / turned[1]
-    if ("I1" not in model.names and (turned != moments).any()) or (model.has_direction and not right[2, 2]):
+    turned_moments = moments @ abs(body_turn)
+    turned_moments = turned_moments / turned_moments[1]
+    if ("I1" not in model.names and (turned_moments != moments).any()) or (model.has_direction and not body_turn[2, 2]):
         return
     for sign in (1.0, -1.0) if model.has_direction else (1.0,):
         new = dict(values) | dict(zip(B, (S @ vector(values, B)).tolist(), strict=True))
         if "I1" in model.names:
-            new |= {"I1": float(turned[0]), "I3": float(turned[2])}
+            new |= {"I1": float(turned_moments[0]), "I3": float(turned_moments[2])}
         if "z" in model.names:
-            new["z"] = values["z"] / float((moments @ abs(right))[1]) ** 2
+            new["z"] = values["z"] / float((moments @ abs(body_turn))[1]) ** 2
         if model.has_direction:
             new |= {name: sign * values[name] for name in ("k2", "k3")}
-            new["linear"] = sign * float(right[2, 2]) * values["linear"]
+            new["linear"] = sign * float(body_turn[2, 2]) * values["linear"]
             new |= dict(zip(DIRECTION, (sign * S @ vector(values, DIRECTION)).tolist(), strict=True))
-        yield state(model, problem.data.kind, new, S @ attitude(values) @ right, right.T @ omega)
+        yield state(model, problem.data.kind, new, S @ attitude(values) @ body_turn, body_turn.T @ omega)
 
 
-def _same(problem: Problem, first: Values, other: Values) -> bool:
+def _same(problem: Problem, values: Values, others_values: Values) -> bool:
     """Return whether two sets of parameters are one, up to rounding; attitudes are compared as matrices."""
     names = [name for name in problem.model.names if name not in ATTITUDE]
-    off = max(abs(first[name] - other[name]) / (problem.units[name] + abs(first[name])) for name in names)
-    return bool(max(off, abs(attitude(first) - attitude(other)).max()) < SAME_VALUES)
+    off = max(abs(values[name] - others_values[name]) / (problem.units[name] + abs(values[name])) for name in names)
+    return bool(max(off, abs(attitude(values) - attitude(others_values)).max()) < SAME_VALUES)
 
 
-def other_minima(problem: Problem, tried: list[tuple[float, Any]], free: float) -> list[Alternative]:
+def other_minima(problem: Problem, tried: list[tuple[float, Any]], freedom: float) -> list[Alternative]:
     """Return the other minima where starts ended, each once; `free` makes their chi square a reduced one."""
     out: list[Alternative] = []
     for chi, x in tried[1:]:
-        known = [tried[0][0] / free, *(found.redchi for found in out)]
-        if all(abs(chi / free - other) > SAME_MINIMUM * other for other in known):
-            out.append(Alternative(chi / free, problem.values(x), equal=False, family=problem.model.name))
+        chi_squares = [tried[0][0] / freedom, *(minimum_found.redchi for minimum_found in out)]
+        if all(
+            abs(chi / freedom - chi_square_known) > SAME_MINIMUM * chi_square_known for chi_square_known in chi_squares
+        ):
+            out.append(Alternative(chi / freedom, problem.values(x), equal=False, family=problem.model.name))
     return out[:SHOWN]
 
 
@@ -254,11 +258,11 @@ def wider_families(
             best, _ = minimum(wider, start)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no such motion beside it
-        full, free = _with_field(wider, best), wider.data.t.size * wider.width - len(wider.names)
-        redchi = wider.chi_square(best) / free / scale**2
-        if abs(redchi - 1) < BIASED * np.sqrt(2 / free) and biased(parameters, full):
+        values_there, freedom = _with_field(wider, best), wider.data.t.size * wider.width - len(wider.names)
+        redchi = wider.chi_square(best) / freedom / scale**2
+        if abs(redchi - 1) < BIASED * np.sqrt(2 / freedom) and biased(parameters, values_there):
             fall = (chi_square - wider.chi_square(best)) / scale**2
-            alternatives.append((fall, Alternative(redchi, full, equal=False, family=family)))
+            alternatives.append((fall, Alternative(redchi, values_there, equal=False, family=family)))
     return alternatives
 
 
@@ -283,7 +287,7 @@ def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dic
 
 def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:
     """Return the problem of a wider family, and the start at which this has the same motion."""
-    own = problem.params
+    parameters = problem.params
     inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}
     if model.has_direction:
         b = float(np.linalg.norm(vector(values, B)))
@@ -294,11 +298,15 @@ def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, Fl
         motion = problem.model.make(values)
         inside |= dict(zip(OMEGA, motion.angular_velocity(0.0).tolist(), strict=True))
     longest = DIRECTION[int(np.argmax(abs(vector(inside, DIRECTION))))]
-    held = {name for name, p in own.items() if not p.free} | {longest}  # the length of a direction is not seen
-    held |= {"I3", "k3"} if "ratio" in held else set()
-    held -= {"a3"} if "I1" in model.names and problem.data.kind == "axis" else set()
-    params: dict[str, Any] = {name: {"value": inside.get(name, 0.0), "vary": name not in held} for name in model.names}
-    free, _ = parameters_of(model, problem.data, params)
-    other = Problem(model, problem.data, free, problem.loss, problem.rate)
-    other.followed = model.slow
-    return other, other.inside(inside)
+    held_names = {name for name, p in parameters.items() if not p.free} | {
+        longest
+    }  # the length of a direction is not seen
+    held_names |= {"I3", "k3"} if "ratio" in held_names else set()
+    held_names -= {"a3"} if "I1" in model.names and problem.data.kind == "axis" else set()
+    params: dict[str, Any] = {
+        name: {"value": inside.get(name, 0.0), "vary": name not in held_names} for name in model.names
+    }
+    wider_parameters, _ = parameters_of(model, problem.data, params)
+    wider = Problem(model, problem.data, wider_parameters, problem.loss, problem.rate)
+    wider.followed = model.slow
+    return wider, wider.inside(inside)

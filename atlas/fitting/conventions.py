@@ -13,7 +13,7 @@ from atlas.fitting.data import Data
 from atlas.fitting.models import DIRECTION, Values
 from atlas.fitting.parameters import Parameters
 from atlas.fitting.problem import Problem
-from atlas.fitting.search import grown, rate_of, tries_about
+from atlas.fitting.search import follow_data, rate_of, tries_about
 
 HELD = (
     "The direction of the field is held at (0, 0, 1), and the data are followed where it is free: give "
@@ -21,7 +21,7 @@ HELD = (
 )
 
 
-def others(
+def other_conventions(
     problem: Problem, parameters: Callable[[Data], tuple[Parameters, Values]], *, quaternions: bool
 ) -> Iterator[tuple[str, Problem]]:
     """Yield sentences and problems: the direction of a top's field free, then the data read in other conventions.
@@ -29,15 +29,15 @@ def others(
     `parameters` gives those of the fit for other data; `quaternions` says that the data are no matrices.
     """
     data = problem.data
-    held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
-    if held and data.kind in ("rotation", "axis"):
+    is_held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
+    if is_held and data.kind in ("rotation", "axis"):
         freed = problem.params.changed(**{name: {"vary": True} for name in DIRECTION[:2]})
         yield HELD, Problem(problem.model, data, freed, problem.loss, problem.rate, problem.given)
     for words, R in _readings(data.values, quaternions=quaternions) if data.kind == "rotation" else ():
         read = replace(data, values=R)
-        free, given = parameters(read)
+        parameters_free, start = parameters(read)
         sentence = f"The data are followed where they are read otherwise: {words}."
-        yield sentence, Problem(problem.model, read, free, problem.loss, rate_of(read), given)
+        yield sentence, Problem(problem.model, read, parameters_free, problem.loss, rate_of(read), start)
 
 
 def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatArray]]:
@@ -50,11 +50,11 @@ def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatA
             yield f"as quaternions {words}", Rotation.from_quat(q, scalar_first=True).as_matrix()
 
 
-def lead_to(problem: Problem) -> Iterator[FloatArray]:
+def minima_of(problem: Problem) -> Iterator[FloatArray]:
     """Yield the vectors of varied parameters to which the first starts lead, if any."""
-    for centre, there, start, count in tries_about(problem, 0):
+    for centre, near_centre, start, count in tries_about(problem, 0):
         try:
-            x = grown(there, start, count)
-            yield problem.inside(there.carried(x, -centre)) if centre else x
+            x = follow_data(near_centre, start, count)
+            yield problem.inside(near_centre.carried(x, -centre)) if centre else x
         except (AtlasError, np.linalg.LinAlgError):
             continue

@@ -94,14 +94,16 @@ class Data:
     def _signal(self, R: FloatArray) -> FloatArray:
         function: Any = self.function
         flat = R.reshape(-1, 3, 3)
-        lost = np.asarray(~(abs(flat) < NO_ROTATION).all((1, 2)))
-        values = real(function(np.where(lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns")
+        is_lost = np.asarray(~(abs(flat) < NO_ROTATION).all((1, 2)))
+        values = real(
+            function(np.where(is_lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns"
+        )
         if values.shape[:1] != flat.shape[:1] or values.ndim > 2:
             raise AtlasError(
                 f"The function of a signal takes rotations ({len(flat)}, 3, 3) and returns as many numbers, "
                 f"not an array {values.shape}."
             )
-        values = np.where(lost.reshape(-1, *[1] * (values.ndim - 1)), np.nan, values)
+        values = np.where(is_lost.reshape(-1, *[1] * (values.ndim - 1)), np.nan, values)
         return values.reshape(*R.shape[:-2], -1)
 
     def differences(self, motion: Any) -> FloatArray:
@@ -111,26 +113,28 @@ class Data:
             return difference(self.values, values)
         if self.kind == "axis":
             x, y, z = np.moveaxis(np.vecmat(self.values, values), -1, 0)
-            across = np.hypot(x, y)
-            angle = np.arctan2(across, z) / np.where(across > 0, across, 1.0)
+            sine = np.hypot(x, y)
+            angle = np.arctan2(sine, z) / np.where(sine > 0, sine, 1.0)
             return np.stack([x * angle, y * angle], -1)
         return np.asarray(self.values - values)
 
-    def slopes(self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, rest: FloatArray) -> FloatArray:
+    def slopes(
+        self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, differences: FloatArray
+    ) -> FloatArray:
         """Return the derivatives of what is seen, (N, k, P), by which the differences shrink.
 
         `v` (N, P, 3) are the turns of R, of angular velocities dv/dt; `fields` (P, 3) what the parameters add to the
         `field`, and `rest` (N, 3) the differences where rotations are seen.
         """
         if self.kind == "rotation":
-            return np.asarray((_inverse_right(rest) @ v.swapaxes(1, 2)).reshape(len(v), 3, -1))
+            return np.asarray((_inverse_right(differences) @ v.swapaxes(1, 2)).reshape(len(v), 3, -1))
         R = motion.rotation(self.t)
-        own = v @ R
+        turns_in_body = v @ R
         """The turns about the axes of the body, (N, P, 3)."""
         if self.kind == "axis":
-            return np.stack([own[..., 1], -own[..., 0]], 1)
+            return np.stack([turns_in_body[..., 1], -turns_in_body[..., 0]], 1)
         if self.kind == "angular_velocity":
-            return np.asarray(own.swapaxes(1, 2))
+            return np.asarray(turns_in_body.swapaxes(1, 2))
         if self.kind == "field_in_body":
             return np.asarray(((fields - np.cross(v, field)) @ R).swapaxes(1, 2))
         h = STEP
@@ -145,9 +149,9 @@ class Data:
         return np.asarray(np.einsum("ink,npi->nkp", np.stack(by), v))
 
 
-def difference(first: FloatArray, other: FloatArray) -> FloatArray:
+def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
     """Return the rotation vectors, in the laboratory, from other rotations (..., 3, 3) to these."""
-    turn = first @ other.swapaxes(-1, -2)
+    turn = rotations @ origins.swapaxes(-1, -2)
     skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
     sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
     vectors = skew * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0))[..., None]
@@ -181,7 +185,7 @@ def of_arrays(
     if times.ndim != 1 or times.size < LEAST:
         raise AtlasError(f"A fit needs an array (N,) of {LEAST} times or more, not {times.shape}.")
     values, function = _values(kind, data[kind], times, nan_policy)
-    known = sigma is not None
+    is_known = sigma is not None
     errors = measured(1.0 if sigma is None else sigma, "sigma", nan_policy)
     if errors.shape not in ((), times.shape) or (errors <= 0).any():
         raise AtlasError(f"sigma is one positive standard error, or {times.size} of them, not {sigma!r}.")
@@ -202,22 +206,22 @@ def of_arrays(
             "give epoch = t[0], the time of the parameters, or subtract it."
         )
     kind = kind.replace("quaternion", "rotation")
-    return Data(kind, times, values[order], errors[order, None], function, known, tuple(filter(None, [note])))
+    return Data(kind, times, values[order], errors[order, None], function, is_known, tuple(filter(None, [note])))
 
 
-def _values(kind: str, given: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
+def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
     """Return the measured numbers of a kind, the times first, and the function of a signal."""
     if kind != "signal":
-        values, wanted = measured(given, f"The {kind}", nan_policy), (times.size, *KINDS[kind])
-        if values.shape != wanted:
-            raise AtlasError(f"The {kind} at {times.size} times is an array {wanted}, not {values.shape}.")
+        values, shape = measured(value, f"The {kind}", nan_policy), (times.size, *KINDS[kind])
+        if values.shape != shape:
+            raise AtlasError(f"The {kind} at {times.size} times is an array {shape}, not {values.shape}.")
         return values, None
-    if not (isinstance(given, tuple) and len(given) == 2 and callable(given[1])):
+    if not (isinstance(value, tuple) and len(value) == 2 and callable(value[1])):
         raise AtlasError("signal = (values, function): numbers, and the function of rotations (N, 3, 3) they are.")
-    values = measured(given[0], "The signal", nan_policy)
+    values = measured(value[0], "The signal", nan_policy)
     if values.shape[:1] != times.shape or values.ndim > 2:
         raise AtlasError(f"The signal at {times.size} times is an array ({times.size},), not {values.shape}.")
-    return values.reshape(times.size, -1), given[1]
+    return values.reshape(times.size, -1), value[1]
 
 
 def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.int_]) -> FloatArray:
@@ -238,9 +242,9 @@ def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.in
     else:
         return values
     if bad.any():
-        what = {"rotation": "rotation matrix", "quaternion": "quaternion of length 1", "axis": "vector of length 1"}
+        noun = {"rotation": "rotation matrix", "quaternion": "quaternion of length 1", "axis": "vector of length 1"}
         raise AtlasError(
-            f"Row {int(rows[np.argmax(bad)])} (from 0) of the {kind} is no {what[kind]}, by more than {NEAR}."
+            f"Row {int(rows[np.argmax(bad)])} (from 0) of the {kind} is no {noun[kind]}, by more than {NEAR}."
         )
     return values
 

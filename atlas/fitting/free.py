@@ -21,7 +21,7 @@ from atlas.errors import AtlasError
 from atlas.fitting.models import B
 from atlas.fitting.nutation import BEYOND
 from atlas.fitting.problem import Problem
-from atlas.fitting.search import grown
+from atlas.fitting.search import follow_data
 
 LIKE = 1e-3
 """Weight of the moments that were found, beside 1 of a constant angular momentum: those that this leaves open."""
@@ -31,7 +31,7 @@ TURNING = 0.3
 """Change of the angular momentum, in parts of it, from which on a field is seen: noise is less."""
 
 
-def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
+def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
     """Return what was tried with a free body before all, where a field is not seen beyond noise; and what is said then.
 
     Nothing is changed where a field is given or seen.
@@ -39,7 +39,7 @@ def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple
     if not set(B) <= set(problem.names):
         return tried, ""
     params = problem.params.changed(**{name: {"value": 0.0, "vary": False} for name in B})
-    free = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
+    free_problem = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
     best, x = tried[0]
     try:
         motion, values = problem.motion(x)
@@ -50,7 +50,9 @@ def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple
         if turning > TURNING:
             return tried, ""
         start = values | {"I1": I1 / I2, "I3": I3 / I2} | dict.fromkeys(B, 0.0)
-        level = problem.inside(free.values(grown(free, free.inside(start), problem.data.t.size)))
+        level = problem.inside(
+            free_problem.values(follow_data(free_problem, free_problem.inside(start), problem.data.t.size))
+        )
         least = problem.chi_square(level)
     except (AtlasError, np.linalg.LinAlgError):
         return tried, ""  # no free body turns so
@@ -72,6 +74,6 @@ def _moments(R: FloatArray, omega: FloatArray, inertia: FloatArray) -> tuple[Flo
     momenta = R * omega[:, None] / np.linalg.norm(omega, axis=1).max()  # one column for each moment
     change = (momenta - momenta.mean(0)).reshape(-1, 3)
     like = np.sqrt(len(R)) * LIKE * np.eye(3)
-    wanted = np.concatenate([np.zeros(len(change)), like @ inertia])
-    moments = np.linalg.lstsq(np.vstack([change, like]), wanted)[0]
+    targets = np.concatenate([np.zeros(len(change)), like @ inertia])
+    moments = np.linalg.lstsq(np.vstack([change, like]), targets)[0]
     return moments, float(np.linalg.norm(change @ moments) / np.linalg.norm(momenta @ moments))

@@ -47,24 +47,26 @@ class Crowd:
     def __init__(self, problem: Any, X: FloatArray) -> None:
         self.problem, self.X = problem, problem.inner(X)
         self.damping, self.costs = np.full(len(X), 1e-2), np.full(len(X), np.inf)
-        free = problem.data.kind in SPIN_UNSEEN and not problem.tied
-        self.spin = problem.names.index("omega3") if free and "omega3" in problem.names else None
+        is_free = problem.data.kind in SPIN_UNSEEN and not problem.tied
+        self.spin = problem.names.index("omega3") if is_free and "omega3" in problem.names else None
 
     def _straight(self, X: FloatArray) -> FloatArray:
         """Return coordinates of steps: M3 for omega3, which an axis tells together with I3 only."""
         if self.spin is None:
             return X
-        I3, more = self.problem.spin(X)
+        I3, offset = self.problem.spin(X)
         Y = X.copy()
-        Y[..., self.spin] = I3 * X[..., self.spin] + more
+        Y[..., self.spin] = I3 * X[..., self.spin] + offset
         return Y
 
     def _back(self, Y: FloatArray) -> FloatArray:
         if self.spin is None:
             return np.asarray(self.problem.inner(Y))
-        I3, more = self.problem.spin(Y)
+        I3, offset = self.problem.spin(Y)
         X = Y.copy()
-        X[..., self.spin] = (Y[..., self.spin] - more) / np.where(I3 == 0, 1.0, I3)  # from 1 a whole step may end at 0
+        X[..., self.spin] = (Y[..., self.spin] - offset) / np.where(
+            I3 == 0, 1.0, I3
+        )  # from 1 a whole step may end at 0
         return np.asarray(self.problem.inner(X))
 
     def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
@@ -74,7 +76,7 @@ class Crowd:
             M, n = X.shape
             h = STEP * self.problem.units_of_free
             ends = [(self._straight(X)[:, None] + s * np.diag(h)).reshape(-1, n) for s in (1, -1)]
-            up, down = ((e[:, self.spin] - more) / I3 for e in ends for I3, more in [self.problem.spin(e)])
+            up, down = ((e[:, self.spin] - offset) / I3 for e in ends for I3, offset in [self.problem.spin(e)])
             by = ((up - down).reshape(M, n) / (2 * h))[:, :, None]
             spin = J[:, self.spin : self.spin + 1]
             J = J + by * spin
@@ -107,13 +109,13 @@ class Crowd:
             new = self._back(Y + step + np.where(much[:, None], 0.0, turn))
             new_slopes = self._slopes(new, places)
             costs = self._cost(new_slopes[0])
-            better = costs < self.costs
-            self.X = np.where(better[:, None], new, self.X)
+            is_better = costs < self.costs
+            self.X = np.where(is_better[:, None], new, self.X)
             fallen = (self.costs - costs) / np.maximum(self.costs, 1e-300) * r.shape[-1]
-            r, J = np.where(better[:, None], new_slopes[0], r), np.where(better[:, None, None], new_slopes[1], J)
-            self.damping = np.clip(np.where(better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
-            self.costs = np.where(better, costs, self.costs)
-            ended = better & (fallen < decrement) | (self.damping > 1e3) | (self.costs < exact * r.shape[-1])
+            r, J = np.where(is_better[:, None], new_slopes[0], r), np.where(is_better[:, None, None], new_slopes[1], J)
+            self.damping = np.clip(np.where(is_better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
+            self.costs = np.where(is_better, costs, self.costs)
+            ended = is_better & (fallen < decrement) | (self.damping > 1e3) | (self.costs < exact * r.shape[-1])
             if decrement and ended.all():
                 break
 

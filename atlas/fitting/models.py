@@ -48,9 +48,9 @@ def _elementary(p: Values) -> Any:
 
 def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
     """Return Omega (3, ...) of elementary motions on the hyperbola (67), of fields K (3, ...) in the body."""
-    across = np.sqrt(K[0] * K[0] + K[1] * K[1])
-    along = K[2] * w * (w + (2 - r) * across) / (r * across * (across + w))
-    return np.stack([w * K[0] / across, w * K[1] / across, along])
+    K_across = np.sqrt(K[0] * K[0] + K[1] * K[1])
+    omega3 = K[2] * w * (w + (2 - r) * K_across) / (r * K_across * (K_across + w))
+    return np.stack([w * K[0] / K_across, w * K[1] / K_across, omega3])
 
 
 def _started(p: Values) -> dict[str, FloatArray]:
@@ -62,9 +62,11 @@ def _started(p: Values) -> dict[str, FloatArray]:
         slopes = _on_hyperbola(r, np.stack([K1, K2, K3]), w).imag / h
     if not np.isfinite(slopes).all():
         raise AtlasError("On a vertical line of the hyperbola omega2 and the field do not tell Omega.")
-    turned = A.T @ np.cross(field, _left(vector(p, ATTITUDE)), axisb=0, axisc=0)
+    field_by_attitude = A.T @ np.cross(field, _left(vector(p, ATTITUDE)), axisb=0, axisc=0)
     by = {"ratio": slopes[:, 0], "omega2": slopes[:, 4]}
-    return by | dict(zip((*B, *ATTITUDE), [*(slopes[:, 1:4] @ A.T).T, *(slopes[:, 1:4] @ turned).T], strict=True))
+    return by | dict(
+        zip((*B, *ATTITUDE), [*(slopes[:, 1:4] @ A.T).T, *(slopes[:, 1:4] @ field_by_attitude).T], strict=True)
+    )
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
@@ -169,7 +171,7 @@ class Model:
         out = np.empty((t.size, len(names), 3))
         for j, name in enumerate(names):
             h = STEP * units[name]
-            up, down = (self._beside(p, name, step) for step in (h, -h))
+            up, down = (self._near_motion(p, name, step) for step in (h, -h))
             width = up[1] - down[1]
             turn = up[0].rotation(t) @ down[0].rotation(t).swapaxes(1, 2)
             out[:, j] = Rotation.from_matrix(turn).as_rotvec() / width
@@ -190,13 +192,15 @@ class Model:
             blocks.append((OMEGA, dict(self.start(p))))
         composed = {*ATTITUDE, *DIRECTION, *(OMEGA if self.start else ())}
         inputs = [name for name in names if name not in composed]
-        chain = np.array([[float(name == own) for own in inputs] for name in names]).reshape(len(names), -1)
-        for several, by in blocks:
-            inputs += several
+        chain = np.array([[float(name == input_name) for input_name in inputs] for name in names]).reshape(
+            len(names), -1
+        )
+        for names_of_block, by in blocks:
+            inputs += names_of_block
             chain = np.hstack([chain, [by.get(name, np.zeros(3)) for name in names]])
         return inputs, chain
 
-    def _beside(self, p: Values, name: str, step: float) -> tuple[Any, float]:
+    def _near_motion(self, p: Values, name: str, step: float) -> tuple[Any, float]:
         """Return a motion beside another, and the step; the other itself where there is none."""
         try:
             return self.make({**p, name: p[name] + step}), step
@@ -210,8 +214,8 @@ def _left(a: FloatArray) -> FloatArray:
     hat = np.cross(np.eye(3), a)
     if angle < STEP:
         return np.asarray(np.eye(3) + hat / 2)
-    sine, rest = np.sinc(angle / np.pi), 2 * np.sin(angle / 2) ** 2 / angle**2
-    return np.asarray(np.eye(3) + rest * hat + (1 - sine) / angle**2 * (hat @ hat))
+    sine, quadratic = np.sinc(angle / np.pi), 2 * np.sin(angle / 2) ** 2 / angle**2
+    return np.asarray(np.eye(3) + quadratic * hat + (1 - sine) / angle**2 * (hat @ hat))
 
 
 _FIELD = (*B, *OMEGA, *ATTITUDE)
@@ -259,8 +263,8 @@ def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) 
     elif kind in IN_BODY:
         field, R = R.T @ field, np.eye(3)
     elif unseen(model, kind):
-        shown = upright(R[:, 2])
-        omega, R = shown.T @ R @ omega, shown
+        attitude_shown = upright(R[:, 2])
+        omega, R = attitude_shown.T @ R @ omega, attitude_shown
     parameters = {
         **p,
         **_named(B, field),
@@ -274,8 +278,8 @@ def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) 
 
 def upright(n: FloatArray) -> FloatArray:
     """Return the shortest turn that takes e3 to a unit vector."""
-    across = float(np.hypot(n[0], n[1]))
-    angle = np.arctan2(across, n[2]) / (across or 1.0)
+    sine = float(np.hypot(n[0], n[1]))
+    angle = np.arctan2(sine, n[2]) / (sine or 1.0)
     return np.asarray(Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix())
 
 

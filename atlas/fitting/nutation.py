@@ -21,7 +21,7 @@ from atlas.fitting.least import SCORE
 from atlas.fitting.models import ATTITUDE, OMEGA, B, Values, attitude, in_plane, model_of, state, upright, vector
 from atlas.fitting.parameters import parameters_of
 from atlas.fitting.problem import Problem
-from atlas.fitting.search import grown
+from atlas.fitting.search import follow_data
 
 HEIGHT = 1.0
 """Nutation in standard errors of the data from which on one that is good is the one."""
@@ -66,8 +66,8 @@ BLOCK = 400_000
 """Turns that are computed at once."""
 
 
-def settled(
-    problem: Problem, tried: list[tuple[float, Any]], *, good: bool
+def with_small_nutations(
+    problem: Problem, tried: list[tuple[float, Any]], *, is_followed: bool
 ) -> tuple[list[tuple[float, Any]], str, str]:
     """Return what was tried with the best small nutations, or one without any before all; and what is said of these.
 
@@ -78,22 +78,22 @@ def settled(
     (_, x), data = tried[0], problem.data
     motion, values = problem.motion(x)
     noise = np.median(data.sigma) * (1.0 if data.known else np.sqrt(problem.reduced(problem.residuals(x))))
-    if not values["b"] or (good and _nutation(problem, x) > HEIGHT * noise):
+    if not values["b"] or (is_followed and _nutation(problem, x) > HEIGHT * noise):
         return tried, "", ""
     try:
-        other, mean = _elementary(problem, motion, values)
-        motion, steady = other.motion(mean)
+        elementary, mean = _elementary(problem, motion, values)
+        motion, steady = elementary.motion(mean)
         steady = steady | dict(zip(OMEGA, motion.angular_velocity(0.0).tolist(), strict=True))
         level = problem.inside(steady)
         least = problem.chi_square(level)
-        slopes = other.jacobian(mean)
+        slopes = elementary.jacobian(mean)
     except AtlasError:
         return tried, "", ""
     count, starts = _nutations(problem, motion, steady, slopes)
     for promise, begin in starts:
         if promise < least - tried[0][0] - 2 * BEYOND:
             break
-        nutating = grown(problem, problem.inside(begin), data.t.size)
+        nutating = follow_data(problem, problem.inside(begin), data.t.size)
         tried = sorted([*tried, (problem.chi_square(nutating), nutating)], key=lambda minimum: minimum[0])
     best, x = tried[0]
     scale = problem.noise(best)
@@ -108,7 +108,7 @@ def settled(
     return [(least, level), *tried], words, ""
 
 
-def of_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
+def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
     """Return what was tried, before all a body of ratio 1 where the axis alone is seen and follows from that as well.
 
     The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
@@ -118,19 +118,19 @@ def of_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple
     values, ratio = problem.values(x), problem.params["ratio"]
     if problem.data.kind != "axis" or not ratio.vary or not ratio.min < 1 < ratio.max or values["ratio"] > SMALL:
         return tried
-    chi, other = best, x
+    chi, x_there = best, x
     for r in np.geomspace(values["ratio"], 1.0, 2 + int(-np.log(values["ratio"]) / STRIDE))[1:].tolist():
         params = problem.params.changed(ratio={"value": r, "vary": False})
-        held = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
+        problem_held = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
         K3 = float(attitude(values)[:, 2] @ vector(values, B))
         start = values | {"ratio": r, "omega3": (values["omega3"] + K3) * values["ratio"] / r - K3}
         try:
-            values = held.values(grown(held, held.inside(start), problem.data.t.size))
-            other = problem.inside(values)
-            chi = problem.chi_square(other)
+            values = problem_held.values(follow_data(problem_held, problem_held.inside(start), problem.data.t.size))
+            x_there = problem.inside(values)
+            chi = problem.chi_square(x_there)
         except AtlasError:
             return tried
-    return [(chi, other), *tried] if chi - best < LEVEL * problem.noise(best) else tried
+    return [(chi, x_there), *tried] if chi - best < LEVEL * problem.noise(best) else tried
 
 
 def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
@@ -141,37 +141,39 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
     params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
-    other = Problem(model, data, params, problem.loss, problem.rate)
+    elementary = Problem(model, data, params, problem.loss, problem.rate)
     axis, e3 = vector(values, B) / values["b"], np.array([0.0, 0.0, 1.0])
     rates = float(motion.precession_rate), float(motion.spin_rate)
     if not np.isfinite(rates).all():
         raise AtlasError("A separatrix has no mean rates.")
-    about, own = (Rotation.from_rotvec(np.outer(-rate * t, n)) for rate, n in zip(rates, (axis, e3), strict=True))
-    mean = (about * Rotation.from_matrix(motion.rotation(t)) * own).mean()
+    precession_back, spin_back = (
+        Rotation.from_rotvec(np.outer(-rate * t, n)) for rate, n in zip(rates, (axis, e3), strict=True)
+    )
+    mean = (precession_back * Rotation.from_matrix(motion.rotation(t)) * spin_back).mean()
     steady = [(axis, rates[0], mean)]
     if data.kind == "axis":
         steady.append(_circle(t, data.values))
-    found = []
+    minima = []
     for n, rate, at_rest in steady:
         omega = rate * at_rest.inv().apply(n) + rates[1] * e3
         start = {**values, **dict(zip((*B, *OMEGA, *ATTITUDE), [*n, *omega, *at_rest.as_rotvec()], strict=True))}
         with np.errstate(all="ignore"):
             field = n * _Steady(motion, start | {"b": 1.0}).modes(np.array([values["ratio"]])).field
-            across = float((in_plane(at_rest.inv().apply(field))[1] @ omega)[1])
-        x = other.inside({**start, **dict(zip(B, field.tolist(), strict=True)), "omega2": across})
-        found.append(grown(other, x, t.size))
-    return other, min(found, key=other.chi_square)
+            omega_across = float((in_plane(at_rest.inv().apply(field))[1] @ omega)[1])
+        x = elementary.inside({**start, **dict(zip(B, field.tolist(), strict=True)), "omega2": omega_across})
+        minima.append(follow_data(elementary, x, t.size))
+    return elementary, min(minima, key=elementary.chi_square)
 
 
 def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
     """Return the direction about which axes (N, 3) go round, their rate, and the shortest turn to where they start."""
     n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
-    first = np.cross(np.cross(n, axes[0]), n)
-    first /= np.linalg.norm(first) or 1.0
-    second = np.cross(n, first)
-    rate, phase = np.polyfit(t, np.unwrap(np.arctan2(axes @ second, axes @ first)), 1)
-    along = float((axes @ n).mean())
-    start = along * n + np.sqrt(max(1 - along**2, 0.0)) * (np.cos(phase) * first + np.sin(phase) * second)
+    e1 = np.cross(np.cross(n, axes[0]), n)
+    e1 /= np.linalg.norm(e1) or 1.0
+    e2 = np.cross(n, e1)
+    rate, phase = np.polyfit(t, np.unwrap(np.arctan2(axes @ e2, axes @ e1)), 1)
+    cosine = float((axes @ n).mean())
+    start = cosine * n + np.sqrt(max(1 - cosine**2, 0.0)) * (np.cos(phase) * e1 + np.sin(phase) * e2)
     return n, float(rate), Rotation.from_matrix(upright(start))
 
 
@@ -226,10 +228,10 @@ class _Steady:
         r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
         k, u, s = self.rate, self.cosine, self.sine
         b = k * (u * k - r * w) / (r * w + (r - 2) * u * k)
-        across = r * w + (r - 2) * b * u - u * k  # the derivative in theta of Omega across the axis, k s
-        bend = 2 * b * s + k * s - u * across / s + u * u * k / s
-        precession = (across - u * k) / s
-        frequency = np.sqrt(across**2 + k * s * bend + r * (b * s) ** 2 + r * w * b * u)
+        slope_across = r * w + (r - 2) * b * u - u * k  # the derivative in theta of Omega across the axis, k s
+        bend = 2 * b * s + k * s - u * slope_across / s + u * u * k / s
+        precession = (slope_across - u * k) / s
+        frequency = np.sqrt(slope_across**2 + k * s * bend + r * (b * s) ** 2 + r * w * b * u)
         return _Modes(r, w, b, frequency, precession, b * s - u * precession + s * k)
 
     def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
@@ -272,7 +274,7 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
         if data.kind == "axis":
             body = float(np.clip(values["ratio"], *MODERATE)) if ratio.vary else values["ratio"]
             lines.append(steady.modes(np.array(body), np.linspace(-1.0, 1.0, FINE) * nyquist / body))
-    spaced = [part for line in lines for part in _spaced(line, fastest, span)]
+    spaced = [modes_spaced for line in lines for modes_spaced in _spaced(line, fastest, span)]
     if not spaced:
         return 0, []
     modes = _Modes(*map(np.concatenate, zip(*spaced, strict=True)))
@@ -284,12 +286,12 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
 
 def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
     """Return the nutations below a frequency that differ by `PHASE_STEP` over the times."""
-    there = np.flatnonzero(modes.frequency < fastest)  # no nan
-    if not there.size:
+    places = np.flatnonzero(modes.frequency < fastest)  # no nan
+    if not places.size:
         return []
-    passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[there])))) * span
-    marks = np.arange(0.0, passed[-1], max(PHASE_STEP, passed[-1] / MAX_NUTATIONS)) if there.size > 1 else np.zeros(1)
-    return [modes.part(there[np.searchsorted(passed, marks)])]
+    passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[places])))) * span
+    marks = np.arange(0.0, passed[-1], max(PHASE_STEP, passed[-1] / MAX_NUTATIONS)) if places.size > 1 else np.zeros(1)
+    return [modes.part(places[np.searchsorted(passed, marks)])]
 
 
 def _periodogram(
@@ -302,17 +304,17 @@ def _periodogram(
     U, size, _ = np.linalg.svd(J * weight[:, None], full_matrices=False)
     U = U[:, size > 1e-9 * size.max(initial=0.0)]
     r = weight * r - U @ (U.T @ (weight * r))
-    rest = data.differences(steady.motion) if data.kind == "rotation" else np.zeros(3)
+    differences = data.differences(steady.motion) if data.kind == "rotation" else np.zeros(3)
     rows = []
-    for first in range(0, M, block := max(1, BLOCK // data.t.size)):
-        some_modes = modes.part(slice(first, first + block))
+    for start_mode in range(0, M, block := max(1, BLOCK // data.t.size)):
+        some_modes = modes.part(slice(start_mode, start_mode + block))
         if data.kind == "angular_velocity":
             h = 1e-4 / problem.rate
             v = (steady.turns(data.t + h, some_modes) - steady.turns(data.t - h, some_modes)) / (2 * h)
         else:
             v = steady.turns(data.t, some_modes)
-        seen = data.slopes(steady.motion, v, np.zeros(3), np.zeros(3), rest) / data.sigma[:, :, None]
-        C = seen.reshape(r.size, -1) * weight[:, None]
+        slopes = data.slopes(steady.motion, v, np.zeros(3), np.zeros(3), differences) / data.sigma[:, :, None]
+        C = slopes.reshape(r.size, -1) * weight[:, None]
         C -= U @ (U.T @ C)
         C = C.reshape(r.size, 2, -1)
         square, by = np.einsum("nim,njm->mij", C, C, optimize=True), np.einsum("nim,n->mi", C, r)

@@ -59,9 +59,9 @@ class Parameters(Mapping[str, Parameter]):
         """Return a copy in which the named parameters have other attributes."""
         return Parameters(self._by_name | {name: replace(self[name], **new) for name, new in parameters.items()})
 
-    def values_with(self, free: Values) -> dict[str, float]:
+    def values_with(self, free_values: Values) -> dict[str, float]:
         """Return the values of all parameters, with those of `free` in place of their own."""
-        values = {name: free.get(name, p.value) for name, p in self.items()}
+        values = {name: free_values.get(name, p.value) for name, p in self.items()}
         tied = [name for name, p in self.items() if p.expr]
         if tied == ["b"] and self["b"].expr == LENGTH:
             return values | {"b": hypot(*(values[name] for name in B))}
@@ -98,50 +98,50 @@ def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tup
 
     Raises AtlasError for an unknown name, a name in both `params` and `fix`, and a value outside its bounds.
     """
-    typed = _typed(params) | _typed(fix, held=True)
+    user_attributes = _user_attributes(params) | _user_attributes(fix, is_fix=True)
     if twice := sorted({*(params or ())} & {*(fix or ())}):
         raise AtlasError(f"{twice[0]} is in both fix and params: give it in one of them.")
-    hidden, found = unseen(model, data.kind), dict[str, Parameter]()
+    hidden, parameters = unseen(model, data.kind), dict[str, Parameter]()
     for name in model.names:
         low, high = LIMITS.get(name, (-inf, inf))
         value = model.fixed.get(name, hidden.get(name, 1.0 if name in LIMITS else 0.0))
-        found[name] = Parameter(value, name not in model.fixed and name not in hidden, low, high)
+        parameters[name] = Parameter(value, name not in model.fixed and name not in hidden, low, high)
     start = dict[str, float]()
-    for name, given in typed.items():
-        if name not in found and "expr" not in given:
+    for name, attributes in user_attributes.items():
+        if name not in parameters and "expr" not in attributes:
             raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
-        own = found.get(name, Parameter(0.0))
-        low, high = max(given.get("min", -inf), own.min), min(given.get("max", inf), own.max)
-        p = replace(own, **{"vary": True, **given, "min": low, "max": high})
-        if not (p.vary or "value" in given or p.expr or name in model.fixed):
+        default = parameters.get(name, Parameter(0.0))
+        low, high = max(attributes.get("min", -inf), default.min), min(attributes.get("max", inf), default.max)
+        p = replace(default, **{"vary": True, **attributes, "min": low, "max": high})
+        if not (p.vary or "value" in attributes or p.expr or name in model.fixed):
             raise AtlasError(f"{name} is held, but has no value: give one.")
-        if p.expr is None and "value" in given:
+        if p.expr is None and "value" in attributes:
             _check_value(name, p)
             if p.vary:
                 start[name] = p.value
-        found[name] = p
+        parameters[name] = p
     if all(name in model.names for name in B):
-        found.setdefault("b", Parameter(0.0, vary=False, expr=LENGTH))
-    return Parameters(found), start
+        parameters.setdefault("b", Parameter(0.0, vary=False, expr=LENGTH))
+    return Parameters(parameters), start
 
 
-def _typed(params: Any, *, held: bool = False) -> dict[str, dict[str, Any]]:
+def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str, Any]]:
     """Return the attributes that a user gave, by name."""
     if params is not None and not isinstance(params, Mapping):
-        raise AtlasError(f"{'fix' if held else 'params'} is a mapping of names to values, not {params!r}.")
-    typed = dict[str, dict[str, Any]]()
+        raise AtlasError(f"{'fix' if is_fix else 'params'} is a mapping of names to values, not {params!r}.")
+    by_name = dict[str, dict[str, Any]]()
     for name, p in (params or {}).items():
-        given = {"value": p, "vary": False} if held else _attributes(name, p)
-        for key in given.keys() & {"value", "min", "max"}:
+        attributes = {"value": p, "vary": False} if is_fix else _attributes(name, p)
+        for key in attributes.keys() & {"value", "min", "max"}:
             try:
-                given[key] = float(given[key])
+                attributes[key] = float(attributes[key])
             except (TypeError, ValueError) as error:
-                raise AtlasError(f"{name}: {key} must be a number, not {given[key]!r}.") from error
-        low, high = given.get("min", -inf), given.get("max", inf)
+                raise AtlasError(f"{name}: {key} must be a number, not {attributes[key]!r}.") from error
+        low, high = attributes.get("min", -inf), attributes.get("max", inf)
         if not low <= high:
             raise AtlasError(f"{name}: min must not exceed max, but they are {low!r} and {high!r}.")
-        typed[name] = given
-    return typed
+        by_name[name] = attributes
+    return by_name
 
 
 def _attributes(name: str, p: Any) -> dict[str, Any]:
@@ -153,10 +153,16 @@ def _attributes(name: str, p: Any) -> dict[str, Any]:
     if not hasattr(p, "vary"):
         return {"value": p}
     value = getattr(p, "init_value", None) if p.value in (p.min, p.max) else None
-    given = {"value": p.value if value is None else value, "vary": p.vary, "min": p.min, "max": p.max, "expr": p.expr}
-    if p.expr is not None or given["value"] == -inf:
-        del given["value"]  # none was given
-    return {key: x for key, x in given.items() if x is not None}
+    attributes = {
+        "value": p.value if value is None else value,
+        "vary": p.vary,
+        "min": p.min,
+        "max": p.max,
+        "expr": p.expr,
+    }
+    if p.expr is not None or attributes["value"] == -inf:
+        del attributes["value"]  # none was given
+    return {key: x for key, x in attributes.items() if x is not None}
 
 
 def _check_value(name: str, p: Parameter) -> None:

@@ -63,8 +63,8 @@ class Problem:
         """Whether motions are integrated, not in closed form."""
         self.together = True
         """Whether motions are sought, many at once, by integrations."""
-        self._kept: tuple[Any, Any] = (None, None)
-        self._kept_slopes: tuple[Any, Any] = (None, None)
+        self._latest: tuple[Any, Any] = (None, None)
+        self._latest_slopes: tuple[Any, Any] = (None, None)
 
     def shifted(self, centre: float, rate: float) -> "Problem":
         """Return the same with times from another one on, and another typical rate."""
@@ -99,13 +99,15 @@ class Problem:
         """Return all parameters, of those that are varied."""
         return self.params.values_with(dict(zip(self.names, map(float, x), strict=True)))
 
-    def several(self, X: FloatArray) -> dict[str, FloatArray]:
+    def values_of_all(self, X: FloatArray) -> dict[str, FloatArray]:
         """Return all parameters, each (M,), of M motions."""
         if self.tied:
             rows = [self.values(x) for x in X]
             return {name: np.array([row[name] for row in rows]) for name in self.model.names}
-        stand = {name: np.full(len(X), self.params[name].value) for name in self.model.names if name not in self.names}
-        return {**stand, **dict(zip(self.names, X.T, strict=True))}
+        constants = {
+            name: np.full(len(X), self.params[name].value) for name in self.model.names if name not in self.names
+        }
+        return {**constants, **dict(zip(self.names, X.T, strict=True))}
 
     def inner(self, X: FloatArray) -> FloatArray:
         """Return values between the bounds."""
@@ -120,10 +122,10 @@ class Problem:
     def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
         """Return the motion, and all parameters."""
         key = tuple(x)
-        if self._kept[0] != key:
+        if self._latest[0] != key:
             values = self.values(x)
-            self._kept = key, (self._made(values), values)
-        return self._kept[1]  # type: ignore[no-any-return]
+            self._latest = key, (self._motion_of(values), values)
+        return self._latest[1]  # type: ignore[no-any-return]
 
     def carried(self, x: Vector, time: float) -> dict[str, float]:
         """Return the parameters that a motion has at another time."""
@@ -131,16 +133,16 @@ class Problem:
         R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
         return state(self.model, self.data.kind, values, R.reshape(3, 3), omega.reshape(3))
 
-    def _made(self, values: Values) -> Any:
+    def _motion_of(self, values: Values) -> Any:
         if not self.followed:
             return self.model.make(values)
         return flow(self.model, {name: np.array([values[name]]) for name in self.model.names}, self.error)
 
     def alone(self) -> "Problem":
         """Return the same for one motion at a time, with closed forms where they are fast."""
-        other = self.shifted(0.0, self.rate)
-        other.together = False
-        return other
+        copy = self.shifted(0.0, self.rate)
+        copy.together = False
+        return copy
 
     def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
         """Return the residuals of motions, (M, N k), huge ones where there is none."""
@@ -148,7 +150,7 @@ class Problem:
             return np.stack([self.residuals(x, places) for x in X])
         data = self.data.part(places)
         with np.errstate(all="ignore"):
-            r = data.differences(flow(self.model, self.several(X), self.error)) / data.sigma
+            r = data.differences(flow(self.model, self.values_of_all(X), self.error)) / data.sigma
         return np.where(abs(r) < LOST, r, HUGE).reshape(len(X), -1)
 
     def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
@@ -158,8 +160,8 @@ class Problem:
             r = self.apart(X, places)
             return r, np.stack([self._jacobian(x, row, places) for x, row in zip(X, r, strict=True)])
         h = STEP * self.units_of_free
-        moved = X[:, None] + np.concatenate([np.zeros((1, n)), np.diag(h)])
-        r = self.apart(moved.reshape(-1, n), places).reshape(M, n + 1, -1)
+        points = X[:, None] + np.concatenate([np.zeros((1, n)), np.diag(h)])
+        r = self.apart(points.reshape(-1, n), places).reshape(M, n + 1, -1)
         return r[:, 0], (r[:, 1:] - r[:, :1]) / h[:, None]
 
     def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
@@ -171,16 +173,16 @@ class Problem:
 
     def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return I3, and what M3 has besides I3 omega3, at t = 0, each (M,)."""
-        motions = flow(self.model, self.several(X), self.error)
+        motions = flow(self.model, self.values_of_all(X), self.error)
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 
     def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
         """Return the derivatives of parameters in those that are varied, (len(names), free)."""
         if not self.tied and all(name in self.model.names for name in names):
-            return np.array([[float(name == free) for free in self.names] for name in names])
+            return np.array([[float(name == free_name) for free_name in self.names] for name in names])
         out = np.empty((len(names), len(self.names)))
-        for j, free in enumerate(self.names):
-            h = STEP * self.units[free]
+        for j, free_name in enumerate(self.names):
+            h = STEP * self.units[free_name]
             up, down = (self.values([*x[:j], x[j] + step, *x[j + 1 :]]) for step in (h, -h))
             out[:, j] = [(up[name] - down[name]) / (2 * h) for name in names]
         return out
@@ -199,10 +201,10 @@ class Problem:
     def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
         """Return residuals and derivatives, which one integration gives; those of all data are kept till the next."""
         key = tuple(x) if isinstance(places, slice) else None
-        if key is None or self._kept_slopes[0] != key:
+        if key is None or self._latest_slopes[0] != key:
             r, J = self.turned(np.array([x]), places)
-            self._kept_slopes = key, (r[0], J[0])
-        return self._kept_slopes[1]  # type: ignore[no-any-return]
+            self._latest_slopes = key, (r[0], J[0])
+        return self._latest_slopes[1]  # type: ignore[no-any-return]
 
     @cached_property
     def width(self) -> int:
@@ -221,21 +223,21 @@ class Problem:
             return np.asarray(np.moveaxis(J.reshape(len(x), data.t.size, -1), 0, -1))
         motion, values = self.motion(x)
         chain = self.chain(x, self.model.names)
-        moved = [i for i, row in enumerate(chain) if row.any()]
-        names = [self.model.names[i] for i in moved]
+        indices = [i for i, row in enumerate(chain) if row.any()]
+        names = [self.model.names[i] for i in indices]
         v = self._vectors(values, names, data.t, motion)
         fields = np.array([self._field_by(name, values) for name in names]).reshape(-1, 3)
-        rest = data.differences(motion) if data.kind == "rotation" else np.zeros(3)
-        slopes = data.slopes(motion, v, field_of(self.model, values), fields, rest)
-        return np.asarray(-(slopes @ chain[moved]) / data.sigma[:, :, None])
+        differences = data.differences(motion) if data.kind == "rotation" else np.zeros(3)
+        slopes = data.slopes(motion, v, field_of(self.model, values), fields, differences)
+        return np.asarray(-(slopes @ chain[indices]) / data.sigma[:, :, None])
 
     def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
         """Return the turns of R, (N, P, 3), or their derivatives in time where rates are seen."""
         if self.data.kind != "angular_velocity":
             return self.model.vectors(values, names, t, self.units, motion)
         h = 1e-4 / self.rate
-        both = self.model.vectors(values, names, np.concatenate([t + h, t - h]), self.units, motion)
-        return np.asarray((both[: t.size] - both[t.size :]) / (2 * h))
+        vectors = self.model.vectors(values, names, np.concatenate([t + h, t - h]), self.units, motion)
+        return np.asarray((vectors[: t.size] - vectors[t.size :]) / (2 * h))
 
     def _field_by(self, name: str, values: Values) -> FloatArray:
         """Return the derivative of what `field_in_body` shows, in the laboratory."""
@@ -260,8 +262,8 @@ class Problem:
 
     def noise(self, chi: float) -> float:
         """Return the unit of differences of chi square: 1, or its least value a number where sigma is a guess."""
-        known = self.data.known and self.loss == "linear"
-        return 1.0 if known else chi / (self.data.t.size * self.width - len(self.names))
+        is_known = self.data.known and self.loss == "linear"
+        return 1.0 if is_known else chi / (self.data.t.size * self.width - len(self.names))
 
 
 def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[FloatArray, FloatArray]:
@@ -272,8 +274,8 @@ def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[F
     from scipy.optimize import least_squares
 
     with np.errstate(invalid="ignore"):  # for combinations that are not determined
-        found = least_squares(
+        solution = least_squares(
             problem.residuals, x, problem.jacobian, problem.bounds, loss=problem.loss, x_scale="jac",
             ftol=1e-5, xtol=1e-9, gtol=np.inf if steady else 1e-10, max_nfev=60,
         )  # fmt: skip
-    return np.asarray(found.x), np.asarray(found.jac)
+    return np.asarray(solution.x), np.asarray(solution.jac)

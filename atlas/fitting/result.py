@@ -134,28 +134,28 @@ class Fit:
         x, jac = minimum(problem, tried[0][1], steady=bool(steady))
         motion = problem.model.make(problem.values(x))
         r, J = problem.residuals(x), problem.jacobian(x)
-        free = r.size - len(x)
+        freedom = r.size - len(x)
         score = SCORE[problem.loss](r * r)
         redchi = problem.reduced(r)
         scale = 1.0 if data.known else float(np.sqrt(redchi))
-        seen = Seen(problem, motion, x, J, jac if problem.loss != "linear" else J, score * r, scale)
+        view = Seen(problem, motion, x, J, jac if problem.loss != "linear" else J, score * r, scale)
         sigma = data.sigma[:, 0] * scale
         residuals = (r / scale).reshape(data.t.size, -1)
         redchi = redchi / scale**2
-        parameters = seen.parameters()
-        words = seen.words()
+        parameters = view.parameters()
+        words = view.words()
         equal = equal_solutions(problem, x, redchi, signs=bool(words or steady))
         wider = [] if words or steady or problem.loss != "linear" else wider_families(problem, x, parameters, scale)
         return cls(
             family=problem.model.name, kind=data.kind, epoch=epoch, parameters=parameters,
-            names=tuple(problem.names), covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
+            names=tuple(problem.names), covariance=view.covariance, residuals=residuals, t=data.t + epoch,
             sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
             undetermined=(*[steady] * bool(steady), *words, *gauge(problem)),
-            warnings=(*[doubt] * bool(doubt), *_warnings(problem, x, residuals, redchi, free),
+            warnings=(*[doubt] * bool(doubt), *_warnings(problem, x, residuals, redchi, freedom),
                       *warnings_of(parameters, equal, wider)),
-            alternatives=(*equal, *(other for _, other in wider), *other_minima(problem, tried, free * scale**2)),
+            alternatives=(*equal, *(found for _, found in wider), *other_minima(problem, tried, freedom * scale**2)),
             problem=problem,
-            _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole, notes=data.notes,
+            _free=view.null * view.units[:, None], _units=view.units, _whole=view.whole, notes=data.notes,
         )  # fmt: skip
 
     def __getattr__(self, name: str) -> Any:
@@ -198,25 +198,25 @@ class Fit:
             raise AtlasError(f"Predicted are rotation, axis, angular_velocity, field_in_body and signal, not {of!r}.")
         times = real(t, "t")
         flat = times.ravel() - self.epoch
-        own = self.problem.data
-        data = Data(kind, flat, np.zeros((flat.size, 1)), np.ones((flat.size, 1)), own.function)
+        data_fitted = self.problem.data
+        data = Data(kind, flat, np.zeros((flat.size, 1)), np.ones((flat.size, 1)), data_fitted.function)
         value = data.of(self.motion, flat)
         if kind == "axis":
             R, value = value, value[:, :, 2]
-        there = Problem(
+        problem_there = Problem(
             self.problem.model,
             replace(data, values=value if kind != "axis" else R),
             self.problem.params,
             "linear",
             self.problem.rate,
         )
-        there.followed = False
-        J = -there.slopes(self._x)
+        problem_there.followed = False
+        J = -problem_there.slopes(self._x)
         if kind == "axis":
             J = R[:, :, :1] * J[:, :1] + R[:, :, 1:2] * J[:, 1:]
         sigma = np.sqrt(np.einsum("nki,ij,nkj->nk", J, self._whole, J).clip(0))
-        lost = abs(J @ self._free).sum(-1) > 1e-6 * abs(J * self._units).max(initial=1.0)
-        sigma = np.where(lost, np.inf, sigma)
+        is_lost = abs(J @ self._free).sum(-1) > 1e-6 * abs(J * self._units).max(initial=1.0)
+        sigma = np.where(is_lost, np.inf, sigma)
         return Prediction(value.reshape(*times.shape, *value.shape[1:]), sigma.reshape(*times.shape, -1))
 
     def horizon(self, error: float, of: str = "") -> float:
@@ -227,16 +227,16 @@ class Fit:
         AtlasError for what is no positive number, and as `predict` does.
         """
         error = positive(error, "The error")
-        first, last = float(self.t.min()), float(self.t.max())
-        span = last - first
+        start, end = float(self.t.min()), float(self.t.max())
+        span = end - start
         cycle = np.linspace(0, 4 * np.pi / self.problem.rate, 24)
 
         def bad(ahead: float) -> bool:
-            return bool((self.predict(last + ahead + cycle, of).sigma > error).any())
+            return bool((self.predict(end + ahead + cycle, of).sigma > error).any())
 
         if bad(0.0):
-            good = (self.predict(self.t, of).sigma <= error).all(-1)
-            return float(self.t[good].max(initial=-np.inf))
+            times_good = (self.predict(self.t, of).sigma <= error).all(-1)
+            return float(self.t[times_good].max(initial=-np.inf))
         low, high = 0.0, span
         while not bad(high):
             low, high = high, 2 * high
@@ -245,7 +245,7 @@ class Fit:
         while high - low > 1e-3 * span and high - low > 1e-3 * high:
             middle = (low + high) / 2
             low, high = (low, middle) if bad(middle) else (middle, high)
-        return last + low
+        return end + low
 
     def conf_interval(self, **options: Any) -> Any:
         """Return lmfit's confidence intervals, by chi square along each parameter: pairs (probability, value) by name.
@@ -277,14 +277,14 @@ class Fit:
         heading, rows = ["parameter", "value", "standard error", ""], []
         for name, p in self.parameters.items():
             note = "" if p.free else f"= {p.expr}" if p.expr else "fixed"
-            sought = p.free or any(
+            is_fitted = p.free or any(
                 self.parameters[x].free for x in re.findall(r"\w+", p.expr or "") if x in self.parameters
             )
             if p.stderr:
                 digits = max(0, 1 - int(np.floor(np.log10(p.stderr))))
                 rows.append([name, f"{p.value:.{digits}f}", f"{p.stderr:.{digits}f}", note])
             else:
-                note = f"{note}, not determined".removeprefix(", ") if sought else note
+                note = f"{note}, not determined".removeprefix(", ") if is_fitted else note
                 rows.append([name, f"{p.value:.6g}", "-", note])
         return heading, rows
 
@@ -311,7 +311,7 @@ class Fit:
     @property
     def others(self) -> list[str]:
         """The alternatives, in sentences."""
-        return [other.sentence(self.family, self.parameters) for other in self.alternatives]
+        return [alternative.sentence(self.family, self.parameters) for alternative in self.alternatives]
 
     def _sentences(self) -> list[str]:
         return [*self.undetermined, *self.warnings, *self.others, *self.notes]
@@ -338,37 +338,37 @@ class Fit:
             "redchi": self.redchi, "sigma": np.asarray(self.sigma).tolist(), "names": list(self.names),
             "covariance": self.covariance.tolist(), "undetermined": list(self.undetermined),
             "warnings": list(self.warnings), "notes": list(self.notes),
-            "alternatives": [{**other._asdict(), "values": dict(other.values)} for other in self.alternatives],
+            "alternatives": [{**x._asdict(), "values": dict(x.values)} for x in self.alternatives],
         }  # fmt: skip
 
     def scene(self) -> Scene:
         """Draw data and curve, and the residuals in standard errors below."""
         data = self.problem.data
         axis = data.kind in ("rotation", "axis")
-        seen = data.values[:, :, 2] if data.kind == "rotation" else data.values
+        observed = data.values[:, :, 2] if data.kind == "rotation" else data.values
         t = np.linspace(self.t.min(), self.t.max(), 2000)
         curve = self.predict_values(t)
         name = {"angular_velocity": r"\Omega", "field_in_body": "K"}.get(data.kind, "R" if axis else "s")
         colours = ("main", "second", "third")
         layers: list[Layer] = []
-        for i in range(min(seen.shape[1], 3)):
+        for i in range(min(observed.shape[1], 3)):
             label = f"${name}_{{{i + 1}{'3' if axis else ''}}}$"
             layers += [
                 Curve(np.column_stack([t, curve[:, i]]), colours[i], label),
-                Points(np.column_stack([self.t, seen[:, i]]), "sample"),
+                Points(np.column_stack([self.t, observed[:, i]]), "sample"),
             ]
-        rest = [Points(np.column_stack([self.t, r]), "sample") for r in self.residuals.T]
-        what = f"{self.family} motion fitted to {self.t.size} times of {self.kind.replace('_', ' ')}"
+        residual_layers = [Points(np.column_stack([self.t, r]), "sample") for r in self.residuals.T]
+        subject = f"{self.family} motion fitted to {self.t.size} times of {self.kind.replace('_', ' ')}"
         return Scene(
-            title=f"A {what}",
+            title=f"A {subject}",
             caption=(
                 "Above, the data as points and the fitted motion as curves; below, the residuals in standard errors. "
                 f"{self._title[:1].upper()}{self._title[1:]}."
             ),
-            alt=f"A {what}: points on curves against time, and residuals scattered about zero.",
+            alt=f"A {subject}: points on curves against time, and residuals scattered about zero.",
             panels=(
                 Plane(tuple(layers), "$t$", "data", legend="beside"),
-                Plane(tuple(rest), "$t$", r"residual, in $\sigma$"),
+                Plane(tuple(residual_layers), "$t$", r"residual, in $\sigma$"),
             ),
             size=(140.0, 120.0),
             parameters={name: p.value for name, p in self.parameters.items()},
@@ -381,19 +381,19 @@ class Fit:
 
     def plot(self, style: StyleLike = None) -> "Figure":
         """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
-        drawn: Figure = notebook("pictures").to_figure(self.scene(), style)
-        return drawn
+        figure: Figure = notebook("pictures").to_figure(self.scene(), style)
+        return figure
 
 
-def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:
+def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, freedom: int) -> list[str]:
     """Return what speaks against the family."""
     out = []
     data, wider = problem.data, problem.model.wider
-    other = "the family is not that of the motion ("
-    other += f"family {' or '.join(wider)} is wider; " * bool(wider) + "drag, a second field"
-    other += "; rates that are not along the axes of the body)" if data.kind == "angular_velocity" else ")"
+    cause = "the family is not that of the motion ("
+    cause += f"family {' or '.join(wider)} is wider; " * bool(wider) + "drag, a second field"
+    cause += "; rates that are not along the axes of the body)" if data.kind == "angular_velocity" else ")"
     off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
-    surprising = data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free)
+    surprising = data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / freedom)
     if off > FOLLOWED * data.spread and (surprising or not data.known):
         out.append(
             "The motion does not follow the data: give a start by params (--start), fix what is known, or measure more "
@@ -401,12 +401,14 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
         )
     if surprising and problem.loss == "linear":
         reason = (
-            f"{other}, sigma is too small, or this is a false minimum, as there are where a nutation is small: give a "
+            f"{cause}, sigma is too small, or this is a false minimum, as there are where a nutation is small: give a "
             "start by params (--start)"
             if redchi > 1
             else "sigma is too large"
         )
-        out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {reason}.")
+        out.append(
+            f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / freedom):.2g} is expected: {reason}."
+        )
     lengths = np.linalg.norm(r, axis=1)
     uneven = np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
     if problem.loss == "linear" and uneven and r.size >= MANY:
@@ -415,6 +417,6 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
     if abs(correlation) > SURPRISE / np.sqrt(r.size):
         out.append(
             f"Neighbouring residuals are correlated ({correlation:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is "
-            f"expected): {other}, or the noise is not white."
+            f"expected): {cause}, or the noise is not white."
         )
     return out

@@ -43,7 +43,7 @@ STARTS = {"rotation": 12, "axis": 40, "angular_velocity": 12, "field_in_body": 2
 """Motions that are tried at first; three times as many where none of them is good."""
 
 PARTS, BEST = (0.5, 0.25, 0.75), 3
-"""Where in the data motions are sought, one after another, and how many are followed to all of them."""
+"""Where in the data motions are motions_of_arc, one after another, and how many are followed to all of them."""
 
 
 def turns(data: Data, i: Any, j: Any) -> FloatArray:
@@ -81,15 +81,15 @@ def centre_of(data: Data, rate: float, share: float) -> float:
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
     """Return what is seen at t = 0 and its rate of change, by a parabola; of rotations R and Omega in the body."""
     order = np.argsort(abs(data.t), kind="stable")
-    near = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
-    t, x = data.t[near], data.values[near]
+    rows = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
+    t, x = data.t[rows], data.values[rows]
     start = np.zeros(0)
     if data.kind == "rotation":
         few = x[:9]
         off = np.linalg.norm(difference(few[:, None], few), axis=-1)
         start = few[np.argmin(np.median(off, 1))]
         x = difference(start.T @ x, np.eye(3))
-    powers = t[:, None] ** np.arange(3 if near.size > 6 else 2)
+    powers = t[:, None] ** np.arange(3 if rows.size > 6 else 2)
     weights = np.ones(len(t))
     for _ in range(5):  # outliers are not to carry it off
         coefficients = np.linalg.lstsq(powers * weights[:, None], x * weights[:, None])[0]
@@ -122,8 +122,8 @@ def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str,
     elif data.kind == "field_in_body":
         K, slope = local(data, rate)
         field = np.tile(K, (count, 1))
-        across = np.cross(slope, K) / (K @ K)  # K' = K x Omega
-        omega = across + np.outer(rng.permuted(np.linspace(-1, 1, count)) ** 3 * 6 * rate, K / np.linalg.norm(K))
+        omega_across = np.cross(slope, K) / (K @ K)  # K' = K x Omega
+        omega = omega_across + np.outer(rng.permuted(np.linspace(-1, 1, count)) ** 3 * 6 * rate, K / np.linalg.norm(K))
     else:
         R = Rotation.random(count, random_state=seed).as_matrix()
     if problem.model.has_direction and data.kind in IN_BODY:
@@ -149,7 +149,7 @@ def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str,
     ends = np.sort(-D[:, None] / np.stack([I1, np.ones(count), I3], -1), -1)
     inner = ends[:, 0] + rng.uniform(0.1, 0.9, count) * (ends[:, 1] - ends[:, 0])
     parameters["z"] = np.where(rng.random(count) < 0.3, inner, ends[:, 2] + np.exp(rng.normal(0, 1.5, count)))
-    parameters["omega2"] = np.vecdot(omega, _across(np.vecmat(field, R)))
+    parameters["omega2"] = np.vecdot(omega, _unit_across(np.vecmat(field, R)))
     return parameters
 
 
@@ -169,7 +169,7 @@ def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple
     return A, np.stack([-torque[:, 1] / A, torque[:, 0] / A, n3], -1)
 
 
-def _across(K: FloatArray) -> FloatArray:
+def _unit_across(K: FloatArray) -> FloatArray:
     """Return the unit vectors along the parts of fields across e3, (..., 3)."""
     flat = K * [1.0, 1.0, 0.0]
     return np.asarray(flat / np.maximum(np.linalg.norm(flat, axis=-1, keepdims=True), 1e-300))
@@ -193,21 +193,23 @@ def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, Floa
     rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
     largest = FIELD * (4.0 if rate > problem.rate else 1.0)
     centre = 0.0 if problem.pinned else centre_of(problem.data, rate, PARTS[k])
-    there = problem.shifted(centre, rate)
-    for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, largest, last=k == len(PARTS) - 1):
-        yield centre, there, x, count
+    shifted = problem.shifted(centre, rate)
+    for x, count in motions_of_arc(shifted, STARTS[problem.data.kind] * 3**k, k, largest, is_last=k == len(PARTS) - 1):
+        yield centre, shifted, x, count
 
 
-def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bool) -> Iterator[tuple[FloatArray, int]]:
+def motions_of_arc(
+    problem: Problem, starts: int, seed: int, largest: float, *, is_last: bool
+) -> Iterator[tuple[FloatArray, int]]:
     """Yield the best motions of an arc about t = 0, and how many data it has; none if all are lost, but the last."""
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate
-    first = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
-    several = random(problem, starts, seed, largest)
-    ones = np.ones(starts)
-    several |= {name: value * ones for name, value in problem.given.items()}
-    X = np.stack([several.get(name, problem.params[name].value * ones) for name in problem.names], -1)
-    crowd, count = Crowd(problem, X), min(first, len(order))
+    count_at_start = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
+    starts_by_name = random(problem, starts, seed, largest)
+    unit = np.ones(starts)
+    starts_by_name |= {name: value * unit for name, value in problem.given.items()}
+    X = np.stack([starts_by_name.get(name, problem.params[name].value * unit) for name in problem.names], -1)
+    crowd, count = Crowd(problem, X), min(count_at_start, len(order))
     crowd.refine(order[:count], 1)
     crowd.drop(max(MANY, int(len(crowd.X) * KEPT)))
     crowd.refine(order[:count], 2 * ROUNDS - 1)
@@ -217,22 +219,22 @@ def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bo
         further = max(int((away < away[count - 1] * GROWTH).sum()), int(count * 1.3))
         count = min(further, len(order))
         crowd.refine(order[:count], ROUNDS)
-        if not last and np.sqrt(crowd.costs.min() / count) > _allowed(problem):
+        if not is_last and np.sqrt(crowd.costs.min() / count) > _allowed(problem):
             return
     crowd.drop(BEST)
     for x in crowd.X:
         yield x, count
 
 
-def grown(problem: Problem, x: FloatArray, count: int) -> FloatArray:
+def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
     """Return what a motion leads to that follows so many data about t = 0: the arc grows to all times."""
     order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.alone(), x[None])
     misfit = 0.0
     while True:
-        count = _reach(crowd, order, count, misfit)
-        whole = count == len(order)
-        crowd.refine(order[:count], LAST if whole else ROUNDS, 1e-3 if whole else 0.1)
-        if whole:
+        count = _count_followed(crowd, order, count, misfit)
+        is_whole = count == len(order)
+        crowd.refine(order[:count], LAST if is_whole else ROUNDS, 1e-3 if is_whole else 0.1)
+        if is_whole:
             return np.asarray(crowd.X[0])
         misfit = float(np.sqrt(crowd.costs[0] / count))
         if misfit > _allowed(problem):
@@ -240,7 +242,7 @@ def grown(problem: Problem, x: FloatArray, count: int) -> FloatArray:
         count = int(GROWTH * count) + 1
 
 
-def _reach(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
+def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
     """Return how many of the data a motion follows without losing a turn, at least so many."""
     problem, n = crowd.problem, len(order)
     if least >= n:
@@ -249,8 +251,8 @@ def _reach(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
     if problem.loss != "linear":
         off = np.minimum(off, np.median(off) * 4)
     mean = np.sqrt(np.convolve(off**2, np.ones(SEVERAL) / SEVERAL, "valid"))
-    lost = np.flatnonzero(mean > max(_allowed(problem), 1.7 * misfit))
-    return max(least, n if not lost.size else int(lost[0]))
+    losses = np.flatnonzero(mean > max(_allowed(problem), 1.7 * misfit))
+    return max(least, n if not losses.size else int(losses[0]))
 
 
 def _allowed(problem: Problem) -> float:

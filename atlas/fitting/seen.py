@@ -42,10 +42,10 @@ class Seen:
         _, size, turn = np.linalg.svd(scaled, full_matrices=False)
         rounding = ROUNDING * size.max(initial=1.0)
         size = np.maximum(size, rounding)
-        self.lost = (scale / size > UNSEEN) | (size <= rounding)  # however exact the data are
-        inverse = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
-        null = self.lost & (size < NULL * size.max(initial=1.0))
-        weak = self.lost & ~null
+        self.is_lost = (scale / size > UNSEEN) | (size <= rounding)  # however exact the data are
+        inverse = turn[~self.is_lost].T / size[~self.is_lost] ** 2 @ turn[~self.is_lost]
+        null = self.is_lost & (size < NULL * size.max(initial=1.0))
+        weak = self.is_lost & ~null
         if problem.loss == "linear":
             self.covariance = inverse * scale**2
         else:  # of an M-estimator, whatever the noise
@@ -57,65 +57,67 @@ class Seen:
         self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
         """Covariance for predictions, which see what is hardly determined as little as the data do."""
         self.null = turn[null].T
-        self.free = _simple(turn[self.lost].T)
+        self.directions = _separated(turn[self.is_lost].T)
         """Combinations that are not determined, in natural units, (n, count)."""
         self.errors = np.sqrt(np.diag(self.covariance))
-        self.moved = self._moves(np.diag(self.units), self.errors)
+        self.is_moved = self._moves(np.diag(self.units), self.errors)
         """Whether each parameter moves along each of them, by more than its error."""
 
     def _moves(self, scaled: FloatArray, errors: FloatArray) -> Any:
-        by = abs(scaled @ self.free)
+        by = abs(scaled @ self.directions)
         return (by * UNSEEN > errors[:, None]) & (by > NULL * np.linalg.norm(scaled, axis=1)[:, None])
 
     def parameters(self) -> Parameters:
         """Return the parameters with values, standard errors and correlations, None where there are none."""
         problem, names = self.problem, self.problem.names
-        lost, errors = self.moved.any(1), self.errors
+        is_lost, errors = self.is_moved.any(1), self.errors
         marked: dict[str, dict[str, Any]] = {
             name: {"value": value} for name, value in problem.values(self.x).items() if name in problem.params
         }
         for i, name in enumerate(names):
-            marked[name] |= {"stderr": None if lost[i] else float(errors[i])}
-            marked[name] |= {"correl": None if lost[i] else {
-                other: float(self.covariance[i, j] / (errors[i] * errors[j]))
-                for j, other in enumerate(names) if j != i and not lost[j] and errors[i] * errors[j] > 0
+            marked[name] |= {"stderr": None if is_lost[i] else float(errors[i])}
+            marked[name] |= {"correl": None if is_lost[i] else {
+                other_name: float(self.covariance[i, j] / (errors[i] * errors[j]))
+                for j, other_name in enumerate(names) if j != i and not is_lost[j] and errors[i] * errors[j] > 0
             }}  # fmt: skip
         derived = [name for name, p in problem.params.items() if p.expr]
         by = problem.chain(list(self.x), derived)
         for name, row in zip(derived, by, strict=True):
             error = np.sqrt(max(row @ self.covariance @ row, 0.0))
-            moved = self._moves((row * self.units)[None], error[None]).any()
-            marked[name]["stderr"] = None if moved else float(error)
+            is_moved = self._moves((row * self.units)[None], error[None]).any()
+            marked[name]["stderr"] = None if is_moved else float(error)
         return problem.params.changed(**marked)
 
     def words(self) -> list[str]:
         """Return a sentence for each combination that the data do not determine."""
         out = []
-        for k, u in enumerate(self.free.T):
-            parts = [int(i) for i in np.argsort(-abs(u)) if self.moved[i, k]]
-            names = [self.problem.names[i] for i in parts]
+        for k, u in enumerate(self.directions.T):
+            indices = [int(i) for i in np.argsort(-abs(u)) if self.is_moved[i, k]]
+            names = [self.problem.names[i] for i in indices]
             if len(names) == 1:
                 out.append(f"{names[0]} is not determined by these data.")
                 continue
-            first = "ratio" if "ratio" in names else names[0]
+            leading = "ratio" if "ratio" in names else names[0]
             steps = u * self.units
-            steps = steps / steps[self.problem.names.index(first)]
+            steps = steps / steps[self.problem.names.index(leading)]
             moves = ", ".join(
-                f"{self.problem.names[i]} by {steps[i]:+.3g} d" for i in sorted(parts) if self.problem.names[i] != first
+                f"{self.problem.names[i]} by {steps[i]:+.3g} d"
+                for i in sorted(indices)
+                if self.problem.names[i] != leading
             )
             out.append(
-                f"{', '.join(names[:-1])} and {names[-1]} are not determined apart: if {first} changes by a small d "
+                f"{', '.join(names[:-1])} and {names[-1]} are not determined apart: if {leading} changes by a small d "
                 f"and {moves}, these data stay the same."
             )
         return out
 
 
-def _simple(free: FloatArray) -> FloatArray:
+def _separated(directions: FloatArray) -> FloatArray:
     """Return combinations (n, count) that span the same, each with a parameter that none of the others has."""
-    if free.shape[1] < 2:
-        return free
-    _, _, order = qr(free.T, mode="economic", pivoting=True)
-    simple = free @ np.linalg.inv(free[order[: free.shape[1]]])
+    if directions.shape[1] < 2:
+        return directions
+    _, _, order = qr(directions.T, mode="economic", pivoting=True)
+    simple = directions @ np.linalg.inv(directions[order[: directions.shape[1]]])
     return np.asarray(simple / np.linalg.norm(simple, axis=0))
 
 

@@ -790,7 +790,7 @@ def test_fits_of_tops_have_exact_derivatives(monkeypatch: pytest.MonkeyPatch) ->
     top, t = model_of("top"), np.linspace(0.0, 20.0, 30)
     motion = top.make(values)
     v = replace(top, exact=False).vectors(values, top.names, t, dict.fromkeys(values, 1.0), motion)
-    monkeypatch.setattr(type(top), "_beside", None)  # which differences need
+    monkeypatch.setattr(type(top), "_near_motion", None)  # which differences need
     assert top.vectors(values, top.names, t, {}, motion) == pytest.approx(v, abs=1e-7 * abs(v).max())
 
 
