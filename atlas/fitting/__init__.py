@@ -111,7 +111,7 @@ def fit(
     Returns
     -------
     Fit
-        Parameters with errors, the motion, predictions, and sentences on what the data leave open; see `Fit`.
+        Parameters with errors, the motion, predictions, and sentences on undetermined parameters; see `Fit`.
 
     Raises
     ------
@@ -197,7 +197,7 @@ def fit_file(
     sigma: RealArrayLike | None = None,
     **options: Any,
 ) -> Fit:
-    """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
+    """Fit the data of a CSV file, see `of_file`; `sigma` overrides its head, `options` are passed to `fit`."""
     table = of_file(file, kind)
     result = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)
     result.notes, result.time_unit = (*[table.left_out] * bool(table.left_out), *result.notes), table.unit
@@ -205,9 +205,9 @@ def fit_file(
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
-    """Return what starts lead to, the least squares and the values that are varied, the best first.
+    """Return the minima that starts lead to, pairs (chi square, varied parameters (n,)), the lowest first.
 
-    Few data whose noise is not known may be followed by a motion that is not theirs: then all starts are tried.
+    A wrong motion may follow few data of unknown noise: then all starts are tried.
     """
     minima: list[tuple[float, tuple[float, Any]]] = []
     is_clear = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
@@ -228,7 +228,7 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
 
 
 def _is_followed(problem: Problem, x: Any) -> bool:
-    """Return whether the data are followed, up to noise."""
+    """Return whether the motion of parameters x follows the data, up to noise."""
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
     if problem.data.known:
         allowed = SURE if problem.data.kind == "rotation" else 1.0  # others have false minima nearly as deep

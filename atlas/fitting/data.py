@@ -1,4 +1,4 @@
-"""What was measured of a motion: residuals in standard errors, and how they change as R turns.
+"""Measured data of a motion: residuals in standard errors, and how they change as R turns.
 
 A small change of a parameter turns R by a vector v of the laboratory, dR/dp = [v]x R, see `Motion.sensitivity`; what
 that does to each kind of data is written here.
@@ -74,12 +74,12 @@ class Data:
     """Sentences on rows and columns that were left out."""
 
     def part(self, places: Any) -> "Data":
-        """Return some of the data."""
+        """Return the data at some places of the arrays."""
         return replace(self, t=self.t[places], values=self.values[places], sigma=self.sigma[places])
 
     @property
     def spread(self) -> float:
-        """Size of the changes in the data: a difference as large as that means nothing in common."""
+        """Scale of variation: 1 for rotations and axes, else the largest standard deviation of a component."""
         return 1.0 if self.kind in ("rotation", "axis") else float(self.values.std(0).max()) or 1.0
 
     def of(self, motion: Any, t: FloatArray) -> FloatArray:
@@ -121,9 +121,9 @@ class Data:
     def slopes(
         self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, differences: FloatArray
     ) -> FloatArray:
-        """Return the derivatives of what is seen, (N, k, P), by which the differences shrink.
+        """Return the derivatives of the measured quantity, shape (N, k, P): the differences shrink by them.
 
-        `v` (N, P, 3) are the turns of R, of angular velocities dv/dt; `fields` (P, 3) what the parameters add to the
+        `v` (N, P, 3) are the turns of R, of angular velocities dv/dt; `fields` (P, 3) the derivatives of the
         `field`, and `rest` (N, 3) the differences where rotations are seen.
         """
         if self.kind == "rotation":
@@ -155,7 +155,7 @@ def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
     skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
     sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
     vectors = skew * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0))[..., None]
-    for place in np.argwhere(cosine < NEARLY_OPPOSITE):  # the axis is the largest column of what is symmetric
+    for place in np.argwhere(cosine < NEARLY_OPPOSITE):  # the axis is the largest column of the symmetric part
         i = tuple(place)
         twice = (turn[i] + turn[i].T) / 2 - cosine[i] * np.eye(3)
         axis = twice[np.argmax(np.diag(twice))]
@@ -177,7 +177,7 @@ def _inverse_right(rho: FloatArray) -> FloatArray:
 def of_arrays(
     t: Any, data: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool, nan_policy: str = "omit"
 ) -> Data:
-    """Return the data of arrays, of one kind that is not None. Raises AtlasError for what cannot be fitted."""
+    """Return the data of the one array in `data` that is not None. Raises AtlasError for unfit arrays."""
     kinds = [name for name, x in data.items() if x is not None]
     if len(kinds) != 1:
         raise AtlasError(f"Give one of {', '.join(data)}, not {' and '.join(kinds) or 'none'}.")
@@ -227,7 +227,7 @@ def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[
 def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.int_]) -> FloatArray:
     """Return rotations for matrices and quaternions, and axes of length 1, of the `rows` of the data.
 
-    Raises AtlasError for what is none.
+    Raises AtlasError for a matrix that is no rotation, and for a quaternion or axis that is not of length 1.
     """
     if kind == "rotation":
         U, size, V = np.linalg.svd(values)
@@ -251,7 +251,7 @@ def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.in
 
 @dataclass(frozen=True)
 class Table:
-    """What a file holds: times, data as arguments of `fit`, sigma, the unit of time, a sentence on what is unused."""
+    """Columns of a file: times, data as arguments of `fit`, sigma, the unit of time, a sentence on unused columns."""
 
     t: FloatArray
     data: dict[str, Any]
@@ -261,17 +261,17 @@ class Table:
 
 
 def of_file(path: Path, kind: str | None) -> Table:
-    """Return what a CSV file holds, see `atlas.checking.trajectory`.
+    """Return the columns of a CSV file that a fit uses, see `atlas.checking.trajectory`.
 
-    Of what its columns hold it is the first of rotations, quaternions, the axis R13, R23, R33, Omega and K, or else
-    what there is of R, as a signal; or the `kind`. Raises AtlasError for a file that has no such columns.
+    The kind of data is the first whose columns are complete, of rotations, quaternions, the axis R13, R23, R33, Omega
+    and K, else the entries of R as a signal; or the given `kind`. Raises AtlasError for a file without such columns.
     """
     with opened(path, fields=True) as file:
         blocks = [*islice(file.blocks, MAX_BLOCKS)]
         if next(file.blocks, None) is not None:
             raise AtlasError(f"{file.file} has more than {MAX_BLOCKS * BLOCK} rows: fit a part of them.")
         names = list(file.names)
-        known = file.parameters.get("sigma")
+        sigma_written = file.parameters.get("sigma")
     x = {name: np.concatenate([block[name] for block in blocks]) for name in names}
     columns = {
         "rotation": MATRIX,
@@ -280,24 +280,29 @@ def of_file(path: Path, kind: str | None) -> Table:
         "angular_velocity": OMEGA,
         "field_in_body": FIELD,
     }
-    there = [name for name, wanted in columns.items() if set(wanted) <= set(names)]
+    kinds = [name for name, required in columns.items() if set(required) <= set(names)]
     entries = [name for name in names if name in MATRIX]
-    there += ["signal"] if entries and (kind == "signal" or not there) else []
-    if not there or (kind is not None and kind not in there):
+    kinds += ["signal"] if entries and (kind == "signal" or not kinds) else []
+    if not kinds or (kind is not None and kind not in kinds):
         raise AtlasError(
             f"{file.file} has no columns of {(kind or 'a kind of data').replace('_', ' ')}: there are "
             f"{', '.join(file.names.values())}. A fit takes R11 to R33, or only R13, R23, R33 of the axis, a "
             "quaternion, Omega1 to Omega3, or K1 to K3."
         )
-    kind = kind or there[0]
-    taken = entries if kind == "signal" else columns[kind]
-    rest = [other.replace("_", " ") for other in there if other not in (kind, "axis")]
-    left_out = [file.left_out] * bool(file.left_out) + [f"not fitted: {', '.join(rest)} (--of fits them)"] * bool(rest)
-    data: dict[str, Any] = {kind: np.column_stack([x[name] for name in taken]), "scalar_first": kind == "quaternion"}
+    kind = kind or kinds[0]
+    fitted_columns = entries if kind == "signal" else columns[kind]
+    unused = [unused_kind.replace("_", " ") for unused_kind in kinds if unused_kind not in (kind, "axis")]
+    left_out = [file.left_out] * bool(file.left_out) + [f"not fitted: {', '.join(unused)} (--of fits them)"] * bool(
+        unused
+    )
+    data: dict[str, Any] = {
+        kind: np.column_stack([x[name] for name in fitted_columns]),
+        "scalar_first": kind == "quaternion",
+    }
     if kind == "rotation":
         data[kind] = data[kind].reshape(-1, 3, 3)
     elif kind == "signal":
         rows, columns_of_R = zip(*((int(name[1]) - 1, int(name[2]) - 1) for name in entries), strict=True)
         data[kind] = data[kind], Entries(rows, columns_of_R)
     unit = "time" if (file.units or {}).get("t", "") in PLAIN else "s"
-    return Table(x["t"], data, x.get("sigma", known and known[0]), unit, "; ".join(left_out))
+    return Table(x["t"], data, x.get("sigma", sigma_written and sigma_written[0]), unit, "; ".join(left_out))

@@ -1,4 +1,4 @@
-"""Motions of any family by Taylor series, many at once: what a fit seeks with, before closed forms take over.
+"""Motions of any family by Taylor series, many at once: a fit searches with them, before closed forms take over.
 
 Every family here is a body with M = I Omega + k b and the potential U = linear nu + quadratic nu^2/2, nu = b3, where b
 is the field in the body, a constant vector of the laboratory. With g = tr k - 2 k the equations of motion are
@@ -52,23 +52,23 @@ class Flow:
     def at(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return R (S, N, 3, 3) and Omega (S, N, 3) at times (N,) in any order, nan where there are too many steps.
 
-        What comes before t = 0 is made together with what comes after, as motions whose time runs backwards.
+        Times before t = 0 are computed together with the later ones, as motions whose time runs backwards.
         """
         signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], self.order, abs(t).max(initial=0.0)
-        S, both = len(self.omega), len(signs)
+        S, sides = len(self.omega), len(signs)
         out = np.full((S, t.size, 4, 3), np.nan)
         g = self.coupling.sum(-1, keepdims=True) - 2 * self.coupling
-        moments, gyration, field = (np.tile(x, (both, 1)) for x in (self.moments, g, self.field))
-        linear, quadratic = np.tile(self.potential, (both, 1)).T[..., None]
+        moments, gyration, field = (np.tile(x, (sides, 1)) for x in (self.moments, g, self.field))
+        linear, quadratic = np.tile(self.potential, (sides, 1)).T[..., None]
         pulled, sign = bool(self.potential.any()), np.repeat(signs, S)[:, None, None]
-        left = np.zeros((both * S, 4, n + 1, 3))  # the series of the rows of R, and of I Omega - g b
-        right = np.zeros((both * S, n + 1, 3, 3))  # that of [Omega]x, the last first
-        b, flat = np.zeros((both * S, n + 1, 3)), left.reshape(both * S, 4, -1)
+        orders = np.zeros((sides * S, 4, n + 1, 3))  # the series of the rows of R, and of I Omega - g b
+        hats = np.zeros((sides * S, n + 1, 3, 3))  # that of [Omega]x, the last first
+        b, flat = np.zeros((sides * S, n + 1, 3)), orders.reshape(sides * S, 4, -1)
         state = np.concatenate([self.attitude, (self.moments * self.omega)[:, None]], 1)  # R and I Omega
-        state, now = np.tile(state, (both, 1, 1)), 0.0
+        state, now = np.tile(state, (sides, 1, 1)), 0.0
         views = [  # of each order: slices cost as much as the sums
-            (left[:, :, k], left[:, 3, k], b[:, k], right[:, n - k].reshape(-1, 9), flat[:, :, : 3 * (k + 1)],
-             right[:, n - k :].reshape(both * S, -1, 3)) for k in range(n + 1)
+            (orders[:, :, k], orders[:, 3, k], b[:, k], hats[:, n - k].reshape(-1, 9), flat[:, :, : 3 * (k + 1)],
+             hats[:, n - k :].reshape(sides * S, -1, 3)) for k in range(n + 1)
         ]  # fmt: skip
         factors = [sign / (k + 1) for k in range(n)]
         for _ in range(LONGEST):
@@ -81,21 +81,21 @@ class Flow:
                 np.matmul(state[:, 3] / moments, HAT, out=hat)
                 state = rows_so_far @ hats_so_far
                 if pulled:
-                    across = linear * b_k[:, :2] + quadratic * np.vecmat(b[:, k::-1, 2], b[:, : k + 1, :2])
-                    state[:, 3, :2] += across[:, ::-1] * [1.0, -1.0]
+                    pull = linear * b_k[:, :2] + quadratic * np.vecmat(b[:, k::-1, 2], b[:, : k + 1, :2])
+                    state[:, 3, :2] += pull[:, ::-1] * [1.0, -1.0]
                 state *= factors[k]
-            size = np.maximum(abs(left[:, :3, n]).max((1, 2)), abs(left[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
-            own = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
-            h = float(np.sort(np.where(np.isfinite(own), own, np.inf))[int(SLOWEST * both * S)])
+            size = np.maximum(abs(orders[:, :3, n]).max((1, 2)), abs(orders[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
+            steps = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
+            h = float(np.sort(np.where(np.isfinite(steps), steps, np.inf))[int(SLOWEST * sides * S)])
             if not np.isfinite(h):
                 break
-            for series, side in zip(np.split(left, both), signs, strict=True):
+            for series, side in zip(np.split(orders, sides), signs, strict=True):
                 places = np.flatnonzero((side * t >= now) & (side * t <= now + h))
                 out[:, places] = ((side * t[places] - now)[:, None] ** np.arange(n + 1) @ series).swapaxes(1, 2)
             now += h
             if now > end:
                 break
-            state = h ** np.arange(n + 1) @ left
+            state = h ** np.arange(n + 1) @ orders
             state[:, 3] += gyration * np.vecmat(field, state[:, :3])
         R = out[:, :, :3]
         return R, (out[:, :, 3] + g[:, None] * np.vecmat(self.field[:, None], R)) / self.moments[:, None]

@@ -32,7 +32,7 @@ TURNING = 0.3
 
 
 def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
-    """Return what was tried with a free body before all, where a field is not seen beyond noise; and what is said then.
+    """Return the minima, a free body first if no field is seen beyond noise, and the sentence that says so, or "".
 
     Nothing is changed where a field is given or seen.
     """

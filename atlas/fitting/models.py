@@ -129,7 +129,7 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 
 @dataclass(frozen=True)
 class Model:
-    """A family: its parameters with those that stand unless they are freed, and what makes its motion."""
+    """A family: its parameters with those that stand unless they are freed, and the function that makes its motion."""
 
     name: str
     names: tuple[str, ...]

@@ -5,8 +5,8 @@ between axis and field oscillates at another frequency nu, and a small nutation,
 
     v = e cos(nu t) n + e sin(nu t) / nu (psi B + phi e3),
 
-n across field and axis, psi and phi the derivatives in theta of the rates of precession and spin. A periodogram of what
-an elementary motion leaves of the data, along the valley, tells which nutation there is, and so which body. Where the
+n across field and axis, psi and phi the derivatives in theta of the rates of precession and spin. A periodogram of the
+residuals of an elementary motion, along the valley, tells which nutation there is, and so which body. Where the
 axis alone is seen, the spin is as free as the ratio, and each frequency is that of some spin.
 """
 
@@ -69,11 +69,11 @@ BLOCK = 400_000
 def with_small_nutations(
     problem: Problem, tried: list[tuple[float, Any]], *, is_followed: bool
 ) -> tuple[list[tuple[float, Any]], str, str]:
-    """Return what was tried with the best small nutations, or one without any before all; and what is said of these.
+    """Return the minima with the best small nutations, or an elementary motion first, and two sentences, or "".
 
-    The sentences are of what is not determined, and of a doubt. A line that is sought among N frequencies lowers chi
-    square by some 2 log N, whether or not it is there. Nothing is changed where the nutation is not small, or there is
-    no elementary motion beside it.
+    The sentences name combinations that are not determined, and a doubt. A line that is sought among N frequencies
+    lowers chi square by some 2 log N, whether or not it is there. Nothing is changed for a nutation that is not small,
+    and if no elementary motion is beside it.
     """
     (_, x), data = tried[0], problem.data
     motion, values = problem.motion(x)
@@ -109,7 +109,7 @@ def with_small_nutations(
 
 
 def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
-    """Return what was tried, before all a body of ratio 1 where the axis alone is seen and follows from that as well.
+    """Return the minima, a body of ratio 1 first if only the axis is seen and a ratio of 1 follows the data as well.
 
     The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
     derivatives at one place do not show how far the field goes with the ratio.
@@ -134,7 +134,7 @@ def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tup
 
 
 def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
-    """Return the least squares of elementary motions, and what they lead to from the mean of one that hardly nutates.
+    """Return the problem of elementary motions, and its minimum (n,) from the mean of a motion that hardly nutates.
 
     Its rates of precession and spin, and its attitude with both turned back, are the means over the times of the data.
     Where the axis alone is seen, they lead from the circle through the data too, which may have more turns.
@@ -178,7 +178,7 @@ def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotatio
 
 
 def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> str:
-    """Return what is said of another body whose motion follows the data as well."""
+    """Return a sentence on another body whose motion follows the data as well, or ""."""
     best = problem.values(tried[0][1])["ratio"]
     for chi, x in tried[1:]:
         values = problem.values(x)

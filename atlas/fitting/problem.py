@@ -47,7 +47,7 @@ def lag(t: FloatArray, r: FloatArray) -> float:
 
 
 class Problem:
-    """Least squares of a family on data: the parameters say what is varied, between which bounds."""
+    """Least squares of a family on data: the parameters say which of them are varied, and between which bounds."""
 
     def __init__(
         self, model: Model, data: Data, params: Parameters, loss: str, rate: float, given: Values | None = None
@@ -82,7 +82,7 @@ class Problem:
 
     @cached_property
     def gauge(self) -> dict[str, float]:
-        """What the data never show."""
+        """Parameters that the data never show, with the values that they are given."""
         return unseen(self.model, self.data.kind)
 
     @cached_property
@@ -92,7 +92,7 @@ class Problem:
 
     @cached_property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """Least and largest values of what is varied."""
+        """Least and largest values of the varied parameters, two arrays (n,)."""
         return tuple(np.array([getattr(self.params[name], x) for name in self.names]) for x in ("min", "max"))  # type: ignore[return-value]
 
     def values(self, x: Vector) -> dict[str, float]:
@@ -172,7 +172,7 @@ class Problem:
             return np.zeros((len(x), r.size))
 
     def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return I3, and what M3 has besides I3 omega3, at t = 0, each (M,)."""
+        """Return I3 and M3 - I3 omega3 at t = 0, each of shape (M,)."""
         motions = flow(self.model, self.values_of_all(X), self.error)
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 
@@ -212,7 +212,7 @@ class Problem:
         return int({"axis": 2, "signal": self.data.values.shape[-1]}.get(self.data.kind, 3))
 
     def jacobian(self, x: Vector, places: Any = slice(None)) -> FloatArray:
-        """Return the derivatives of the residuals in what is varied, (N k, free)."""
+        """Return the derivatives of the residuals in the varied parameters, shape (N k, n)."""
         return np.asarray(self.slopes(x, places).reshape(-1, len(self.names)))
 
     def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
@@ -240,7 +240,7 @@ class Problem:
         return np.asarray((vectors[: t.size] - vectors[t.size :]) / (2 * h))
 
     def _field_by(self, name: str, values: Values) -> FloatArray:
-        """Return the derivative of what `field_in_body` shows, in the laboratory."""
+        """Return the derivative of the field, or of the direction of a top, in a parameter, in the laboratory, (3,)."""
         if name in B:
             return np.asarray(np.eye(3)[B.index(name)])
         if name in DIRECTION:
@@ -256,7 +256,7 @@ class Problem:
         return float(np.median(r * r)) / MEDIAN
 
     def chi_square(self, x: Vector) -> float:
-        """Return the sum of squares, of what the loss leaves of them."""
+        """Return the sum of the loss function of the squared residuals."""
         z = self.residuals(x) ** 2
         return float(np.sum(RHO[self.loss](z)))
 

@@ -1,4 +1,4 @@
-"""What a fit found: the parameters with their errors, what the data do not see, whether the family is the right one."""
+"""Result of a fit: parameters with errors, combinations that the data do not determine, doubts of the family."""
 
 import re
 from dataclasses import dataclass, replace
@@ -129,7 +129,7 @@ class Fit:
     def of(
         cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
     ) -> "Fit":
-        """Return the fit from the best of what was tried; a steady motion stays where it was found."""
+        """Return the fit at the lowest of the minima (chi square, x); an elementary motion stays where it was found."""
         data = problem.data
         x, jac = minimum(problem, tried[0][1], steady=bool(steady))
         motion = problem.model.make(problem.values(x))
@@ -164,7 +164,7 @@ class Fit:
         raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what a pickle holds: lmfit's objects are made again when they are read."""
+        """Return the attributes that a pickle holds: lmfit's objects are made again when they are read."""
         return {name: value for name, value in self.__dict__.items() if name != "params"}
 
     def __repr__(self) -> str:
@@ -186,12 +186,25 @@ class Fit:
         return np.array([self.parameters[name].value for name in self.names])
 
     def predict(self, t: RealArrayLike, of: str = "") -> Prediction:
-        """Return what is to be expected at times of any shape, with its standard errors.
+        """Predict a quantity and its standard errors at times of any shape.
 
-        `of` is "rotation", "axis", "angular_velocity", "field_in_body" or, where one was fitted, "signal": what was
-        measured, without it. The standard error of a rotation is the angle about each axis of the laboratory; where it
-        depends on what the data do not determine, it is infinite. Raises AtlasError for another name, and for times as
-        `rotation` does.
+        Parameters
+        ----------
+        t : array_like
+            Times, on the clock of the data.
+        of : {"", "rotation", "axis", "angular_velocity", "field_in_body", "signal"}
+            Quantity; by default the measured one, and "signal" only if one was fitted.
+
+        Returns
+        -------
+        Prediction
+            `value` and `sigma`. Of a rotation `sigma` are the angles about the axes of the laboratory, in radians.
+            Infinite if the prediction depends on a combination that the data do not determine.
+
+        Raises
+        ------
+        AtlasError
+            For another quantity, and for times as `rotation` of the motion does.
         """
         kind = {"quaternion": "rotation", "": self.kind}.get(of, of)
         if kind not in (*KINDS, "signal") or (kind == "signal" and self.kind != "signal"):
@@ -220,11 +233,25 @@ class Fit:
         return Prediction(value.reshape(*times.shape, *value.shape[1:]), sigma.reshape(*times.shape, -1))
 
     def horizon(self, error: float, of: str = "") -> float:
-        """Return the time up to which a prediction is good: its largest standard error stays below `error` till then.
+        """Time until which the standard errors of a prediction stay below a bound.
 
-        In radians for rotations and axes. Infinite if it is good for 1e9 spans of the data. Where it is not good after
-        their end, the last of their times at which it is, and minus infinity if it is at none: nowhere. Raises
-        AtlasError for what is no positive number, and as `predict` does.
+        Parameters
+        ----------
+        error : float
+            Bound on the largest standard error, in the unit of the quantity; radians for rotations and axes.
+        of : str
+            Quantity, as in `predict`.
+
+        Returns
+        -------
+        float
+            Infinite if no end is found within 1e9 spans of the data. If the errors exceed the bound at the end of the
+            data, the last of their times at which they do not, or minus infinity.
+
+        Raises
+        ------
+        AtlasError
+            For a bound that is no positive number, and as `predict` does.
         """
         error = positive(error, "The error")
         start, end = float(self.t.min()), float(self.t.max())
@@ -248,16 +275,28 @@ class Fit:
         return end + low
 
     def conf_interval(self, **options: Any) -> Any:
-        """Return lmfit's confidence intervals, by chi square along each parameter: pairs (probability, value) by name.
+        """Confidence intervals by lmfit, from chi square along each parameter.
 
-        `options` are lmfit's: ``p_names`` the parameters, or else all, and ``sigmas`` such as [1, 2]. Each end takes
-        some fits of the others. Raises AtlasError where the data do not determine a parameter: fix one, or free fewer.
+        Parameters
+        ----------
+        **options
+            Options of `lmfit.conf_interval`: ``p_names`` the parameters, by default all, and ``sigmas`` such as [1, 2].
+
+        Returns
+        -------
+        dict of str to list of (float, float)
+            Pairs (probability, value) by name of the parameter. Each end takes some fits of the other parameters.
+
+        Raises
+        ------
+        AtlasError
+            If the data do not determine a parameter: fix one, or free fewer.
         """
         import lmfit
 
         def slopes(p: Any) -> FloatArray:
-            free = [i for i, name in enumerate(self.names) if p[name].vary]
-            return self.problem.jacobian([p[n].value for n in self.names])[:, free]
+            indices = [i for i, name in enumerate(self.names) if p[name].vary]
+            return self.problem.jacobian([p[n].value for n in self.names])[:, indices]
 
         minimizer = lmfit.Minimizer(
             lambda p: self.problem.residuals([p[n].value for n in self.names]), self.parameters.to_lmfit(),
@@ -375,7 +414,7 @@ class Fit:
         )
 
     def predict_values(self, t: FloatArray) -> FloatArray:
-        """Return what is drawn as a curve, (N, k): of rotations and axes the third axis."""
+        """Return the curve that `scene` draws, shape (N, k): for rotations and axes the third axis."""
         values = self.problem.data.of(self.motion, t - self.epoch)
         return values[:, :, 2] if values.ndim == 3 else values
 
@@ -386,7 +425,7 @@ class Fit:
 
 
 def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, freedom: int) -> list[str]:
-    """Return what speaks against the family."""
+    """Return sentences on signs that the family is not the right one."""
     out = []
     data, wider = problem.data, problem.model.wider
     cause = "the family is not that of the motion ("

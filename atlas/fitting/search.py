@@ -1,6 +1,6 @@
 """Where a fit starts: many motions follow a short arc of the data, which grows while the worse ones are dropped.
 
-What data tell at a time by themselves, an attitude, a rate, is taken from them; the rest is random, always the same.
+Attitude and rates are taken from the data as far as these show them; the other parameters are random, with fixed seeds.
 """
 
 from collections.abc import Iterator
@@ -79,7 +79,7 @@ def centre_of(data: Data, rate: float, share: float) -> float:
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
-    """Return what is seen at t = 0 and its rate of change, by a parabola; of rotations R and Omega in the body."""
+    """Return the measured quantity at t = 0 and its rate of change, by a parabola; for rotations R and Omega."""
     order = np.argsort(abs(data.t), kind="stable")
     rows = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
     t, x = data.t[rows], data.values[rows]
@@ -187,8 +187,8 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
 
 
 def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield what `tries` does about the time of one of PARTS, the k-th."""
-    # what turns fast by little, as in a strong field, is not seen in larger turns
+    """Yield starts as `tries` does, about the k-th of the times PARTS."""
+    # a fast nutation of small size, as in a strong field, is not seen in larger turns
     small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
     rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
     largest = FIELD * (4.0 if rate > problem.rate else 1.0)
@@ -227,7 +227,7 @@ def motions_of_arc(
 
 
 def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
-    """Return what a motion leads to that follows so many data about t = 0: the arc grows to all times."""
+    """Return the minimum (n,) that a motion that follows `count` data leads to: the arc about t = 0 grows."""
     order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.alone(), x[None])
     misfit = 0.0
     while True:

@@ -1,4 +1,4 @@
-"""What data see of the parameters: their covariance, the combinations that are not determined, and conventions."""
+"""Information of the data on the parameters: covariance, the combinations that are not determined, and conventions."""
 
 from typing import Any
 
@@ -55,7 +55,7 @@ class Seen:
         square = np.outer(self.units, self.units)
         self.covariance = self.covariance * square
         self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
-        """Covariance for predictions, which see what is hardly determined as little as the data do."""
+        """Covariance for predictions, which combinations that are hardly determined change as little as the data."""
         self.null = turn[null].T
         self.directions = _separated(turn[self.is_lost].T)
         """Combinations that are not determined, in natural units, (n, count)."""
@@ -122,7 +122,7 @@ def _separated(directions: FloatArray) -> FloatArray:
 
 
 def gauge(problem: Problem) -> list[str]:
-    """Return what the kind of data never shows."""
+    """Return sentences on parameters that data of this kind never show."""
     hidden = unseen(problem.model, problem.data.kind)
     if not hidden:
         return []
