@@ -11,19 +11,7 @@ from atlas.errors import AtlasError
 from atlas.fitting.data import STEP, Data
 from atlas.fitting.flow import ERROR, FINE
 from atlas.fitting.least import RHO
-from atlas.fitting.models import (
-    ATTITUDE,
-    DIRECTION,
-    OMEGA,
-    B,
-    Model,
-    Values,
-    field_of,
-    flow,
-    state,
-    units_of,
-    unseen,
-)
+from atlas.fitting.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, state, units_of, unseen
 from atlas.fitting.parameters import Parameters
 from atlas.lazy import cached_property
 

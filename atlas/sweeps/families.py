@@ -144,11 +144,7 @@ class Swept:
         lists = (
             ("parameter", [x for x in parameters if x not in known], known),
             ("quantity", [x for x in names if x not in self.quantities], self.quantities),
-            (
-                "quantity with certified digits",
-                [x for x in names if digits and x not in certified],
-                certified,
-            ),
+            ("quantity with certified digits", [x for x in names if digits and x not in certified], certified),
         )
         for what, refused, there in lists:
             if refused:
