@@ -1,12 +1,13 @@
 // Motions with sliders: a point is drawn through the plane of initial angular velocities, and the
-// body turns as R(t) says, on the hyperbola by its closed form, off it by Runge and Kutta's steps;
-// what it does next stands as a faint line. All this is to draw with; certified digits come from
-// the command that is shown. The state stands in the address, so that a link shows a motion.
-// Without this nothing is shown.
+// body turns as R(t) says, on the hyperbola in elementary functions, off it in elliptic ones; the
+// motion to come is a faint line. Numbers are doubles; certified digits come from the command that
+// is shown. The state stands in the address, so that a link shows a motion. Without this script
+// nothing is shown.
 "use strict";
 ((root) => {
   const { atlasFormulas: formulas, atlasLooks: looks } = root;
-  const STEP = 0.1, norm = (...a) => Math.hypot(...a);
+  const NEARNESS = 1e-8; // of Carlson's arguments to their mean, whose square is the error
+  const norm = (...a) => Math.hypot(...a);
   const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]),
     inner = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 
@@ -46,41 +47,6 @@
   const kind = (I) => I > 1 ? "two-sheet hyperboloid" : I < 1 ? "one-sheet hyperboloid" : "cone";
   // The second component of the angular velocity with phi/k = p/q, theorem-closed.
   const closed = (I, B2, B3, p, q) => formulas.closing(I, B2, B3, p / q) * B2 / norm(B2, B3);
-  // d/dt of Omega and of the rows of R by (16) and (12), in units of I2, where 2 g = diag(I, I, 2 -
-  // I).
-  const rate = (I, B2, B3, [p, q, r, ...R]) => {
-    const K = [0, 1, 2].map((j) => B2 * R[3 + j] + B3 * R[6 + j]),
-      m = [p - I * K[0], q - I * K[1], I * r - (2 - I) * K[2]];
-    const turned = (
-      i,
-    ) => [R[i + 1] * r - R[i + 2] * q, R[i + 2] * p - R[i] * r, R[i] * q - R[i + 1] * p];
-    return [
-      m[1] * r - m[2] * q,
-      m[2] * p - m[0] * r,
-      (m[0] * q - m[1] * p) / I,
-      ...turned(0),
-      ...turned(3),
-      ...turned(6),
-    ];
-  };
-  // Omega(t) and the rows of R(t) of any motion: steps that have been made stay.
-  const course = (I, B2, B3, omega) => {
-    const turns = (y) => rate(I, B2, B3, y),
-      h = STEP / (1 + norm(B2, B3) + norm(...omega)),
-      made = [[...omega, 1, 0, 0, 0, 1, 0, 0, 0, 1]];
-    const step = (y, h) => {
-      const a = turns(y),
-        b = turns(add(y, a, h / 2)),
-        c = turns(add(y, b, h / 2)),
-        d = turns(add(y, c, h));
-      return y.map((x, i) => x + h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]));
-    };
-    return (t) => {
-      const whole = Math.floor(t / h);
-      while (made.length <= whole) made.push(step(made.at(-1), h));
-      return step(made[whole], t - whole * h);
-    };
-  };
   // The real roots between two places of a polynomial, the constant coefficient first: between the
   // roots of its slope it has at most one, which is halved in as far as doubles go.
   const roots = (c, low, high) => {
@@ -99,16 +65,18 @@
       return [to];
     });
   };
-  // The least and the largest Omega3, theorem-quartic: at the start the square of its rate is
-  // positive, or it stands there at one end. None is beyond the poles, where the axis is along B.
-  const turning = (I, B2, B3, omega) => {
+  // The least and the largest Omega3 less that of the start, theorem-quartic: at the start the
+  // square of its rate is positive, or it stands there at one end. None is beyond the poles, where
+  // the axis is along B.
+  const swing = (I, B2, B3, omega) => {
     const c = formulas.nutation(I, B2, B3, ...omega), b = norm(B2, B3), rests = !c[0];
     const rest = rests ? c.slice(1) : c, sense = rests ? Math.sign(rest[0]) : 0;
+    if (rests && !sense) return [0, 0];
     const low = sense > 0 ? 0 : roots(rest, B3 - b, 0).at(-1) ?? B3 - b,
       high = sense < 0 ? 0 : roots(rest, 0, B3 + b)[0] ?? B3 + b;
-    return [low, high].map((v) => omega[2] + (rests && !sense ? 0 : v));
+    return [low, high];
   };
-  const matrix = (y) => [y.slice(3, 6), y.slice(6, 9), y.slice(9)];
+  const turning = (I, B2, B3, omega) => swing(I, B2, B3, omega).map((offset) => omega[2] + offset);
   // The square of dOmega3/dt at nu, the cosine between axis and field, of motions with the momenta
   // of this one and an energy h, with its own energy and c3 = Omega3 + b nu; and the potential,
   // theorem-top.
@@ -120,7 +88,135 @@
       A = (I - 1) * b * b;
     const V = (nu) => A * nu * nu + (along - M3 * nu) ** 2 / (1 - nu * nu),
       own = p * p + M2 * M2 + A * (B3 / b) ** 2;
-    return { b, c3: r + B3, own, V, squared: (nu, h) => b * b * (1 - nu * nu) * (h - V(nu)) };
+    return {
+      A,
+      M3,
+      along,
+      b,
+      c3: r + B3,
+      own,
+      V,
+      squared: (nu, h) => b * b * (1 - nu * nu) * (h - V(nu)),
+    };
+  };
+  // Carlson's integrals R_F of x, y, z and R_J of x, y, z and each pole, by duplication. The pair
+  // y, z, real or conjugate, is given by its sum and product, a pole p with the root of
+  // (p - x)(p - y)(p - z).
+  const carlson = (x, sum, product, poles) => {
+    let scale = 1, places = poles.map(([pole]) => pole), found = poles.map(() => 0);
+    const apart = (value) => Math.abs(value - x) > NEARNESS * x;
+    while (scale > 1e-40 && [sum / 2, Math.sqrt(product), ...places].some(apart)) {
+      const root = Math.sqrt(x), pair = Math.sqrt(product), both = Math.sqrt(sum + 2 * pair);
+      const lambda = root * both + pair;
+      const terms = places.map((p, i) => {
+        const size = (Math.sqrt(p) + root) * (p + Math.sqrt(p) * both + pair),
+          slope = scale ** 1.5 * poles[i][1] / size;
+        return 6 * scale / size * (slope > 1e-9 ? Math.atan(slope) / slope : 1);
+      });
+      found = found.map((value, i) => value + terms[i]);
+      product = (product + lambda * (sum + lambda)) / 16;
+      [x, sum, scale] = [(x + lambda) / 4, (sum + 2 * lambda) / 4, scale / 4];
+      places = places.map((p) => (p + lambda) / 4);
+    }
+    const rest = places.map((p) => scale * ((x + sum + 2 * p) / 5) ** -1.5);
+    return [((x + sum) / 3) ** -0.5, found.map((value, i) => value + rest[i])];
+  };
+  // Jacobi's amplitude of the parameter 1 - other, and its quarter period, by the arithmetic-
+  // geometric mean; the parameter may be negative.
+  const amplitude = (other) => {
+    const ratios = [];
+    let [a, b] = [1, Math.sqrt(other)];
+    while (Math.abs(a - b) > 1e-15 * a && ratios.length < 40) {
+      ratios.push((a - b) / (a + b));
+      [a, b] = [(a + b) / 2, Math.sqrt(a * b)];
+    }
+    const at = (u) =>
+      ratios.reduceRight(
+        (angle, ratio) => (angle + Math.asin(ratio * Math.sin(angle))) / 2,
+        2 ** ratios.length * a * u,
+      );
+    return { at, quarter: Math.PI / (2 * a) };
+  };
+  // The cosine nu between axis and field at a time, its rate, and the integrals of 1/(1 - nu) and
+  // 1/(1 + nu) from a turning point nu0, where nu = nu0 + c/(P(t) - d) with Weierstrass's function
+  // P, which at the other turning point nu1 is its root e: P = e + H cot^2(am/2).
+  const nutating = ({ A, along, M3, own }, nu0, nu1) => {
+    const square = 1 - nu0 * nu0, far = nu1 - nu0, momentum = along - M3 * nu0;
+    const c = (M3 * momentum - nu0 * (own - A * nu0 * nu0 + A * square)) / 2;
+    const second = -(own + A + M3 * M3), e = A * nu0 * nu0 / 2 + second / 12 + c / far;
+    const invariant = A * (own - along * along) + second * second / 12,
+      H = Math.sqrt(Math.max(3 * e * e - invariant / 4, 1e-24 * e * e)),
+      { at, quarter } = amplitude(Math.max(0.5 + 0.75 * e / H, 1e-15)),
+      period = 2 * quarter / Math.sqrt(H);
+    // 1 - side nu at a turning point; there the square of the rate is zero, which tells it near 0
+    const lacking = (side, nu) =>
+      side * nu > 0.9
+        ? (along - M3 * nu) ** 2 / ((own - A * nu * nu) * (1 + side * nu))
+        : 1 - side * nu;
+    const sides = [1, -1].map((side) => {
+      const gap = lacking(side, nu0);
+      return {
+        gap,
+        weight: side * c / gap / 3,
+        pole: c * lacking(side, nu1) / (far * gap),
+        root: Math.abs((along - side * M3) * c) / (2 * gap * gap),
+      };
+    });
+    const from = (x) =>
+      carlson(
+        x,
+        2 * x + 3 * e,
+        x * x + 3 * e * x + H * H,
+        sides.map(({ pole, root }) => [x + pole, root]),
+      );
+    const half = from(0)[1], whole = sides.map((_, i) => 2 * half[i]);
+    const state = (time) => {
+      const turns = Math.round(time / period), left = time - turns * period;
+      const angle = at(2 * Math.sqrt(H) * Math.abs(left)) / 2;
+      const x = H / Math.max(Math.tan(angle) ** 2, 1e-60), shift = x + c / far;
+      const parts = from(x)[1].map((part, i) => turns * whole[i] + Math.sign(left) * part);
+      return {
+        nu: nu0 + c / shift,
+        slope: 2 * c * Math.sign(left) *
+          Math.sqrt(x * (x * x + 3 * e * x + H * H)) / (shift * shift),
+        parts: sides.map(({ gap, weight }, i) => (time + weight * parts[i]) / gap),
+      };
+    };
+    // the time from nu0 to a place between, by what lacks to nu1
+    const reached = (less) => from(c * less / ((far - less) * far))[0];
+    return { state, reached };
+  };
+  // Omega(t), R(t) and dOmega3/dt of any motion: turns by psi about the field, by theta between
+  // field and axis, and by chi about the axis, whose rates are rational in nu, theorem-top.
+  const course = (I, B2, B3, omega) => {
+    const { b, c3, ...constants } = portrait(I, B2, B3, omega), { along, M3 } = constants;
+    const [low, high] = swing(I, B2, B3, omega), nu = B3 / b, ends = [-low / b, -high / b];
+    const [far, near] = Math.abs(low) > Math.abs(high) ? ends : ends.toReversed();
+    let at = (t) => ({ nu, slope: 0, parts: [t / (1 - nu), t / (1 + nu)] }), start = 0;
+    if (far !== near) {
+      const { state, reached } = nutating(constants, nu + far, nu + near);
+      start = (B2 * omega[0] * (near - far) > 0 ? -1 : 1) * reached(near);
+      at = state;
+    }
+    const begun = at(start).parts, level = [[1, 0, 0], [0, nu, B2 / b], [0, -B2 / b, nu]];
+    return (t) => {
+      const { nu, slope, parts } = at(start + t), sine = Math.sqrt(Math.max(1 - nu * nu, 1e-30));
+      const [up, down] = parts.map((part, i) => (part - begun[i]) / 2);
+      const psi = (along - M3) * up + (along + M3) * down - b * t,
+        chi = (c3 - M3) * t - (along - M3) * up + (along + M3) * down;
+      const precession = (along - M3 * nu) / (sine * sine) - b, nutation = -slope / sine;
+      const [cosine, across] = [Math.cos(chi), Math.sin(chi)];
+      const tilt = [[1, 0, 0], [0, nu, -sine], [0, sine, nu]];
+      return {
+        omega: [
+          precession * sine * across + nutation * cosine,
+          precession * sine * cosine - nutation * across,
+          c3 - b * nu,
+        ],
+        R: [turn([0, 0, 1], psi), tilt, turn([0, 0, 1], chi)].reduce(product, level),
+        rate: -b * slope,
+      };
+    };
   };
   const OFF = 40 * Math.PI / 180,
     SIZE = 300,
@@ -166,7 +262,6 @@
     closed,
     course,
     portrait,
-    rate,
     beside,
     turning,
   };
@@ -464,7 +559,7 @@
         low = Math.min(...heights),
         humps = heights.filter((v, i) => i && v > heights[i - 1] && v >= heights[i + 1]);
       const span = Math.max(own - low, ...humps.map((h) => h - low), 0.1 * b * b),
-        y = state(t),
+        moment = state(t),
         top = 1.25 * Math.sqrt(Math.max(...all.map((nu) => squared(nu, low + 1.3 * span)), 1e-4));
       // Where the square changes its sign between two places, the curve ends on the axis.
       const line = (kind, h) =>
@@ -488,7 +583,7 @@
           ...humps.flatMap((h) => line("unstable", h)),
           ...line("curve", own + 1e-9),
         ],
-        dots: [["point", y[2], rate(I, B2, B3, y)[2]]],
+        dots: [["point", moment.omega[2], moment.rate]],
       };
     },
     rosette: ({ B2, B3, at, span }, t) => {
@@ -579,7 +674,7 @@
         omega,
         on,
         state: moved,
-        at: (t) => matrix(moved(t)),
+        at: (t) => moved(t).R,
         span: AHEAD,
         fast: norm(omega[0], omega[1], Math.sqrt(I) * omega[2]), // the axis never goes faster, by (36)
         says: `off the hyperbola: the axis nutates, Ω₃ swings from ${low} to ${high}`,
