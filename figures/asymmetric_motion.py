@@ -21,7 +21,7 @@ ROW = "three moments"
 SEEN = "The axis of a body with three moments need not repeat its path."
 RANGES = {"turns": (1e-3, 50.0)}
 STEPS = 120
-"""Points a turn through which the lines are drawn: what lies between is good to 1e-7."""
+"""Points a turn through which the lines are drawn: values between them are good to 1e-7."""
 
 
 def scene(

@@ -1,8 +1,8 @@
 """Edges and walls of all motions.
 
 At given b and p = (M, K)/b a motion of a body with three moments is a point of the plane of H and F, and a torus. The
-critical values, where tori shrink, are those of the elliptic motions, theorem-bifurcation: the edge of what exists, and
-the walls inside, which are unstable, but for a swallowtail at small p.
+critical values, where tori shrink, are those of the elliptic motions, theorem-bifurcation: the edge of the region of
+motions, and the walls inside, which are unstable, but for a swallowtail at small p.
 """
 
 import numpy as np
@@ -141,7 +141,7 @@ def line(
 
 
 def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
-    """Return the border (N, 2) of what exists, of its lines, from the upper right to the corner and the lower right."""
+    """Return the border (N, 2) of the region of motions, from the upper right to the corner and the lower right."""
     sides = []
     for oval in ("bounded", "unbounded"):
         points = np.concatenate([points for name, points in lines if name == oval])

@@ -81,7 +81,7 @@ def scene(
 
 
 def trace(top: TopMotion) -> str:
-    """Return what the axis draws, by the rate of its precession at both ends of its range, theorem-cusp."""
+    """Return "loops", "cusps" or "waves", by the rate of its precession at both ends of its range, theorem-cusp."""
     invariants = top.invariants()
     p, M3 = float(invariants["p"]), float(invariants["M3"])
     if not top.omega[0] and not top.omega[1]:

@@ -2,7 +2,7 @@
 
 The initial angular velocities of the elliptic motions, theorem-elliptic, of bodies that differ little from a symmetric
 one, in a field across the first axis: both ovals of v^2 = prod(z + D/I_i). Where two moments become equal the ovals
-meet, and what they join is the hyperbola (67), besides a straight line.
+meet, and join in the hyperbola (67) and a straight line.
 """
 
 from itertools import pairwise, product

@@ -124,8 +124,8 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     layers += [label for x in branches if x.w.any() for label in names(x, reach * scale, rest)]
     layers += [Label(np.array([0.0, rest]), "$w=0$", "note", (0.0, 6.0))] if free else []
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
-    what = r"spin along $\mathbf{B}$" if b else "upright spin"
-    layers += [Label(np.array(spin[:2]), what, "note", (9, -4) if free else (5, 6)) for spin in spins[:1]]
+    spin_name = r"spin along $\mathbf{B}$" if b else "upright spin"
+    layers += [Label(np.array(spin[:2]), spin_name, "note", (9, -4) if free else (5, 6)) for spin in spins[:1]]
     layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note"))
     place = np.array([-0.95 * reach * scale, low + 0.04 * (high - low)])
     layers += [Label(place, "no motion", "note", (20.0, 0.0))] if least[0] > place[1] else []
@@ -163,7 +163,7 @@ def swallowtail(whole: Plane, letter: str) -> list[Plane]:
 
 
 def names(branch: Branch, reach: float, rest: float) -> list[Layer]:
-    """Return the names of what is seen of a curve: where it is unstable, else the sign of its rate w."""
+    """Return labels of a curve inside the view: "unstable", else the sign of its rate w."""
     w, stable, seen = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
     order = np.argsort(-branch.g, kind="stable")
     points = np.stack([branch.p, branch.g + rest], axis=1)

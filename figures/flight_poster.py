@@ -26,7 +26,7 @@ HEADS = (3.5, 7.6, 10.5)
 """Where on the path an arrowhead shows its sense, in steps of time: where no body covers it."""
 
 MAX_SIZES_PER_PATH = 1.25
-"""Sizes of all bodies together, in lengths of the path; what hides what is found for each with each that it covers."""
+"""Sizes of all bodies together, in lengths of the path; hidden lines are found for each pair of bodies that overlap."""
 
 
 def scene(
@@ -94,7 +94,7 @@ def scene(
 
 
 def fields(B: FloatArray, E: FloatArray, centres: FloatArray, size: float, eye: tuple[float, float]) -> list[Layer]:
-    """Return arrows along the fields, in the lower right corner of what the bodies cover on paper."""
+    """Return arrows along the fields, in the lower right corner of the bodies' extent on paper."""
     view = frame(Space((), azimuth=eye[0], elevation=eye[1]))
     flat = centres @ view.T
     length = CORNER * float(np.ptp(flat[:, 1]))

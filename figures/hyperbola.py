@@ -78,7 +78,7 @@ def free_spin(ratio: float, field: tuple[float, float]) -> float:
 
 
 def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
-    """Say what the curve is, in which case, and where it is unstable."""
+    """Return the caption: the curve, its special cases, and its unstable bands."""
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
     curve = r"Initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), of"
@@ -116,7 +116,7 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
 
 
 def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
-    """Say what the plot shows, in words alone."""
+    """Return the alternative text, in words alone."""
     view = components(field)
     shape = "two branches of a hyperbola" if all(view) and body_name(ratio) != "ball" else "straight lines"
     unstable_words = (

@@ -70,7 +70,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
 
 
 def words(loop: Monodromy) -> str:
-    """Return what becomes of g3, for a title."""
+    """Return the image of g3 after the loop, for a title."""
     terms = ""
     for number, name in zip(loop.matrix[2], ("g_1", "g_2"), strict=False):
         if number:
@@ -80,7 +80,7 @@ def words(loop: Monodromy) -> str:
 
 
 def plain_words(loop: Monodromy) -> str:
-    """Return what becomes of g3, for a sentence without TeX."""
+    """Return the image of g3 after the loop, for a sentence without TeX."""
     m, n, _ = loop.matrix[2]
     return f"g3 comes back as g3 with {plain(m)} of g1 and {plain(n)} of g2"
 

@@ -56,5 +56,5 @@ def scene(
 
 
 def shape(ratio: Any, field: tuple[float, float], omega2: float, omega3: float) -> str:
-    """Return what the axis draws that starts at a turning point with these omega2 and omega3."""
+    """Return the word for the trace of an axis that starts at a turning point with these omega2 and omega3."""
     return ("steady", "waves", "loops")[int(trace_map(ratio, field, (0.0, omega2, omega3)))] if omega2 else "cusps"

@@ -1,7 +1,7 @@
 """The quadric of the initial data.
 
-The surface (51) with what the paper's Figure Hyp shows: B' and I^-1 B', the angle beta, the shifted centre -B', the
-canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on which the true motions lie, (67).
+The surface (51) with the vectors and lines of the paper's Figure Hyp: B' and I^-1 B', the angle beta, the shifted centre
+-B', the canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on which the true motions lie, (67).
 """
 
 from typing import Any
@@ -19,10 +19,10 @@ def scene(
 ) -> Scene:
     """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', the view in degrees."""
     kind = Quadric(ratio, field).kind
-    what, legend = quadric_panel.DEGENERATE.get(kind, (f"a {kind}", quadric_panel.LEGEND))
+    surface, legend = quadric_panel.DEGENERATE.get(kind, (f"a {kind}", quadric_panel.LEGEND))
     special = kind in quadric_panel.DEGENERATE
     shown = (
-        "and what of it are motions"
+        "and the part of it that are motions"
         if special
         else "the canonical axes through −B' and the hyperbola in the plane e2, e3"
     )
@@ -30,7 +30,7 @@ def scene(
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=f"It is {what} for {tex_setting(ratio, field)}. {legend}",
-        alt=f"{what.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
+        caption=f"It is {surface} for {tex_setting(ratio, field)}. {legend}",
+        alt=f"{surface.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
         "laboratory axes" + (f", B', its image under the inverse inertia tensor, {shown}." if any(field) else "."),
     )

@@ -59,9 +59,9 @@ def scene(
         columns=2,
         size=(160.0, 92.0),
         paths={
-            f"{what} {name}": partial(path, one)
+            f"{layer_name} {name}": partial(path, one)
             for name, one in both.items()
-            for what, path in (("body", rolled), ("line", swung))
+            for layer_name, path in (("body", rolled), ("line", swung))
         },
         lasts=float(2 * np.pi / abs(motion.k)),
     )
@@ -112,7 +112,7 @@ def beside(
 
 
 def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, view: tuple[float, float]) -> Space:
-    """Return both cones at t = 0, touching along the angular velocity, with their angles and what their tips draw.
+    """Return both cones at t = 0, touching along the angular velocity, with their angles and the circles of their tips.
 
     The angular momentum of a free body is on the side of its angular velocity: (m, omega) is twice the energy.
     """

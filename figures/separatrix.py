@@ -22,7 +22,7 @@ ROW = "its axis"
 SEEN = "The axis leaves the circle of an unstable precession, makes one excursion, and comes back."
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
 RANGES = {"decay": (0.1, 30.0)}
-"""Beyond, what a rounding of the start has grown to would be seen: the motion would leave again."""
+"""Beyond, the growth of a rounding of the start would be seen: the motion would leave again."""
 
 ROLES = ("main", "second")
 

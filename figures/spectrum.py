@@ -1,6 +1,6 @@
 """The lines of a motion.
 
-What a detector of the body's axis, and one of its angular velocity, sees of a general motion: each line is at
+The signals of detectors of the body's axis and of its angular velocity in a general motion: each line is at
 m M + l p, or m M + j s, M the frequency of nutation, p and s the mean rates of precession and of spin.
 """
 
@@ -85,7 +85,9 @@ def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, u
     for n in np.argsort(-size):
         if len(written) < names and all(abs(f[n] - f[other]) > BESIDE * top for other in written):
             written.append(int(n))
-    for n in sorted(written, key=lambda n: float(f[n])):  # what gives way to a name on its left goes to the right
+    for n in sorted(
+        written, key=lambda n: float(f[n])
+    ):  # a name that gives way to its left neighbour goes to the right
         text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
         layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
     return Plane(

@@ -77,9 +77,9 @@ def scene(
         named={"dots": "start"},
         size=(WIDTH, HEIGHT),
         paths={
-            f"{what} {i}": partial(path, motion, time, place)
+            f"{layer_name} {i}": partial(path, motion, time, place)
             for i, (time, place) in enumerate(zip(times, places, strict=True))
-            for what, path in (("body", turned), ("dot", moved))
+            for layer_name, path in (("body", turned), ("dot", moved))
         },
         lasts=float(motion.period),
     )

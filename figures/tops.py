@@ -1,7 +1,7 @@
 """One launch, four tops.
 
 The same body is launched in the same way: with its charge spread as its mass, with its charge outside, held at a point
-of its axis under its weight, and turned by what a field induces in it.
+of its axis under its weight, and turned by the moment that a field induces in it.
 """
 
 from typing import Any
@@ -38,7 +38,7 @@ def scene(
     """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential."""
     if not larmor > 0:
         raise DomainError(f"figure tops needs a positive larmor, which scales coupling and potential, not {larmor}.")
-    motions = [_motion(ratio, direction, omega, larmor, *what) for _, _, *what in TOPS]
+    motions = [_motion(ratio, direction, omega, larmor, *cause) for _, _, *cause in TOPS]
     panels = tuple(
         axis_trace.sphere(
             f"({letter}) {name}", direction, motion.third_axis, nutations * motion.period,

@@ -64,7 +64,7 @@ MIN_SEEN_LENGTH = 0.02
 """Length on the unit sphere that is seen in a figure."""
 _FINE = tolerance(3.0)
 _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
-"""Lengths of the axis and of what stands upright, pieces of a trace at first, and a period that is taken for none."""
+"""Lengths of the axis and of the upright vector, pieces of a trace at first, and a period that is taken for none."""
 
 
 @dataclass(frozen=True)
@@ -104,8 +104,8 @@ def picture(
 ) -> Scene:
     """Return the figure of a motion over so many `periods` of its `period`, as far as `MAX_AXIS_TURNS` turns.
 
-    `setting` says whose motion it is and from where, for a caption and in plain words; `word` what has the period,
-    nothing if it is not one. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
+    `setting` says whose motion it is and from where, for a caption and in plain words; `word` names the motion of that
+    period, empty if there is none. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
     `upright` is that of the motion. Where the axis would not be seen to move, it is followed for one precession.
     """
     upright = upright or Upright.of(motion)
@@ -181,13 +181,13 @@ def scene_at(motion: Any, t: float, begin: float) -> Scene:
         along /= np.linalg.norm(along)
         layers.append(Arrow(O, _UP * along, upright.role, f"${upright.letter}$"))
     layers.append(Label(_UP * np.concatenate([np.eye(3), -np.eye(3)]), ""))  # as far as it reaches at any time
-    what = {"momentum": "angular momentum", "": ""}.get(upright.role, "field")
-    beside = f", and the direction of the {what}" if what else ""
+    vector_name = {"momentum": "angular momentum", "": ""}.get(upright.role, "field")
+    beside = f", and the direction of the {vector_name}" if vector_name else ""
     return Scene(
         title="A motion",
         caption=rf"The body, its axis $\mathbf{{R}}_3$ with the trace of its tip{beside}.",
         alt="A body with its axis, the line that the tip of that has drawn"
-        f"{f', and an arrow along the {what}' if what else ''}.",
+        f"{f', and an arrow along the {vector_name}' if vector_name else ''}.",
         panels=(Space(tuple(layers), azimuth=20.0, elevation=15.0, span=(2.0 * _UP, 2.0 * _UP)),),
         size=SQUARE,
     )

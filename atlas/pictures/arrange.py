@@ -171,7 +171,7 @@ def _words(panel: Panel) -> tuple[float, float]:
 
 
 WIDTH = 90.0
-"""Millimetres: what a phone shows of a figure without making its words smaller."""
+"""Millimetres: the width that a phone shows without making words smaller."""
 
 
 def narrowed(scene: Scene) -> Scene | None:

@@ -55,7 +55,7 @@ def quotient(ratio: Any) -> float:
 
 
 def body_name(ratio: Any) -> str:
-    """Return what the paper calls a body with this I = I3/I2, (33); decided on I3 against I2 as given."""
+    """Return the paper's name for a body with this I = I3/I2, (33); decided on I3 against I2 as given."""
     I2, I3 = moments(ratio)
     if I3 == 2 * I2:
         return "loop"

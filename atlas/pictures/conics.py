@@ -26,7 +26,7 @@ def section(
 ) -> list[FloatArray]:
     """Return the curves (N, 3) in which (x, 1) Q (x, 1) = 0 meets the plane ``normal . x = distance``.
 
-    They are cut off exactly where they leave a half space (n1, n2, n3, d), n . x <= d; what lies beyond is not sampled.
+    They are cut off exactly where they leave a half space (n1, n2, n3, d), n . x <= d; the part beyond is not sampled.
     Without half spaces they reach at least as far as the ball (centre, radius). All kinds are met: ellipse, hyperbola,
     parabola, two lines, one line; a single point or nothing gives an empty list.
     """

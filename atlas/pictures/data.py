@@ -1,7 +1,7 @@
 """The data of a figure as CSV: every drawn point with its panel, layer, role and label.
 
 A scene keeps coordinates as numbers, so that nothing is measured from a picture. Lines that begin with ``#`` come
-first: the title, the parameters, and what the axes of each panel show. The rest is read by ``csv.DictReader``, or all
+first: the title, the parameters, and the axes of each panel. The rest is read by ``csv.DictReader``, or all
 of it by ``pandas.read_csv(file, comment="#")``.
 """
 
@@ -23,7 +23,7 @@ def table(scene: Scene) -> str:
     Panels and their layers are counted from 1. A curve, a region and marked points have a row for each point, an arrow
     one for its tail and one for its tip, a label one for its place, a surface those of its wires and rims, a map of
     values one for the middle of each cell, with its value. Numbers have the shortest digits that read back the same,
-    in a map six digits; z is empty in a panel of the plane, and what is not finite is empty: there a curve is
+    in a map six digits; z is empty in a panel of the plane, and empty where a number is not finite: there a curve is
     interrupted.
     """
     out = StringIO()

@@ -48,7 +48,7 @@ class Window:
         return np.vstack([self.upright(start), self.upright(stop)[::-1]])
 
     def panel(self, layers: Iterable[Layer], unit: str, **more: Any) -> Plane:
-        """Return the panel of (omega2, omega3), in 1 over ``unit``, with what else a `Plane` takes."""
+        """Return the panel of (omega2, omega3), in 1 over ``unit``, with other arguments of `Plane`."""
         return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **more)
 
 

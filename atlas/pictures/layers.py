@@ -2,7 +2,7 @@
 
 A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.pictures.drawing` draw it. Coordinates are those
 of the quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar
-signs. What moves in time ``rides`` on a path of the scene, by its name.
+signs. A layer that moves in time ``rides`` on a path of the scene, by its name.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -73,8 +73,8 @@ class Label:
 class Surface:
     """A piece of a quadric: the points x with (x, 1) Q (x, 1) = 0 that lie in every half space ``n . x <= d``.
 
-    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly what the
-    surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``, (x, 1) W (x, 1) <= 0:
+    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly which
+    points the surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``, (x, 1) W (x, 1) <= 0:
     a disk, for one. ``grids`` are (M, N, 3) meshes of it for shading, ``wires`` curves (N, 3) on it, ``rims`` its
     edges.
     """

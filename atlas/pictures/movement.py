@@ -9,7 +9,7 @@ from atlas.motions.base import Motion
 from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, moved, points_of
 
 SEAM = 0.01
-"""Distance, in units of the extent of what moves, below which the seam of a loop is not seen."""
+"""Distance, in units of the extent of the moving layers, below which the seam of a loop is not seen."""
 
 
 def scene_at(scene: Scene, t: float) -> Scene:
@@ -39,7 +39,7 @@ def turned(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray)
 
 
 def along(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the rigid motions of what goes from a place (D,) to others (N, D), and does not turn."""
+    """Return the rigid motions that take a place (D,) to others (N, D) without a turn."""
     return np.broadcast_to(np.eye(len(start)), (*places.shape, len(start))), places - start
 
 

@@ -1,4 +1,4 @@
-"""What a recipe is given, fitted to what its parameters are, or one sentence that says what would be right."""
+"""Arguments of a recipe, converted to the types of its parameters, or refused in one sentence with the remedy."""
 
 import reprlib
 from collections.abc import Mapping
@@ -56,7 +56,7 @@ def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tu
     """Return the value of a parameter in the type of its annotation, or of its default where it has none.
 
     A list becomes a tuple, a whole number a float, one number a list of one where any length will do, and a list is
-    cut into lists of the length that is meant. Raises AtlasError, which names the parameter and says what would be
+    cut into lists of the length that is meant. Raises AtlasError, which names the parameter and the value that would be
     right.
     """
     kind = _kind(default) if hint is None else hint
@@ -72,7 +72,7 @@ def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tu
 
 
 def described(hint: Any, default: Any) -> str:
-    """Say in a few words what a parameter takes: a number, two numbers, a list of numbers, left or right."""
+    """Return in a few words the type of a parameter: a number, two numbers, a list of numbers, left or right."""
     kind = _kind(default) if hint is None else hint
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
@@ -97,7 +97,7 @@ def typed(value: Any) -> str:
     return repr(float(value)).removesuffix(".0") if isinstance(value, float | int) else str(value)
 
 
-class _Unfit(Exception):  # noqa: N818  it carries what would be right, and never leaves this file
+class _Unfit(Exception):  # noqa: N818  it carries the remedy, and never leaves this file
     """Expected kind of value, in words."""
 
 

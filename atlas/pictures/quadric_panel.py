@@ -35,7 +35,7 @@ DEGENERATE = {
         r"Parts that a plane hides are dashed. The points of the lines $\omega_1=0$ (heavy) alone are motions.",
     ),
 }
-"""Quadrics without two sides and without canonical axes: what they are, and what a caption says of them."""
+"""Quadrics without two sides and without canonical axes: their names, and sentences for captions."""
 
 
 def in_plane(second: float, third: float) -> FloatArray:

@@ -1,7 +1,7 @@
-"""Recipes of figures, those in figures/ and files of the user's own: what each takes, and the scene it makes.
+"""Recipes of figures, those in figures/ and files of the user's own: the parameters of each, and the scene it makes.
 
-What a recipe says of itself, its title and its parameters with their defaults and ranges, is read from its source; it
-runs only when its scene is wanted. A name stands for a file in figures/, what ends with ``.py`` for itself.
+Title, constants and parameters of a recipe, with their defaults and ranges, are read from its source; it
+runs only when its scene is wanted. A name stands for a file in figures/, a path that ends with ``.py`` for itself.
 """
 
 import ast
@@ -39,7 +39,7 @@ class Recipe:
     Attributes
     ----------
     seen : str
-        ``SEEN = "..."``: one sentence, true for all parameters, of what is to be seen. It begins the caption.
+        ``SEEN = "..."``: one sentence, true for all parameters, that states the picture's point and begins the caption.
     row : str
         ``ROW = "its axis"``: the row of the gallery, one of `ROWS`; empty where the file names none.
     records : tuple of str
@@ -118,7 +118,7 @@ def title(name: str) -> str:
 
 
 def load(name: str) -> Recipe:
-    """Read what a recipe says of itself, without running it; again when its file has changed."""
+    """Read title, constants and parameters of a recipe without running it; again when its file has changed."""
     file = source(name)
     return _load(file, _stamp(file))
 
@@ -224,7 +224,7 @@ def _run(source: Path, _stamp: tuple[int, int]) -> tuple[Callable[..., "Scene"],
 
 
 def _broken(source: Path, error: Exception) -> AtlasError:
-    """Say in one sentence what went wrong in a recipe, and in which of its lines."""
+    """Return an error that says in one sentence why a recipe failed, and in which line."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(source)]
     if isinstance(error, SyntaxError):
         lines, error_text = [error.lineno], error.msg
@@ -239,7 +239,7 @@ def _short(source: Path) -> str:
     return f"figures/{source.name}" if source.parent == folder("figures") else source.name
 
 
-def _unknown(what: str, name: str, known: Iterable[str], where: str) -> AtlasError:
+def _unknown(noun: str, name: str, known: Iterable[str], where: str) -> AtlasError:
     """Say which names there are, and which one is meant most likely."""
     options = list(known)
-    return AtlasError(f"no {what} {name!r} in {where}{nearest(name, options)}; known: {', '.join(options) or 'none'}")
+    return AtlasError(f"no {noun} {name!r} in {where}{nearest(name, options)}; known: {', '.join(options) or 'none'}")

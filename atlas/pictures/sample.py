@@ -1,4 +1,4 @@
-"""Curves sampled and surfaces cut into faces to a tolerance: what bends needs more, what is not seen nothing."""
+"""Curves sampled and surfaces cut into faces to a tolerance: more points at bends, none outside the view."""
 
 from collections.abc import Callable, Collection, Iterable
 
@@ -16,7 +16,7 @@ _LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
 _LEAVE, _AIM = 0.9, 0.8
 """A piece is left at so much of the tolerance, and cut for so much of it."""
 _ARC, _EVEN, _FEW = 0.2, 1.5, 3
-"""What sags less than a fifth of its length, and by one parabola at all looks, is cut at once in all that it needs."""
+"""A chord that sags less than a fifth of its length, like one parabola at all samples, is cut at once to the end."""
 
 
 def quarter_pixel(extent: float, millimetres: float) -> float:
@@ -116,7 +116,7 @@ def _cut(
         ):
             raise DomainError(
                 f"A curve needs more than {MAX_POINTS} points to be drawn to {tolerance:g}: its sizes or its turns are "
-                "too far from what is shown; choose parameters nearer to one another."
+                "too far from the view; choose parameters nearer to one another."
             )
         parts = np.ones(len(open_), dtype=int)
         parts[i[curved]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[curved], 2)
@@ -142,7 +142,7 @@ def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 SHADE = 1.0 / 512.0
-"""Half of one of 256 shades: what the light may be wrong by between two corners of a face."""
+"""Half of one of 256 shades: the largest error of the light between two corners of a face."""
 
 
 def cuts(

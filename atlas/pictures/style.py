@@ -2,7 +2,7 @@
 
 A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, gold the direction n of a
 top, plum an angular velocity and all that is made of such (the hyperbola of the motions, the canonical axes), navy
-the body's axis R_3 and what it draws, pale blue R_1, teal the path of a particle or of a point, vermilion instability,
+the body's axis R_3 and its trace, pale blue R_1, teal the path of a particle or of a point, vermilion instability,
 brown the body, charcoal the first of several plotted lines; where bodies are compared, the loop is magenta, the short
 solenoid petrol, the ball olive, the long one umber. A diamond is the motion -2 B', a cross an unstable one.
 In grey print lines that meet in a panel differ in lightness, dashes or width; vectors have names. Widths, marker sizes
@@ -35,7 +35,7 @@ SLATE = "#5c6670"
 GREY = "#8b929a"
 PALE = "#c3c9d0"
 TEXT_CONTRAST = 4.5
-"""What text needs to be read on white (WCAG 2, level AA)."""
+"""Least contrast of text on white (WCAG 2, level AA)."""
 
 
 def is_known(sheet: str) -> bool:

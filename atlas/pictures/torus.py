@@ -1,4 +1,4 @@
-"""A torus as a picture: its net, its outline, and lines on it without what it hides."""
+"""A torus as a picture: its net, its outline, and the visible parts of lines on it."""
 
 import numpy as np
 

@@ -29,7 +29,7 @@ MAX_PERIODS = 8
 _SCREEN = 96
 Progress: TypeAlias = Callable[[int, int, str], None]
 Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
-"""What of a panel decides its view: extreme points and names of one in space, the limits of one with two axes."""
+"""Data of a panel that decide its view: extreme points and names of one in space, the limits of one with two axes."""
 
 
 class Frames:
@@ -184,7 +184,7 @@ def animate(
     if values is None:
         raise AtlasError(f"say through which values {over} goes")
     if over in parameters:
-        raise AtlasError(f"{over} is what the animation goes over; it can't have the value {parameters[over]!r} too")
+        raise AtlasError(f"the animation goes over {over}, which can't have the value {parameters[over]!r} too")
     if over not in recipe.parameters:
         time = ["t"] if recipe.scene(**parameters).paths else []
         raise unknown("parameter", over, [*recipe.parameters, *time], f"in the figure {recipe.name!r}")

@@ -109,7 +109,7 @@ def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
 def _short(svg: str) -> str:
     """Return an SVG whose paths are to a hundredth of a point, each point from the one before, none twice in a row.
 
-    It is a third as long; what is rounded is each place, not each step, so that roundings don't add up.
+    It is a third as long; places are rounded, not steps, so that roundings don't add up.
     """
 
     def path(matched: re.Match[str]) -> str:

@@ -172,7 +172,7 @@ def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatA
 
 
 def _refined(grid: FloatArray) -> FloatArray:
-    """Return a mesh whose long cells are divided: what crosses it crosses it smoothly, and needles are drawn ill."""
+    """Return a mesh whose long cells are divided: curves across it stay smooth, and needles are drawn badly."""
     for _ in range(2):
         longest = np.linalg.norm(np.diff(grid, axis=0), axis=2).max(axis=1)
         counts = np.maximum(1, np.ceil(longest / _CELL)).astype(int)

@@ -1,4 +1,4 @@
-"""What a reader sees of lines in space: visibility behind pieces of quadrics, exactly.
+"""Visible stretches of lines in space: visibility behind pieces of quadrics, exactly.
 
 From a point x the ray x + t d goes to the eye, t > 0. A surface F(x) = (x, 1) Q (x, 1) = 0 meets it where
 A t^2 + B(x) t + F(x) = 0 with A = d.Q.d, B = 2 d.Q.(x, 1): the point is hidden if a root t > 0 lies in the surface's
@@ -35,7 +35,7 @@ _MARGIN = 0.02
 def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[tuple[FloatArray, bool]]:
     """Cut a polyline (N, 3) into pieces, each with whether it is visible.
 
-    ``towards`` is the unit vector to the eye; what is nearer than 1e-7 counts as touching.
+    ``towards`` is the unit vector to the eye; points nearer than 1e-7 count as touching.
     """
     start, step = points[:-1], np.diff(points, axis=0)
     if len(start) == 0:

@@ -25,16 +25,16 @@ _HALO, _BOX = 2.2, 0.85
 NOBODY = -2
 """The owner of ink that a name is never taken for the name of."""
 Ink: TypeAlias = tuple[FloatArray, float, int]
-"""Points (N, 2) of what is drawn, how much it hurts to cover one of them, and to what they belong."""
+"""Points (N, 2) of a drawn layer, the cost of covering one of them, and the layer's number."""
 
 
 @dataclass(frozen=True)
 class Tag:
     """A text of known ``extent`` (width, height) that belongs at ``anchor``; all in printer's points.
 
-    ``offset`` is where it would like to stand as seen from the anchor; (0, 0) means centred there, come what may. It
+    ``offset`` is where it would like to stand as seen from the anchor; (0, 0) means centred there, always. It
     may stand ``elsewhere`` too, the less gladly the later the place. It is the name of the ink of its ``owner``, and
-    should be nearer to that than to what belongs to others.
+    should be nearer to that than to the ink of others.
     """
 
     text: str
@@ -68,7 +68,7 @@ def _stands(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray)
 def place(tags: Sequence[Tag], drawn: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
     """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
 
-    It keeps clear of what is ``drawn``; ``window`` is (left, bottom, right, top).
+    Tags keep clear of the ink ``drawn``; ``window`` is (left, bottom, right, top).
     """
     parts, *about = zip((np.empty((0, 2)), 0.0, NOBODY), *drawn, strict=True)
     ink, counts = np.concatenate(parts), list(map(len, parts))

@@ -1,4 +1,4 @@
-"""Texts of a figure that stand on one another or leave the page: what cannot be read is not made for a target."""
+"""Texts of a figure that stand on one another or leave the page: such a figure is not made for a target."""
 
 from itertools import combinations
 from typing import Any

@@ -38,7 +38,7 @@ def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> s
 
 
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
-    """Return the tables of a scene's paths in space, and what rides on them in the figure and in that for a phone.
+    """Return the tables of a scene's paths in space, and the layers that ride on them, in the figure and on a phone.
 
     `figures` are as for `atlas.pictures.drawing.viewer.data`.
     """
@@ -48,7 +48,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
     steps = max([_PLAIN, *(_steps(path, scene.lasts) for path in paths.values())])
     with context(style):
         wide, narrow = _laid_out(scene, figures[:1]), small and _laid_out(small, figures[1:])
-    if small and narrow and small.panels == scene.panels:  # the viewer has what is in them once
+    if small and narrow and small.panels == scene.panels:  # the viewer has their layers once
         narrow["spaces"] = wide["spaces"]
     tables = {name: _table(path, np.linspace(0.0, scene.lasts, steps + 1)) for name, path in paths.items()}
     return {"lasts": scene.lasts, "paths": tables, "wide": wide, "narrow": narrow}
@@ -87,7 +87,7 @@ def _quaternions(R: FloatArray) -> FloatArray:
 
 
 def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
-    """Return for each panel in space its centre, its size and what rides in it; and the marks of the others."""
+    """Return for each panel in space its centre, its size and its layers that ride; and the marks of the others."""
     figure = next(iter(figures), None) or laid_out(scene)[0]
     panels = list(zip(figure.axes, scene.panels, strict=True))
     times = np.linspace(0.0, scene.lasts, _MOST + 1)
@@ -102,7 +102,7 @@ def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
 
 
 def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
-    """Return centre and size of a panel, and (kind, from, to, path) of what the viewer has of each layer that rides."""
+    """Return centre and size of a panel, and (kind, from, to, path) of the viewer's lines for each layer that rides."""
     view = fit(panel, room)
     counts: Counter[str] = Counter()
     riding = []

@@ -83,7 +83,7 @@ def to_figure(
 
     A panel with two axes has lines, markers, patches, a colorbar and a legend as Matplotlib makes them; a panel in
     space is drawn with exact hidden lines on axes whose unit is the printer's point, or, if ``shaded``, is a picture by
-    VTK with its names over it. Names are annotations. The group id of what is drawn for a layer, ``artist.get_gid()``,
+    VTK with its names over it. Names are annotations. The group id of a layer's artist, ``artist.get_gid()``,
     is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
     picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for
     `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if one is given, and ``held`` tells the view of a
@@ -135,7 +135,7 @@ def _drawn(
 
 
 def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
-    """Draw a panel into axes of the user's own. Raises AtlasError for what is none, and for three dimensions."""
+    """Draw a panel into axes of the user's own. Raises AtlasError for other objects, and for three dimensions."""
     if not isinstance(axes, Axes):
         raise AtlasError(f"ax must be axes of Matplotlib, not {reprlib.repr(axes)}.")
     if axes.name == "3d":
@@ -147,7 +147,7 @@ def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
 
 
 def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
-    """Draw what may move the axes: all of a panel with two axes but for its names, of one in space the title."""
+    """Draw the parts that may move the axes: a panel with two axes but for its names, of one in space the title."""
     if isinstance(panel, Plane):
         draw_plane(axes, panel, number)
     else:

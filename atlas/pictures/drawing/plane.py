@@ -55,7 +55,7 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
     _whole(axes)
     _ticks(axes)
     above = _factor(axes.yaxis) or mpl.rcParams["xtick.labeltop"]
-    axes.set_title(typeset(panel.title), y=None if above else 1.0)  # None: it is measured what stands above the axes
+    axes.set_title(typeset(panel.title), y=None if above else 1.0)  # None: the numbers above the axes are measured
     if panel.legend == "beside":
         axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     elif panel.legend and entries:
@@ -116,7 +116,7 @@ def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
 
 
 def gid(layer: Layer, panel: int, place: int, piece: int = 1) -> str:
-    """Return the group id of what is drawn for a layer: ROLE-PANEL-LAYER, and the number of a further part of it."""
+    """Return the group id of a layer's artist: ROLE-PANEL-LAYER, and the number of a further artist."""
     name = f"{getattr(layer, 'role', 'map')}-{panel}-{place}"
     return name if piece == 1 else f"{name}-{piece}"
 

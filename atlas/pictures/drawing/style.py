@@ -45,7 +45,7 @@ _WIDTHS = ("axes.linewidth", *(f"{side}.{kind}.width" for side in _SIDES for kin
 _LENGTHS = (
     "axes.labelpad",
     "axes.titlepad",
-    *(f"{side}.{kind}.{what}" for side in _SIDES for kind in ("major", "minor") for what in ("size", "pad")),
+    *(f"{side}.{kind}.{length}" for side in _SIDES for kind in ("major", "minor") for length in ("size", "pad")),
     *(f"figure.constrained_layout.{side}_pad" for side in "hw"),
 )
 
@@ -54,7 +54,7 @@ _LENGTHS = (
 def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
     """Draw with Matplotlib's defaults, the package's sheet and ``style`` on top; at exit the settings are as before.
 
-    What is asked by a ``target`` comes last: size of type, width of lines, kind of fonts, resolution.
+    The rules of a ``target`` come last: size of type, width of lines, kind of fonts, resolution.
 
     ``style`` is a name, a file, a dict of settings, or a list of them, as for `matplotlib.style.use`, or names with
     commas between them; the names of SciencePlots are known where it is installed. Raises AtlasError for a style that
@@ -106,7 +106,7 @@ def zoom() -> float:
 
 
 def stroke(width: float) -> float:
-    """Return the width on paper of a line whose role has this width, in points: within what the target allows."""
+    """Return the width on paper of a line whose role has this width, in points: within the limits of the target."""
     target = _TARGET.get()
     return width if target is None else min(max(target.zoom * width, target.lines[0]), target.lines[1])
 
@@ -118,7 +118,7 @@ def dashes(pattern: Sequence[float]) -> Any:
 
 @contextmanager
 def _complaints() -> Iterator[list[str]]:
-    """Collect what Matplotlib says of a style sheet's lines that it leaves out, in place of printing it."""
+    """Collect Matplotlib's messages on lines of a style sheet that it leaves out, in place of printing them."""
     messages: list[str] = []
     logger, handler = logging.getLogger("matplotlib"), logging.Handler(logging.WARNING)
     handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]  # the way to a list

@@ -32,7 +32,7 @@ _CLOSER = 4.0
 class ScenePlotter(pv.Plotter):
     """A plotter that a notebook shows as the scene it was made of, in the viewer of the pages, which turns it there.
 
-    What is added to the plotter afterwards is seen by ``show`` and ``screenshot``, but not there.
+    Meshes added to the plotter afterwards are seen by ``show`` and ``screenshot``, but not there.
     """
 
     scene: Scene | None = None
@@ -121,7 +121,7 @@ still.complete ? start() : still.addEventListener("load", start);
 
 
 def mimebundle(scene: Scene) -> dict[str, str]:
-    """Return what a notebook shows of a scene: a frame with the document, in words where it shows no HTML."""
+    """Return a scene's HTML for a notebook: a frame with the document, in words where it shows no HTML."""
     width, height = (round(_SCREEN * length / _INCH) for length in scene.size)
     frame = (
         f'<iframe width="{width}" height="{height}" style="border:0;max-width:100%" sandbox="allow-scripts" '
