@@ -1,7 +1,7 @@
 """The quadric of the initial data.
 
-The surface (51) with the vectors and lines of the paper's Figure Hyp: B' and I^-1 B', the angle beta, the shifted centre
--B', the canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on which the true motions lie, (67).
+The surface (51) with the vectors and lines of the paper's Figure Hyp: B' and I^-1 B', the angle beta, the shifted
+centre -B', the canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 of the true motions, (67).
 """
 
 from typing import Any

@@ -105,7 +105,7 @@ def picture(
     """Return the figure of a motion over so many `periods` of its `period`, as far as `MAX_AXIS_TURNS` turns.
 
     `setting` says whose motion it is and from where, for a caption and in plain words; `word` names the motion of that
-    period, empty if there is none. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
+    period, empty if there is none. An infinite or zero period is replaced by one turn at the start.
     `upright` is that of the motion. Where the axis would not be seen to move, it is followed for one precession.
     """
     upright = upright or Upright.of(motion)

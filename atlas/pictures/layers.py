@@ -73,10 +73,10 @@ class Label:
 class Surface:
     """A piece of a quadric: the points x with (x, 1) Q (x, 1) = 0 that lie in every half space ``n . x <= d``.
 
-    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly which
-    points the surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``, (x, 1) W (x, 1) <= 0:
-    a disk, for one. ``grids`` are (M, N, 3) meshes of it for shading, ``wires`` curves (N, 3) on it, ``rims`` its
-    edges.
+    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly which points
+    the surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``,
+    (x, 1) W (x, 1) <= 0: a disk, for one. ``grids`` are (M, N, 3) meshes for shading, ``wires`` curves (N, 3) on the
+    surface, ``rims`` its edges.
     """
 
     quadric: FloatArray
