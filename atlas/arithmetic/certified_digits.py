@@ -168,8 +168,8 @@ def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
     for count in range(decimals, -1, -1):
         low, high = round(lower * 10**count), round(upper * 10**count)
         if low == high:
-            whole, fraction = divmod(abs(int(low)), 10**count)
-            text = f"{'-' * (low < 0)}{whole}" + (f".{fraction:0{count}d}" if count else "")
+            integer_part, fraction = divmod(abs(int(low)), 10**count)
+            text = f"{'-' * (low < 0)}{integer_part}" + (f".{fraction:0{count}d}" if count else "")
             return Printed(text + MARK * (count < decimals), count, complete=count == decimals)
     return Printed(NOT_CERTIFIED, 0, complete=False)
 

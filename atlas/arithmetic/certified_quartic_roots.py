@@ -38,11 +38,11 @@ def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any
     else:
         w = abs(ball(g3)) / 8
         outer = (w + (-ball(discriminant) / 1728).sqrt()) ** (arb(1) / 3)
-        other = ball(g2) / 12 / outer
-        real = (outer + other) * (1 if sign(g3) >= 0 else -1)
-        pair = acb(-real / 2, (outer - other) * arb(3).sqrt() / 2)
-        first, second = side * (h - lead * real).sqrt(), (h - lead * pair).sqrt() * 2
-        z = [acb(first + second.real), acb(first - second.real), acb(-first, second.imag), acb(-first, -second.imag)]
+        quotient = ball(g2) / 12 / outer
+        real = (outer + quotient) * (1 if sign(g3) >= 0 else -1)
+        pair = acb(-real / 2, (outer - quotient) * arb(3).sqrt() / 2)
+        sum1, sum2 = side * (h - lead * real).sqrt(), (h - lead * pair).sqrt() * 2
+        z = [acb(sum1 + sum2.real), acb(sum1 - sum2.real), acb(-sum1, sum2.imag), acb(-sum1, -sum2.imag)]
     return [(x - ball(a1)) / lead for x in z]
 
 
@@ -64,8 +64,8 @@ def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[An
         z = [acb(2 * h.sqrt() * ((angle + 2 * k * arb.pi()) / 3).cos()) for k in range(3)]
     else:
         outer = ((abs(ball(G)) + (-ball(discriminant)).sqrt()) / 2) ** (arb(1) / 3)
-        other = h / outer
-        real, imaginary = -sign(G) * (outer + other), arb(3).sqrt() / 2 * (outer - other)
+        quotient = h / outer
+        real, imaginary = -sign(G) * (outer + quotient), arb(3).sqrt() / 2 * (outer - quotient)
         z = [acb(real), acb(-real / 2, imaginary), acb(-real / 2, -imaginary)]
     return [(x - ball(b1)) / ball(b0) for x in z]
 

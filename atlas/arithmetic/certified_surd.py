@@ -146,8 +146,8 @@ def roots(p: Polynomial) -> list[acb]:
             # first from balls, in which most signs are known; what is exact takes longer
             for exact in (True,) if precision > 2 * digits else (False, True):
                 closed = _closed(p, exact=exact)
-                apart = not any(x.overlaps(y) for x, y in combinations(closed, 2))
-                if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in closed):
+                are_apart = not any(x.overlaps(y) for x, y in combinations(closed, 2))
+                if are_apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in closed):
                     return _sorted(closed)
     raise DomainError(
         "The roots of Q are too many orders of magnitude apart to be found: make the components more alike."
@@ -187,13 +187,13 @@ def _ball(x: Surd) -> arb:
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
     """Return quotient and remainder."""
-    rest, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
+    remainder, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
     for n in range(len(p) - len(q), -1, -1):
-        factor = rest[n + len(q) - 1] / q[-1]
+        factor = remainder[n + len(q) - 1] / q[-1]
         quotient[n] = factor
         for i, c in enumerate(q):
-            rest[n + i] = rest[n + i] - factor * c
-    return trimmed(quotient), trimmed(rest[: len(q) - 1])
+            remainder[n + i] = remainder[n + i] - factor * c
+    return trimmed(quotient), trimmed(remainder[: len(q) - 1])
 
 
 def gcd(p: Polynomial, q: Polynomial) -> Polynomial:
@@ -207,8 +207,8 @@ def _minus(p: Polynomial, q: Polynomial) -> Polynomial:
     """Return p - q."""
     zero = (p or q)[0].of(0)
     size = max(len(p), len(q))
-    first, second = ([*x, *[zero] * (size - len(x))] for x in (p, q))
-    return trimmed([x - y for x, y in zip(first, second, strict=True)])
+    first_coefficient, second = ([*x, *[zero] * (size - len(x))] for x in (p, q))
+    return trimmed([x - y for x, y in zip(first_coefficient, second, strict=True)])
 
 
 def sign_of(x: fmpq) -> int:

@@ -35,18 +35,18 @@ def bare(value: Any, name: str, unit: str) -> Any:
     Raises AtlasError for another dimension, for a rate in hertz, and, without a unit, for what has a dimension.
     """
     if isinstance(value, tuple | list):
-        some = bool(value) and any(is_quantity(part) for part in value[:3])
-        return [bare(part, name, unit) for part in value] if some else value
+        has_units = bool(value) and any(is_quantity(component) for component in value[:3])
+        return [bare(component, name, unit) for component in value] if has_units else value
     if not is_quantity(value):
         return value
-    given = str(getattr(value, "units", None) or getattr(value, "unit", ""))
-    if unit == RATE and any(word in given.lower() for word in _HERTZ):
+    unit_text = str(getattr(value, "units", None) or getattr(value, "unit", ""))
+    if unit == RATE and any(word in unit_text.lower() for word in _HERTZ):
         raise AtlasError(f"{name} is an angular frequency: give it in rad/s, since 1 Hz may mean 2 pi rad/s.")
     for target in (unit, _OTHER.get(unit, unit)):
         try:
-            found = value.to_value(target) if hasattr(value, "to_value") else value.to(target).magnitude
+            magnitude = value.to_value(target) if hasattr(value, "to_value") else value.to(target).magnitude
         except (TypeError, ValueError, AttributeError):
             continue
-        return np.asarray(found) if np.ndim(found) else found
-    wanted = f"in {unit.replace('**', '^')}" if unit else "a number without a unit"
-    raise AtlasError(f"{name} must be {wanted}, or what can be made of it, not {reprlib.repr(str(value))}.")
+        return np.asarray(magnitude) if np.ndim(magnitude) else magnitude
+    wanted_unit = f"in {unit.replace('**', '^')}" if unit else "a number without a unit"
+    raise AtlasError(f"{name} must be {wanted_unit}, or what can be made of it, not {reprlib.repr(str(value))}.")

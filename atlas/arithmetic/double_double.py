@@ -64,8 +64,8 @@ class DoubleDouble:
 
     def __getitem__(self, index: Any) -> "DoubleDouble":
         """Return some of an array of numbers; one bound for all stays that."""
-        parts = (x if x is None or np.ndim(x) == 0 else x[index] for x in (self.hi, self.lo, self.rel))
-        return DoubleDouble(*parts)
+        words = (x if x is None or np.ndim(x) == 0 else x[index] for x in (self.hi, self.lo, self.rel))
+        return DoubleDouble(*words)
 
     def __add__(self, other: "DoubleDouble") -> "DoubleDouble":
         """Return the sum; exact inputs cancel without loss, and the error of inexact ones is in `rel`."""
@@ -116,15 +116,15 @@ class DoubleDouble:
             return self
         q = self.hi / other.hi
         p, e = _product(DoubleDouble(q), other)
-        rest = (self.hi - p) - e
+        remainder = (self.hi - p) - e
         if self.lo is not None:
-            rest += self.lo
+            remainder += self.lo
         if other.lo is not None:
-            rest -= q * other.lo
+            remainder -= q * other.lo
         rel = self.rel + 2 * other.rel * (1 + self.rel) + QUOTIENT
         if np.ndim(other.rel):
             rel = np.where(other.rel < 0.5, rel, np.inf)
-        return DoubleDouble(*_normal(q, rest / other.hi), rel)
+        return DoubleDouble(*_normal(q, remainder / other.hi), rel)
 
     def __abs__(self) -> "DoubleDouble":
         return DoubleDouble(abs(self.hi), None if self.lo is None else self.lo * np.copysign(1.0, self.hi), self.rel)
@@ -134,10 +134,10 @@ class DoubleDouble:
         s = np.sqrt(self.hi)
         root = DoubleDouble(s)
         p, e = _product(root, root)
-        rest = (self.hi - p) - e
+        remainder = (self.hi - p) - e
         if self.lo is not None:
-            rest += self.lo
-        return DoubleDouble(*_normal(s, rest / (s + s + (s == 0))), self.rel + ROOT)
+            remainder += self.lo
+        return DoubleDouble(*_normal(s, remainder / (s + s + (s == 0))), self.rel + ROOT)
 
     def scaled(self, exponent: int) -> "DoubleDouble":
         """Return this number times 2^exponent."""
@@ -170,9 +170,9 @@ class DoubleDouble:
         """Return the relative error of a sum: what the terms lack, in parts of it, and its rounding."""
         if isinstance(self.rel, float) and isinstance(other.rel, float) and not (self.rel or other.rel):
             return rounding
-        lost = self.rel * abs(self.hi) + other.rel * abs(other.hi)
+        error = self.rel * abs(self.hi) + other.rel * abs(other.hi)
         # a sum that is zero by cancellation of inexact terms may be anything: inf, which no product with zero hides
-        return np.where(lost == 0, 0.0, lost / abs(total)) + rounding
+        return np.where(error == 0, 0.0, error / abs(total)) + rounding
 
 
 ONE = DoubleDouble(np.float64(1.0))
@@ -300,8 +300,8 @@ def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
 
 def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
     """Return some rows of a column."""
-    parts = (y if y is None or isinstance(y, float) else y[rows] for y in (x.hi, x.lo, x.rel))
-    return DoubleDouble(*parts)
+    words = (y if y is None or isinstance(y, float) else y[rows] for y in (x.hi, x.lo, x.rel))
+    return DoubleDouble(*words)
 
 
 def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
@@ -335,11 +335,11 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
     doubtful = ~(words[2] < MAX_RELATIVE_ERROR).all(axis=0)
     for n in np.flatnonzero(doubtful).tolist():
         for i, x in enumerate(row(_index(n, shape))):
-            one = exact_number(x)
-            words[:, i, n] = (one.hi, one.lo, one.rel) if isinstance(one, Given) else (one, 0.0, 0.0)
-    parts = words.reshape(3, count, *shape)
+            number = exact_number(x)
+            words[:, i, n] = (number.hi, number.lo, number.rel) if isinstance(number, Given) else (number, 0.0, 0.0)
+    results_by_word = words.reshape(3, count, *shape)
     return [
-        Given(*parts[:, i], exact=lambda index, i=i: row(index)[i])  # type: ignore[misc]
+        Given(*results_by_word[:, i], exact=lambda index, i=i: row(index)[i])  # type: ignore[misc]
         for i in range(count)
     ]
 
@@ -364,8 +364,11 @@ def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any],
     used[unit] = [np.ldexp(x, -exponents) for x in columns[unit]]
     ordinary = _ordinary(used, rows)
     # a number that the scaling made zero is none
-    lost = [(x != 0) & (y == 0) for x, y in zip(columns[unit], used[unit], strict=True)]
-    return used, (exponents, ordinary & ~np.logical_or.reduce(np.broadcast_arrays(np.zeros(rows, dtype=bool), *lost)))
+    is_lost = [(x != 0) & (y == 0) for x, y in zip(columns[unit], used[unit], strict=True)]
+    return used, (
+        exponents,
+        ordinary & ~np.logical_or.reduce(np.broadcast_arrays(np.zeros(rows, dtype=bool), *is_lost)),
+    )
 
 
 def _normal(s: Any, e: Any) -> tuple[Any, Any]:

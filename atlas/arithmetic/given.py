@@ -94,16 +94,16 @@ def exact_number(x: Any) -> Any:
         head = int(x.p) / int(x.q)
     except OverflowError as error:
         raise DomainError("A number that was given is too large for a float: choose other units.") from error
-    rest = x - fmpq(*head.as_integer_ratio())
-    if rest == 0:
+    remainder = x - fmpq(*head.as_integer_ratio())
+    if remainder == 0:
         return head + 0.0
-    return Given(head, int(rest.p) / int(rest.q), 2.0**-104, lambda _: x)
+    return Given(head, int(remainder.p) / int(remainder.q), 2.0**-104, lambda _: x)
 
 
 def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
     """Return a rational number as the float that it is, else as a Fraction."""
-    found = exact_number(x)
-    return Fraction(*found.as_integer_ratio()) if isinstance(found, Given) else float(found)
+    number = exact_number(x)
+    return Fraction(*number.as_integer_ratio()) if isinstance(number, Given) else float(number)
 
 
 def element(x: Any, index: Index) -> Any:

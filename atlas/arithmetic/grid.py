@@ -53,12 +53,12 @@ class Progression:
         self, turns: Sequence[Number], start: float, step: float, origin: int, size: int, *, refined: bool = True
     ) -> None:
         self.refined = refined
-        (first, d0), (stride, d1) = start.as_integer_ratio(), step.as_integer_ratio()
+        (n0, d0), (n1, d1) = start.as_integer_ratio(), step.as_integer_ratio()
         unit = max(d0, d1)  # powers of two
-        stride *= unit // d1
-        first = first * (unit // d0) + origin * stride
+        n1 *= unit // d1
+        n0 = n0 * (unit // d0) + origin * n1
         shift, bits = 2 - unit.bit_length(), size.bit_length()  # one more, for half turns
-        cuts = [_cut(m * first, m * stride, e + shift, bits) for m, e in map(_integers, turns)]
+        cuts = [_cut(m * n0, m * n1, e + shift, bits) for m, e in map(_integers, turns)]
         self.table = np.array([*(cut[:2] for cut in cuts), *(cut[2:] for cut in cuts)])
 
     def circle(self, i: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
@@ -68,27 +68,27 @@ class Progression:
         u = tan(x/2), and saves that of a sum. As |u| is below 1 + 2^-12 for size <= 8000, u is within 2 w below 1 and
         3 w above, cos within 3 w + 3.5 w + 0.5 w, and sin, for which u counts little near 1, within 5 w.
         """
-        head, rest, sign, half = self.parts(i, work)
-        np.add(head, rest, out=half)
+        head, remainder, sign, half = self.parts(i, work)
+        np.add(head, remainder, out=half)
         if self.refined:
             head -= half
-            head += rest
-        circle_of(half, head if self.refined else None, sign, rest, cos, sin, versine)
+            head += remainder
+        circle_of(half, head if self.refined else None, sign, remainder, cos, sin, versine)
 
     def parts(self, i: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return x/2 for x = f t less whole half turns as a head and a rest, in radians, the turns' sign, and a spare.
 
         The four are (n, m) and lie in `work` (8, n, m).
         """
-        (head, rest), whole, spare = work[:2], work[2], work[3]
+        (head, remainder), half_turns, spare = work[:2], work[2], work[3]
         np.matmul(self.table, i, out=work[:2].reshape(len(self.table), -1))
-        np.add(head, ROUNDER, out=whole)
-        np.subtract(whole, ROUNDER, out=spare)
+        np.add(head, ROUNDER, out=half_turns)
+        np.subtract(half_turns, ROUNDER, out=spare)
         head -= spare
         np.multiply(head, TAIL, out=spare)
-        rest += spare
+        remainder += spare
         head *= HEAD
-        return head, rest, signs(whole), spare
+        return head, remainder, signs(half_turns), spare
 
 
 def _integers(turn: Number) -> tuple[int, int]:
@@ -97,17 +97,17 @@ def _integers(turn: Number) -> tuple[int, int]:
     return int(m), int(e)
 
 
-def _cut(first: int, step: int, e: int, bits: int) -> tuple[float, ...]:
+def _cut(start: int, step: int, e: int, bits: int) -> tuple[float, ...]:
     """Return S D, A D, s, a for the phases (first + i step) 2^e in half turns, |i| < 2^bits; s and a in radians/2."""
     e = min(e, 0)  # above zero only for a frequency that is zero
     half = 1 << -e
     mask = 2 * half - 1
-    first, step = (first + half & mask) - half, (step + half & mask) - half
-    longest = max(first.bit_length(), step.bit_length() + bits) + 1
+    start, step = (start + half & mask) - half, (step + half & mask) - half
+    longest = max(start.bit_length(), step.bit_length() + bits) + 1
     digit = max(min(longest, -e - 1) - TIME_BITS, 0)
     middle, D = 1 << digit >> 1, 2.0 ** (digit + e)
-    A, S = first + middle >> digit, step + middle >> digit
-    return S * D, A * D, (step - (S << digit)) / half * QUARTER_TURN, (first - (A << digit)) / half * QUARTER_TURN
+    A, S = start + middle >> digit, step + middle >> digit
+    return S * D, A * D, (step - (S << digit)) / half * QUARTER_TURN, (start - (A << digit)) / half * QUARTER_TURN
 
 
 MIN_GRID_COUNT, FINE_TIMES = 8000, 64
@@ -129,11 +129,11 @@ ODD = np.isin(np.arange(11), (2, 3, 6, 7, 10))[:, None]
 
 def check_grid(start: float, step: float, count: int, reach: float) -> None:
     """Raise AtlasError for a grid with a time beyond the ``reach`` of the phases."""
-    last = start + step * max(count - 1, 0)
-    if not max(abs(start), abs(last)) <= reach or abs(step) > MAX_STEP:
+    last_time = start + step * max(count - 1, 0)
+    if not max(abs(start), abs(last_time)) <= reach or abs(step) > MAX_STEP:
         raise AtlasError(
-            f"The grid from {start} by {step} to {last} goes too far: |t| may be {reach:.6g} at most, where a phase "
-            "reaches 2^50 and is lost."
+            f"The grid from {start} by {step} to {last_time} goes too far: |t| may be {reach:.6g} at most, where a "
+            "phase reaches 2^50 and is lost."
         )
 
 
@@ -156,23 +156,23 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
         for i in range(0, count, PRODUCT_MATRICES):
             np.matmul(functions[:, i : i + PRODUCT_MATRICES].T, turning.entries, out=rows[i : i + PRODUCT_MATRICES])
         return
-    tables = fine_tables(turning, step, [back for back, there in ((False, cut < count), (True, cut > 0)) if there])
+    tables = fine_tables(turning, step, [back for back, needed in ((False, cut < count), (True, cut > 0)) if needed])
     before = -(-cut // FINE_TIMES)
 
     def fill(low: int, high: int) -> None:
         """Fill blocks low to high of FINE_TIMES matrices: the first `before` end at the cut, the others begin there."""
         for i in range(low - before, high - before, COARSE_TIMES):
             j = min(i + COARSE_TIMES, high - before)
-            first, end, middle = cut + FINE_TIMES * i, cut + FINE_TIMES * j, min(max(-i, 0), j - i)
-            origin = min(max(closest, first), end - 1)
+            first_index, end, middle = cut + FINE_TIMES * i, cut + FINE_TIMES * j, min(max(-i, 0), j - i)
+            origin = min(max(closest, first_index), end - 1)
             index = np.ones((2, j - i))
-            index[0] = np.arange(first - origin, end - origin, FINE_TIMES)
+            index[0] = np.arange(first_index - origin, end - origin, FINE_TIMES)
             index[0, :middle] += FINE_TIMES - 1  # blocks before the cut run back from their last matrix
-            functions = Basis(Progression(turning.turns, start, step, origin, end - first), j - i, size).at(index)
+            functions = Basis(Progression(turning.turns, start, step, origin, end - first_index), j - i, size).at(index)
             if middle:
-                product(functions[:, :middle], tables[True], rows, first)
+                product(functions[:, :middle], tables[True], rows, first_index)
             if middle < j - i:
-                product(functions[:, middle:], tables[False], rows, first + FINE_TIMES * middle)
+                product(functions[:, middle:], tables[False], rows, first_index + FINE_TIMES * middle)
 
     shared(fill, before - (cut - count) // FINE_TIMES, COARSE_TIMES, FINE_TIMES)
 
@@ -186,8 +186,8 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
     terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and what is added is below 2^-20.
     """
     phases = Progression(turning.turns, 0.0, step, 0, FINE_TIMES)
-    head, rest, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))
-    x = head.astype(np.longdouble) + rest
+    head, remainder, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))
+    x = head.astype(np.longdouble) + remainder
     sine, cosine = np.sin(x), np.cos(x)
     versine = 2 * sine * sine
     exact = np.empty((len(turning.weights), FINE_TIMES), np.longdouble)
@@ -197,12 +197,12 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
     multiply(exact)
     rounded = exact.astype(np.float64)
     multiples = rounded + QUANTUM - QUANTUM
-    parts = np.array([multiples, exact - multiples, rounded], np.float64)
+    pieces = np.array([multiples, exact - multiples, rounded], np.float64)
     large, small = turning.composition
     tables = {}
     for back in sides:
-        G, *others = parts * np.where(ODD[: len(exact)], -1.0, 1.0) if back else parts
-        table = np.matmul(G.T, large) + np.matmul(np.concatenate(others).T, small)
+        G, *factors = pieces * np.where(ODD[: len(exact)], -1.0, 1.0) if back else pieces
+        table = np.matmul(G.T, large) + np.matmul(np.concatenate(factors).T, small)
         tables[back] = table[:, :: -1 if back else 1].reshape(len(exact), -1)
     return tables
 
@@ -213,12 +213,12 @@ def product(functions: FloatArray, table: FloatArray, rows: FloatArray, first: i
     if first < 0:
         np.matmul(functions[:, :1].T, table[:, -9 * first :], out=rows[: first + FINE_TIMES].reshape(1, -1))
         functions, first, m = functions[:, 1:], first + FINE_TIMES, m - 1
-    whole = min(m, (len(rows) - first) // FINE_TIMES)
-    for i in range(0, whole, PRODUCT_MATRICES // FINE_TIMES):
-        j = min(i + PRODUCT_MATRICES // FINE_TIMES, whole)
+    groups = min(m, (len(rows) - first) // FINE_TIMES)
+    for i in range(0, groups, PRODUCT_MATRICES // FINE_TIMES):
+        j = min(i + PRODUCT_MATRICES // FINE_TIMES, groups)
         np.matmul(
             functions[:, i:j].T, table, out=rows[first + FINE_TIMES * i : first + FINE_TIMES * j].reshape(j - i, -1)
         )
-    if whole < m:
-        rest = rows[first + FINE_TIMES * whole :].reshape(1, -1)
-        np.matmul(functions[:, whole:].T, table[:, : rest.shape[1]], out=rest)
+    if groups < m:
+        remainder = rows[first + FINE_TIMES * groups :].reshape(1, -1)
+        np.matmul(functions[:, groups:].T, table[:, : remainder.shape[1]], out=remainder)

@@ -48,8 +48,8 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
     if array is None:
         raise _not_real(value, name)
     if not np.isfinite(array).all():
-        worst = array[~np.isfinite(array)].flat[0]
-        raise DomainError(f"{name} must be finite, but holds {worst}.")
+        worst_value = array[~np.isfinite(array)].flat[0]
+        raise DomainError(f"{name} must be finite, but holds {worst_value}.")
     array += 0.0
     return frozen(array)
 
@@ -144,9 +144,9 @@ def numbers(value: Any, name: str, unit: str = "") -> Any:
     return value if isinstance(value, Given) else real(value, name, unit)
 
 
-def _listed(parts: Sequence[Any]) -> bool:
+def _listed(components: Sequence[Any]) -> bool:
     """Whether all are lists or tuples."""
-    return all(isinstance(part, list | tuple) for part in parts)
+    return all(isinstance(component, list | tuple) for component in components)
 
 
 def finite(values: Value, name: str) -> Value:

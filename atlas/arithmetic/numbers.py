@@ -109,8 +109,8 @@ def select(x: Number, positive: Number, other: Number) -> Number:
 
 def dot(a: Vector, b: Vector) -> Number:
     """Scalar product (a, b)."""
-    first, *others = (x * y for x, y in zip(a, b, strict=True))
-    return sum(others, first)
+    first_product, *other_products = (x * y for x, y in zip(a, b, strict=True))
+    return sum(other_products, first_product)
 
 
 def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ...], ...]:
@@ -130,10 +130,10 @@ def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
 def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
     """Return a vector turned by the quaternion (x, y, z, w), which need not be of length 1."""
     axis, w = q[:3], q[3]
-    across, along = w * w, dot(axis, axis)
-    size, less, twice = across + along, across - along, dot(axis, v)
-    moved = zip(v, axis, cross(axis, v), strict=True)
-    return tuple((less * x + (twice + twice) * n + (w + w) * y) / size for x, n, y in moved)
+    across_square, axis_square = w * w, dot(axis, axis)
+    size, less, twice = across_square + axis_square, across_square - axis_square, dot(axis, v)
+    components = zip(v, axis, cross(axis, v), strict=True)
+    return tuple((less * x + (twice + twice) * n + (w + w) * y) / size for x, n, y in components)
 
 
 def length(*components: Number) -> Number:

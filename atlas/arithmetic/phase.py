@@ -97,18 +97,18 @@ class Phases:
             self.near = nearest(MAX_NEAR_PHASE / fastest) if fastest != 0 else inf
             self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
         if self.origins is not None:
-            first, low = self.origins
-            self.starts = -first * MINUS_HEAD, low * QUARTER_TURN - first * MINUS_TAIL
+            first_origin, low = self.origins
+            self.starts = -first_origin * MINUS_HEAD, low * QUARTER_TURN - first_origin * MINUS_TAIL
         self._small = small
 
     @cached_property
     def _turns_of_integers(self) -> list[tuple[int, int]]:
         """Frequencies in turns as whole numbers and the binary digits behind their point, to 2^-SCALAR_BITS."""
-        found = []
+        turns = []
         for half in map(scaled, self._small, self._exponents_of_one()):
             after = max(SCALAR_BITS - magnitude(half), 3) if half != 0 else 3
-            found.append((units(half, after), after + 1))
-        return found
+            turns.append((units(half, after), after + 1))
+        return turns
 
     def _exponents_of_one(self) -> list[int]:
         return [0] * len(self._small) if self.exponents is None else self.exponents[:, 0].tolist()
@@ -121,7 +121,7 @@ class Phases:
         """
         if not abs(t) <= self.longest:
             self.check(np.array([t]))
-        found = []
+        functions = []
         p, q = t.as_integer_ratio()
         for turns, after in self._turns_of_integers:
             digits = after + q.bit_length() - 1
@@ -133,8 +133,8 @@ class Phases:
                 c, s = -s, c
             if quarter & 2:
                 c, s = -c, -s
-            found.append((c, s, 0.5 - c if quarter & 3 else sin(angle / 2) ** 2))
-        return found
+            functions.append((c, s, 0.5 - c if quarter & 3 else sin(angle / 2) ** 2))
+        return functions
 
     @cached_property
     def radians(self) -> FloatArray:
@@ -146,17 +146,17 @@ class Phases:
     def _sums(self) -> tuple[FloatArray, FloatArray]:
         """Head of P0 + P1 with 26 digits, and the matrix that sums what `halves_of` has."""
         with workprec():
-            head, *rest = _columns([_head(p) for p in self._small])
-        first = [] if self.origins is None else [self.origins[1]]
-        return head, QUARTER_TURN * np.hstack([*first, *rest, np.eye(len(head))])
+            head, *lows = _columns([_head(p) for p in self._small])
+        columns = [] if self.origins is None else [self.origins[1]]
+        return head, QUARTER_TURN * np.hstack([*columns, *lows, np.eye(len(head))])
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
         """Phases of frequencies P0 + P1 in half turns, (2, n, m), each with a time of its own; no phase is too long."""
         self = cls.__new__(cls)
         self._keep(words)
-        still = words[0] == 0
-        self.exponents = np.where(still, ZERO_EXPONENT, 0) if still.any() else None
+        is_still = words[0] == 0
+        self.exponents = np.where(is_still, ZERO_EXPONENT, 0) if is_still.any() else None
         self.origins, self.rounder, self.near = None, ROUNDER, -1.0
         self._within(inf)
         return self
@@ -197,13 +197,13 @@ class Phases:
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near MAX_PHASE
         the whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8.
         """
-        half, rest, whole, free = self.reduced(t, work)
-        return half, rest, signs(whole), free
+        half, remainder, half_turns, free_rows = self.reduced(t, work)
+        return half, remainder, signs(half_turns), free_rows
 
     def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return the result of `angles` with the number of half turns, plus `rounder`, in the place of their sign."""
-        far = farthest(t)
-        if not far <= self.longest:
+        farthest_time = farthest(t)
+        if not farthest_time <= self.longest:
             self.check(t)
         if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
@@ -214,45 +214,45 @@ class Phases:
         np.subtract(upper, t, out=lower)
         upper -= lower
         np.subtract(t, upper, out=lower)
-        if far <= self.near:
+        if farthest_time <= self.near:
             if low is not None:
                 lower += low
                 t = t + low
             return self._reduced_near(t, halves, work)
         # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
-        parts, rest, coarse = work[:6], work[6], work[7]
-        np.multiply(self.words, t, out=parts[::5])
-        np.multiply(self.halves, halves, out=parts[1:5].reshape(2, 2, *rest.shape))
-        np.add.reduce(parts, axis=0, out=rest)
+        products, remainder, multiple = work[:6], work[6], work[7]
+        np.multiply(self.words, t, out=products[::5])
+        np.multiply(self.halves, halves, out=products[1:5].reshape(2, 2, *remainder.shape))
+        np.add.reduce(products, axis=0, out=remainder)
         if low is not None:
-            np.multiply(self.words[0], low, out=coarse)
-            rest -= coarse
+            np.multiply(self.words[0], low, out=multiple)
+            remainder -= multiple
         # `whole` half turns and `product`, what is left of them, come with the sign turned round
-        product, whole, y = parts[:3]
-        np.add(product, self.rounder, out=whole)
-        np.subtract(whole, self.rounder, out=coarse)
-        product -= coarse
+        product, half_turns, y = products[:3]
+        np.add(product, self.rounder, out=half_turns)
+        np.subtract(half_turns, self.rounder, out=multiple)
+        product -= multiple
         # in half turns the phase is rest - coarse, coarse a multiple of 2^-25
-        np.add(product, QUANTUM, out=coarse)
-        coarse -= QUANTUM
-        product -= coarse
-        rest -= product
+        np.add(product, QUANTUM, out=multiple)
+        multiple -= QUANTUM
+        product -= multiple
+        remainder -= product
         if self.origins is not None:
-            coarse -= self.origins[0]
-            rest += self.origins[1]
-            np.add(coarse, self.rounder, out=y)
-            whole.view(np.int64)[:] += y.view(np.int64)
+            multiple -= self.origins[0]
+            remainder += self.origins[1]
+            np.add(multiple, self.rounder, out=y)
+            half_turns.view(np.int64)[:] += y.view(np.int64)
             y -= self.rounder
-            coarse -= y
+            multiple -= y
         # in radians, and halved: coarse MINUS_HEAD is exact, y is small
-        np.multiply(coarse, MINUS_TAIL, out=y)
-        rest *= QUARTER_TURN
-        y += rest
-        coarse *= MINUS_HEAD
-        np.add(coarse, y, out=product)
-        coarse -= product
-        coarse += y
-        return product, coarse, whole, rest
+        np.multiply(multiple, MINUS_TAIL, out=y)
+        remainder *= QUARTER_TURN
+        y += remainder
+        multiple *= MINUS_HEAD
+        np.add(multiple, y, out=product)
+        multiple -= product
+        multiple += y
+        return product, multiple, half_turns, remainder
 
     def halves_of(
         self, t: FloatArray, work: FloatArray, low: FloatArray | None = None, turns: FloatArray | None = None
@@ -266,15 +266,15 @@ class Phases:
         without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
         """
         if self.exponents is not None or not farthest(t) <= NEAR_PHASE_RATIO * self.near:
-            half, _, whole, _ = self.reduced(t, work[..., : t.size], low)
+            half, _, half_turns, _ = self.reduced(t, work[..., : t.size], low)
             if turns is not None:
-                turns[:] = whole
+                turns[:] = half_turns
             return half
         head, table = self._sums
         n, k = table.shape
         rows = work.reshape(-1, work.shape[-1])[:, : t.size]
-        stack, whole, x = rows[:k], rows[k : k + n], rows[k + n : k + 2 * n]
-        *first, upper, lower = stack[: k - n]
+        stack, half_turns, x = rows[:k], rows[k : k + n], rows[k + n : k + 2 * n]
+        *origin_rows, upper, lower = stack[: k - n]
         p = stack[k - n :]
         np.multiply(t, SPLITTER, out=upper)
         np.subtract(upper, t, out=lower)
@@ -284,13 +284,13 @@ class Phases:
             lower += low
         np.multiply(head, upper, out=p)
         if self.origins is not None:
-            first[0][:] = 1.0
+            origin_rows[0][:] = 1.0
             p += self.origins[0]
-        np.add(p, self.rounder, out=whole)
+        np.add(p, self.rounder, out=half_turns)
         if turns is not None:
-            turns[:] = whole
-        whole -= self.rounder
-        p -= whole
+            turns[:] = half_turns
+        half_turns -= self.rounder
+        p -= half_turns
         return np.matmul(table, stack, out=x)
 
     def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
@@ -301,35 +301,35 @@ class Phases:
         are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x.
         What a time lacks is in t1, whose sum and product are then within 2^-59 each: 0.1 w more.
         """
-        both, product, whole, w = work[:2], work[2], work[3], work[7]
-        np.multiply(self.radians[0], halves, out=both)
+        products, product, half_turns, w = work[:2], work[2], work[3], work[7]
+        np.multiply(self.radians[0], halves, out=products)
         np.multiply(self.words[0], t, out=product)
         if self.origins is not None:
             product -= self.origins[0]
-        np.subtract(self.rounder, product, out=whole)
-        np.subtract(whole, self.rounder, out=w)
+        np.subtract(self.rounder, product, out=half_turns)
+        np.subtract(half_turns, self.rounder, out=w)
         np.multiply(w, MINUS_BOTH, out=work[4:6])
-        both += work[4:6]
-        head, rest = both
+        products += work[4:6]
+        head, remainder = products
         np.multiply(self.radians[1], t, out=product)
-        rest += product
+        remainder += product
         if self.origins is not None:
             head += self.starts[0]
-            rest += self.starts[1]
-        np.add(head, rest, out=product)
+            remainder += self.starts[1]
+        np.add(head, remainder, out=product)
         head -= product
-        head += rest
-        return product, head, whole, rest
+        head += remainder
+        return product, head, half_turns, remainder
 
     def check(self, t: FloatArray) -> None:
         """Raise AtlasError for a time that is out of reach."""
-        far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
-        if far.size:
+        far_times = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
+        if far_times.size:
             units = (
                 "" if self.reach > MIN_LONGEST_TIME else " A frequency is too large for a float: choose larger units."
             )
             raise AtlasError(
-                f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is "
+                f"A time is {far_times[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is "
                 f"lost.{units}"
             )
 
@@ -373,6 +373,6 @@ def _head(x: Number) -> tuple[float, float, float]:
 
 def _cut(turn: Number) -> tuple[float, float]:
     """Cut a phase in turns into half turns: a multiple of 2^-25, at most one, and the rest."""
-    whole = turn_of(turn)
-    head = round(ldexp(nearest(whole), 26)) / 2.0**25
-    return head, 2 * nearest(whole - head / 2)
+    fraction = turn_of(turn)
+    head = round(ldexp(nearest(fraction), 26)) / 2.0**25
+    return head, 2 * nearest(fraction - head / 2)

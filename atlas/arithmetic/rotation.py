@@ -66,10 +66,10 @@ class Basis:
 
 def multiply(rows: NDArray[Any]) -> None:
     """Fill the functions from the sixth on, products of those before."""
-    first, second = rows[0:4:2], rows[1:4:2]
-    np.multiply(first, second[:, None], out=rows[5:9].reshape(2, 2, -1))
+    precession, proper = rows[0:4:2], rows[1:4:2]
+    np.multiply(precession, proper[:, None], out=rows[5:9].reshape(2, 2, -1))
     if len(rows) == 11:
-        np.multiply(rows[4], second, out=rows[9:])
+        np.multiply(rows[4], proper, out=rows[9:])
 
 
 def rodrigues(axis: Axis) -> FloatArray:
@@ -82,21 +82,21 @@ def rodrigues(axis: Axis) -> FloatArray:
 
 def generators(axis: Axis) -> FloatArray:
     """Return n n^T and 1 - n n^T, with the sum 1 exactly, since R(0) is; [n, .]; and n n^T, elements rounded once."""
-    _, across, dyad = rodrigues(axis)
-    along = dyad.copy()
+    _, n_cross, dyad = rodrigues(axis)
+    projector = dyad.copy()
     for i, n in enumerate(axis):
-        if along[i, i] < 0.5:
+        if projector[i, i] < 0.5:
             with workprec():
-                along[i, i] = 1.0 - nearest(1 - n * n)
-    return np.array([along, IDENTITY - along, across, dyad])
+                projector[i, i] = 1.0 - nearest(1 - n * n)
+    return np.array([projector, IDENTITY - projector, n_cross, dyad])
 
 
 def extended(axis: Axis) -> NDArray[np.longdouble]:
     """Return the four matrices of an axis with the digits of a long double."""
     n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (words(n, 2) for n in axis))
     dyad = np.outer([n1, n2, n3], [n1, n2, n3])
-    across = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
-    return np.array([dyad, IDENTITY - dyad, across, dyad])
+    n_cross = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
+    return np.array([dyad, IDENTITY - dyad, n_cross, dyad])
 
 
 def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
@@ -105,10 +105,10 @@ def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], F
     The third column, small when k t is, comes from sin and 1 - cos and keeps its digits. So does then the third row, at
     the price of two functions more: that is the third column of the transposed matrix.
     """
-    along, rest, across, dyad = parts
+    projector, complement, n_cross, dyad = parts
     upper = E if third_row else IDENTITY
-    C, aC = upper @ along, upper @ rest + (IDENTITY - upper)
-    pairs = [(IDENTITY, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
+    C, aC = upper @ projector, upper @ complement + (IDENTITY - upper)
+    pairs = [(IDENTITY, E33), (C, E), (n_cross, E33), (C, J), (dyad, E33), (aC, E), (n_cross, E), (aC, J), (n_cross, J)]
     if third_row:
         pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
     return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])

@@ -57,11 +57,12 @@ class Frequencies:
             motions = np.arange(self.words.shape[2])[index]
             for i in doubtful.tolist():
                 words[:, :, i] = np.transpose([_words(f) for f in self.exact(motions[i])])
-            far = np.flatnonzero((abs(words[0] * t) > MAX_PHASE / np.pi).any(axis=0))
-        if far.size:
-            longest = MAX_PHASE / np.pi / abs(words[0][:, far[0]]).max()
+            far_rows = np.flatnonzero((abs(words[0] * t) > MAX_PHASE / np.pi).any(axis=0))
+        if far_rows.size:
+            longest = MAX_PHASE / np.pi / abs(words[0][:, far_rows[0]]).max()
             raise AtlasError(
-                f"A time is {t[far[0]]}, but |t| may be {longest:.6g} at most, where a phase reaches 2^50 and is lost."
+                f"A time is {t[far_rows[0]]}, but |t| may be {longest:.6g} at most, where a phase reaches "
+                "2^50 and is lost."
             )
         return words
 
@@ -123,7 +124,7 @@ class DoubleRotationRows:
         self.words = np.empty((2, 2, 0))
         self.axis, self.dyad, self.defect = np.zeros((3, 3, count))
         self.groups = np.empty(count, dtype=np.int8)
-        words, lack = np.empty((2, 2, count)), np.empty((2, count))
+        words, errors = np.empty((2, 2, count)), np.empty((2, count))
         for number, (constants, index, inputs) in enumerate(groups):
             self.groups[index] = number
             planar = len(constants(*(DoubleDouble(np.float64(1)) for _ in inputs))[0]) == 2
@@ -133,16 +134,16 @@ class DoubleRotationRows:
                 entries = [0.0, n2, n3, 0.0, 0.0, n23, 1.0, square3, square2]
             for row, entry in zip((*self.axis, *self.dyad, *self.defect), entries, strict=True):
                 row[index] = np.ravel(entry)
-            words[..., index], lack[:, index] = words_of(partial(_both, constants), inputs, unit)
+            words[..., index], errors[:, index] = words_of(partial(_both, constants), inputs, unit)
         # nothing here refers to itself: a long sweep's arrays are free as soon as they are not needed
-        self.frequencies = Frequencies(words, lack, partial(_exact, groups, self.groups))
+        self.frequencies = Frequencies(words, errors, partial(_exact, groups, self.groups))
 
     def at(self, index: Any, t: FloatArray) -> "DoubleRotationRows":
         """Return motions by their index, ready for the times t that go with them; AtlasError if a phase is too long."""
-        some = copy(self)
-        some.indices, some.words = self.indices[index], self.frequencies.at(index, t)
-        some.axis, some.dyad, some.defect = (x[:, index] for x in (self.axis, self.dyad, self.defect))
-        return some
+        selection = copy(self)
+        selection.indices, selection.words = self.indices[index], self.frequencies.at(index, t)
+        selection.axis, selection.dyad, selection.defect = (x[:, index] for x in (self.axis, self.dyad, self.defect))
+        return selection
 
     def vector(self, name: str) -> Sequence[Any]:
         """Return the components of a vector, each (m,)."""

@@ -63,12 +63,12 @@ def magnitude(x: arb) -> int:
 
 def words(x: Number, count: int) -> list[float]:
     """Split a number into doubles, each the nearest to the remainder of the ones before."""
-    parts, rest = [], middle(x)
+    doubles, remainder = [], middle(x)
     with workprec(2 * BITS):
         for _ in range(count):
-            parts.append(nearest(rest))
-            rest -= parts[-1]
-    return parts
+            doubles.append(nearest(remainder))
+            remainder -= doubles[-1]
+    return doubles
 
 
 def turn_of(x: Number) -> arb:
@@ -76,8 +76,8 @@ def turn_of(x: Number) -> arb:
     m, e = (int(number) for number in middle(x).man_exp())
     if e >= 0:
         return arb(0)
-    one = 1 << -e
-    return arb(((m + (one >> 1)) % one - (one >> 1), e))
+    unit = 1 << -e
+    return arb(((m + (unit >> 1)) % unit - (unit >> 1), e))
 
 
 ZERO, ONE = fmpq(0), fmpq(1)

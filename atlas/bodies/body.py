@@ -110,14 +110,16 @@ class SymmetricBody:
         exact = numbers(I2, "I2", INERTIA), numbers(I3, "I3", INERTIA)
         common_shape(*(x.shape for x in exact))
         I2, I3 = np.broadcast_arrays(*map(np.asarray, exact))
-        for across, along in np.stack([I2, I3], -1).reshape(-1, 2)[((I2 <= 0) | (I3 < 0) | (I3 > 2 * I2)).ravel()][:1]:
-            if across <= 0:
+        for moment2, moment3 in np.stack([I2, I3], -1).reshape(-1, 2)[((I2 <= 0) | (I3 < 0) | (I3 > 2 * I2)).ravel()][
+            :1
+        ]:
+            if moment2 <= 0:
                 says = "about an axis across it, every body has some inertia"
-                raise DomainError(f"I2 must be positive, not {across}: {says}.")
-            if along < 0:
-                raise DomainError(f"I3 must not be negative, but is {along}.")
+                raise DomainError(f"I2 must be positive, not {moment2}: {says}.")
+            if moment3 < 0:
+                raise DomainError(f"I3 must not be negative, but is {moment3}.")
             raise DomainError(
-                f"No body has I2 = {across}, I3 = {along}: I3 is at most 2 I2 = {2 * across}, {NO_SUCH_BODY}."
+                f"No body has I2 = {moment2}, I3 = {moment3}: I3 is at most 2 I2 = {2 * moment2}, {NO_SUCH_BODY}."
             )
         object.__setattr__(self, "_exact", tuple(map(as_given, exact)))
         object.__setattr__(self, "I2", plain(I2))
@@ -135,9 +137,9 @@ class SymmetricBody:
         if self._shape:
             name, sizes = self._shape
             return f"{type(self).__name__}.{name}({', '.join(f'{key}={value!r}' for key, value in sizes.items())})"
-        turned = f", axes={self.axes.tolist()}" * bool((self.axes != np.eye(3)).any())
+        axes_text = f", axes={self.axes.tolist()}" * bool((self.axes != np.eye(3)).any())
         I2, I3 = self.exact
-        return f"{type(self).__name__}(I2={I2!r}, I3={I3!r}{turned})"
+        return f"{type(self).__name__}(I2={I2!r}, I3={I3!r}{axes_text})"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Let the body be copied as the call that makes it."""
@@ -488,22 +490,22 @@ class SymmetricBody:
         if nearest((exact[2] - exact[0]) / largest) <= tolerance:
             moment = given_number(2 * sum(exact, fmpq(0)) / 3)
             return cls(moment, moment)
-        third = 0 if exact[2] - exact[1] < exact[1] - exact[0] else 2
-        first, second = (exact[1], exact[2]) if third == 0 else (exact[0], exact[1])
-        gap = nearest((second - first) / second) if second != 0 else 0.0
-        apart = f"of its principal mass moments {g} the closest two differ by {gap:.3g} of the larger"
+        single = 0 if exact[2] - exact[1] < exact[1] - exact[0] else 2
+        lower, upper = (exact[1], exact[2]) if single == 0 else (exact[0], exact[1])
+        gap = nearest((upper - lower) / upper) if upper != 0 else 0.0
+        difference = f"of its principal mass moments {g} the closest two differ by {gap:.3g} of the larger"
         if gap > max(tolerance, NEARLY_EQUAL):
             most = max(tolerance, NEARLY_EQUAL)
-            raise DomainError(f"The body is not symmetric: {apart}, more than the tolerance {most:g}.")
+            raise DomainError(f"The body is not symmetric: {difference}, more than the tolerance {most:g}.")
         if gap > tolerance:
             warnings.warn(
-                f"The body is nearly symmetric: {apart}, and are joined; say tolerance={NEARLY_EQUAL:g} if they are "
-                "meant to be equal, else give the inertia tensor to atlas.motion.",
+                f"The body is nearly symmetric: {difference}, and are joined; say tolerance={NEARLY_EQUAL:g} if they "
+                "are meant to be equal, else give the inertia tensor to atlas.motion.",
                 NearlySymmetricWarning,
                 stacklevel=3,
             )
-        across = (first + second) / 2
-        return cls(given_number(across + exact[third]), given_number(2 * across), _frame(axes[third]))
+        mean = (lower + upper) / 2
+        return cls(given_number(mean + exact[single]), given_number(2 * mean), _frame(axes[single]))
 
 
 SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
@@ -532,9 +534,9 @@ def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density
     """
     names, formula = formulas.SHAPES[name]
     named = {key: f"The {WORDS.get(key, key)}" for key in names}
-    missing = [key for key in names if given_sizes[key] is None and not (key == "mass" and density is not None)]
-    if missing or (density is not None and given_sizes["mass"] is not None):
-        needs = f"needs {' and '.join(missing)}" if missing else "takes a mass or a density, not both"
+    absent = [key for key in names if given_sizes[key] is None and not (key == "mass" and density is not None)]
+    if absent or (density is not None and given_sizes["mass"] is not None):
+        needs = f"needs {' and '.join(absent)}" if absent else "takes a mass or a density, not both"
         raise AtlasError(f"SymmetricBody.{name} {needs}.")
     sizes = {
         key: numbers(x, named[key], MASS if key == "mass" else LENGTH)

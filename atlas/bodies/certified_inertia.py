@@ -26,10 +26,10 @@ def principal_axes(matrix: Any) -> tuple[list[Any], list[list[Any]]]:
         simple.append([-x for x in axis] if max(axis, key=lambda x: abs(float(x.mid()))) < 0 else axis)
     moments = [x for x, n in values for _ in range(n)]
     if len(simple) == 3:
-        first, second, third = simple
-        return moments, [first, second, third if dot(cross(first, second), third) > 0 else [-x for x in third]]
+        row1, row2, row3 = simple
+        return moments, [row1, row2, row3 if dot(cross(row1, row2), row3) > 0 else [-x for x in row3]]
     (axis,) = simple
     least = min(range(3), key=lambda i: abs(float(axis[i].mid())))
-    second = unit(cross(axis, [arb(i == least) for i in range(3)]))
-    frame = [list(cross(second, axis)), second, axis]
+    row2 = unit(cross(axis, [arb(i == least) for i in range(3)]))
+    frame = [list(cross(row2, axis)), row2, axis]
     return moments, frame if values[0][1] == 2 else [axis, *frame[:2]]

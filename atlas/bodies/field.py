@@ -262,22 +262,22 @@ class LaboratoryFrame:
         """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
         axis, B = vector(axis, "The axis"), vector(B, "B", RATE)
         n, b = exact(*axis), exact(*B)
-        n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
+        n2, b2, projection, normal = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
         if n2 == 0:
             raise DomainError("The axis of the body must have a direction, but is the zero vector.")
-        oblique = dot(across, across) != 0
+        oblique = dot(normal, normal) != 0
         if oblique:
-            alignment = "oblique" if along != 0 else "perpendicular"
-            e2 = [n2 * y - along * x for x, y in zip(n, b, strict=True)]
+            alignment = "oblique" if projection != 0 else "perpendicular"
+            e2 = [n2 * y - projection * x for x, y in zip(n, b, strict=True)]
         else:
-            alignment = "no field" if b2 == 0 else "parallel" if along > 0 else "antiparallel"
+            alignment = "no field" if b2 == 0 else "parallel" if projection > 0 else "antiparallel"
             e1 = exact(*np.eye(3)[np.argmin(np.abs(axis))])
-            across = tuple(n2 * y - dot(n, e1) * x for x, y in zip(n, e1, strict=True))
+            normal = tuple(n2 * y - dot(n, e1) * x for x, y in zip(n, e1, strict=True))
             e2 = list(cross(n, e1))
         with workprec():
-            third = nearest(root(along * along / n2))
-            field = (nearest(root(dot(across, across) / n2)) if oblique else 0.0, -third if along < 0 else third)
-            matrix = np.array([[nearest(x) for x in unit(row)] for row in (across, e2, n)])
+            third = nearest(root(projection * projection / n2))
+            field = (nearest(root(dot(normal, normal) / n2)) if oblique else 0.0, -third if projection < 0 else third)
+            matrix = np.array([[nearest(x) for x in unit(row)] for row in (normal, e2, n)])
         object.__setattr__(self, "axis", axis)
         object.__setattr__(self, "B", B)
         object.__setattr__(self, "alignment", alignment)

@@ -14,14 +14,7 @@ from atlas.errors import DomainError
 if TYPE_CHECKING:
     from atlas.arithmetic.numbers import Number
 
-CASES = (
-    "free body",
-    "spin along the field",
-    "transverse field, free spin",
-    "ball, free spin",
-    "at rest",
-    "precession",
-)
+CASES = ("free body", "spin along the field", "transverse field, free spin", "ball, free spin", "at rest", "precession")
 FREE_CASES = 4
 """In the first so many cases omega3 is free and has to be given."""
 
@@ -100,11 +93,7 @@ def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
         general = "or omega = (0, omega2, omega3) to the general motion"
         refuse(omega3 is None, f"In the case {case!r} omega3 is free: give it, {general}.")
     elif omega3 is not None and written(omega3) != written(curve):
-        refuse(
-            True,
-            f"omega3 follows from omega2 by (71) and is {written(curve)}, not {{}}: leave it out.",
-            omega3,
-        )
+        refuse(True, f"omega3 follows from omega2 by (71) and is {written(curve)}, not {{}}: leave it out.", omega3)
 
 
 def check_curve(B2: Number, omega2: Number) -> None:

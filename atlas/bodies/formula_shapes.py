@@ -33,7 +33,7 @@ def check_shape(name: str, dimensions: Iterable[str]) -> None:
     """Raise AtlasError for a shape that there is not, and for other dimensions than its own."""
     if name not in SHAPES:
         raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
-    names, given = SHAPES[name][0], list(dimensions)
-    if set(given) != set(names):
-        dimensions_given = ", ".join(given) or "nothing"
+    names, given_names = SHAPES[name][0], list(dimensions)
+    if set(given_names) != set(names):
+        dimensions_given = ", ".join(given_names) or "nothing"
         raise AtlasError(f"The shape {name} is given by {', '.join(names)}, not by {dimensions_given}.")

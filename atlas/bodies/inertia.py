@@ -71,11 +71,11 @@ def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
             x = x - (m @ x) / m.sum()
             return rational_matrix(real((m[:, None] * x).T @ x, "The mass matrix"))
     exact = [[fmpq(*value.as_integer_ratio()) for value in column] for column in (m.tolist(), *x.T.tolist())]
-    whole, moved = sum(exact[0], fmpq(0)), [[a * b for a, b in zip(exact[0], v, strict=True)] for v in exact[1:]]
-    first = [sum(v, fmpq(0)) for v in moved]
+    mass, dipoles = (sum(exact[0], fmpq(0)), [[a * b for a, b in zip(exact[0], v, strict=True)] for v in exact[1:]])
+    sums = [sum(v, fmpq(0)) for v in dipoles]
     matrix = [
-        [sum((a * b for a, b in zip(v, w, strict=True)), -p * q / whole) for w, q in zip(exact[1:], first, strict=True)]
-        for v, p in zip(moved, first, strict=True)
+        [sum((a * b for a, b in zip(v, w, strict=True)), -p * q / mass) for w, q in zip(exact[1:], sums, strict=True)]
+        for v, p in zip(dipoles, sums, strict=True)
     ]
     finite(np.array([nearest(x) for row in matrix for x in row]), "The mass matrix")
     return matrix
@@ -146,12 +146,12 @@ def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]
         return tensor, tensor.sum()
     size = np.abs(tensor).max(axis=(-2, -1))
     difference = np.abs(tensor - tensor.swapaxes(-2, -1))
-    parts = difference / np.where(size == 0, 1, size)[..., None, None]
-    if (worst := parts.max(initial=0.0)) > ROUNDING:
-        index = np.unravel_index(parts.argmax(), parts.shape)
+    quotients = difference / np.where(size == 0, 1, size)[..., None, None]
+    if (largest := quotients.max(initial=0.0)) > ROUNDING:
+        index = np.unravel_index(quotients.argmax(), quotients.shape)
         i, j = int(index[-2]) + 1, int(index[-1]) + 1
         fault = f"its elements ({i}, {j}) and ({j}, {i}) differ by {difference[index]:.3g}"
-        if worst > SINGLE:
+        if largest > SINGLE:
             raise AtlasError(f"{name} must be symmetric, but {fault}: give one value for both.")
         tell_nearest(f"{name} is not symmetric: {fault}", "the mean of both")
         tensor = frozen((tensor + tensor.swapaxes(-2, -1)) / 2)

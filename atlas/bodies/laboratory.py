@@ -91,11 +91,11 @@ def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian:
     """
     unit, chi = (4 * pi, 4 * pi) if gaussian else (MAGNETIC_CONSTANT, 1.0)
     chi *= number(susceptibility, "The susceptibility")
-    along = number(demagnetization, "The demagnetizing factor along the axis")
-    if not 0 <= along <= 1:
-        raise DomainError(f"The demagnetizing factor along the axis is in 0 ... 1 (a ball has 1/3), not {along}.")
-    across = (1 - along) / 2
-    if min(1 + chi * along, 1 + chi * across) <= 0:
+    N3 = number(demagnetization, "The demagnetizing factor along the axis")
+    if not 0 <= N3 <= 1:
+        raise DomainError(f"The demagnetizing factor along the axis is in 0 ... 1 (a ball has 1/3), not {N3}.")
+    N2 = (1 - N3) / 2
+    if min(1 + chi * N3, 1 + chi * N2) <= 0:
         raise DomainError(f"With the susceptibility {susceptibility} and this shape 1 + chi N is not positive.")
     size = positive(volume, "The volume of the magnetised body", "m**3")
-    return size * chi * chi * (across - along) / (unit * (1 + chi * along) * (1 + chi * across))
+    return size * chi * chi * (N2 - N3) / (unit * (1 + chi * N3) * (1 + chi * N2))

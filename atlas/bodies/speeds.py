@@ -38,14 +38,14 @@ def check_drift(E: Any, B: Any, units: System) -> None:
     (n, up), (e, down) = scaled(n), scaled(e)
     with np.errstate(over="ignore"):
         drift = np.ldexp(np.linalg.norm(np.cross(e, n)) / (n @ n), down - up)
-        part = float(drift * units.c / speed_of_light(units))
-    if part >= 1:
+        beta = float(drift * units.c / speed_of_light(units))
+    if beta >= 1:
         least = "c |B|" if units.c == 1 else "|B|"
         raise DomainError(
-            f"electric field: the drift c [E, B]/B^2 would be {part:.6g} times the speed of light: the part of E "
+            f"electric field: the drift c [E, B]/B^2 would be {beta:.6g} times the speed of light: the part of E "
             f"across B must stay below {least}, for the atlas is non-relativistic."
         )
-    warn_of("the drift c [E, B]/B^2", part)
+    warn_of("the drift c [E, B]/B^2", beta)
 
 
 def warn_of(speed: str, part: float) -> None:

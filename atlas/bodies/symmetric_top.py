@@ -23,17 +23,17 @@ def inputs_of_top(inertia: Any, coupling: Any, direction: Any, linear: Any, quad
     Raises DomainError for moments that no body has and for a direction that is zero, AtlasError for what is no finite
     number.
     """
-    parts = [
+    columns = [
         *components(inertia, ("I2", "I3"), "The inertia", INERTIA),
         *components(coupling, ("k2", "k3"), "The coupling", MOMENTUM),
         *components(direction, ("n2", "n3"), "The direction"),
         *components((linear, quadratic), ("linear", "quadratic"), "The potential", ENERGY),
     ]
-    common_shape(*(np.shape(x) for x in parts))
-    I2, I3, _, _, n2, n3 = np.broadcast_arrays(*parts)[:6]
+    common_shape(*(np.shape(x) for x in columns))
+    I2, I3, _, _, n2, n3 = np.broadcast_arrays(*columns)[:6]
     check_moments(I2, I3)
     check_direction(n2, n3)
-    return parts
+    return columns
 
 
 def arguments_of(top: Sequence[Any]) -> dict[str, Any]:

@@ -66,11 +66,11 @@ def system(name: str | System) -> System:
     """Return the system of units of that name, in capitals or not."""
     if isinstance(name, System):
         return name
-    for known in (SI, GAUSSIAN):
-        if isinstance(name, str) and name.casefold() == known.name.casefold():
-            return known
-    shown = reprlib.repr(name) if isinstance(name, str) else type(name).__name__
-    raise AtlasError(f"Units are 'SI' or 'Gaussian', not {shown}.")
+    for candidate in (SI, GAUSSIAN):
+        if isinstance(name, str) and name.casefold() == candidate.name.casefold():
+            return candidate
+    text = reprlib.repr(name) if isinstance(name, str) else type(name).__name__
+    raise AtlasError(f"Units are 'SI' or 'Gaussian', not {text}.")
 
 
 def charge_to_mass(charge: Any, mass: Any) -> float:
@@ -96,8 +96,8 @@ def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
     c = system(units).c
     unit = SI_FIELDS if c == 1 else NO_FIELDS
     B = real(B, "B", unit["B"])
-    parts = [float(exact_number(x)) for x in prime(number(mu, "mu", unit["mu"]), B, c)]
-    return plain(np.reshape(parts, B.shape))
+    components = [float(exact_number(x)) for x in prime(number(mu, "mu", unit["mu"]), B, c)]
+    return plain(np.reshape(components, B.shape))
 
 
 def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:

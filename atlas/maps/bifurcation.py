@@ -120,9 +120,9 @@ class Bifurcation:
 
     def values(self, z: FloatArray, branch: int) -> FloatArray:
         """Return F and H, shape (N, 2), of the elliptic motions at places z (N,)."""
-        P, first, _ = self._cubic(z)
+        P, slope, _ = self._cubic(z)
         v, square = branch * np.sqrt(P), self.b * self.b
-        linear = -self.c * first / v - 2 * square * z
+        linear = -self.c * slope / v - 2 * square * z
         H = -(2 * self.c * v + square * z * z + z * linear) / (2 * self.D)
         return np.stack([linear - self.e2 * square, H], axis=-1)
 
@@ -134,23 +134,23 @@ class Bifurcation:
     def _cubic(self, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return P, P' and the z + D/I_i, shape (N, 3)."""
         x = np.asarray(z)[..., None] + self.a
-        first, second, third = np.moveaxis(x, -1, 0)
-        return np.maximum(first * second * third, 0.0), first * second + second * third + third * first, x
+        x1, x2, x3 = np.moveaxis(x, -1, 0)
+        return (np.maximum(x1 * x2 * x3, 0.0), x1 * x2 + x2 * x3 + x3 * x1, x)
 
     def _roots(self, axis: int) -> NDArray[np.complex128]:
         """Return the places (2,), complex perhaps, at which the curve has the values of a spin about an axis."""
-        own, (j, k), fourth = self.a[axis], (self.a[axis - 1], self.a[axis - 2]), self.b**4
-        return np.asarray(np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * own]), complex)
+        entry, (j, k), fourth = self.a[axis], (self.a[axis - 1], self.a[axis - 2]), self.b**4
+        return np.asarray(np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * entry]), complex)
 
     @cached_property
     def spins(self) -> tuple[Spin, ...]:
         """The spins about the three axes."""
         spins = []
-        for axis, (I, own) in enumerate(zip(self.inertia, self.a, strict=True)):
+        for axis, (I, entry) in enumerate(zip(self.inertia, self.a, strict=True)):
             roots, turn = self._roots(axis), self.c / self.b
-            F, H = turn * turn - self.b**2 * own, (turn * turn / I + I * self.b**2) / 2
+            F, H = turn * turn - self.b**2 * entry, (turn * turn / I + I * self.b**2) / 2
             real = bool(np.isreal(roots).all())
-            kind = "focus-focus" if not real else "stable" if (roots.real > -own).all() else "saddle"
+            kind = "focus-focus" if not real else "stable" if (roots.real > -entry).all() else "saddle"
             spins.append(Spin(axis, float(F), float(H), kind))  # type: ignore[arg-type]  # one of the three
         return tuple(spins)
 
@@ -173,9 +173,9 @@ class Bifurcation:
                 s = -self.c / (branch * float(np.sqrt(P)) * self.b**2)
                 if start < stop and (1 / x).min() <= s <= (1 / x).max():
                     borders = [float(start), *self._borders(start, stop, branch), float(stop)]
-                    for border, other in pairwise(borders):
-                        stable = bool(self.splitting(np.array((border + other) / 2), branch) > 0)
-                        yield Stretch(oval, branch, border, other, stable)
+                    for border, end in pairwise(borders):
+                        stable = bool(self.splitting(np.array((border + end) / 2), branch) > 0)
+                        yield Stretch(oval, branch, border, end, stable)
 
     def rays(self) -> Iterator[tuple[int, float, float, bool]]:
         """Yield axis, first and last F, and stability of the plane pendulums about the three axes, for c = 0.
@@ -186,8 +186,8 @@ class Bifurcation:
         """
         square, order = self.b * self.b, np.argsort(self.inertia)
         for axis, before, after in zip(order, (False, True, True), (True, False, True), strict=True):
-            others = np.delete(self.a, axis)
-            start, border = -square * float(others.max()), square * float(self.a[axis] - others.sum())
+            entries = np.delete(self.a, axis)
+            start, border = -square * float(entries.max()), square * float(self.a[axis] - entries.sum())
             yield int(axis), start, border, before
             yield int(axis), max(start, border), float("inf"), after
 

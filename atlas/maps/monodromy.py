@@ -134,17 +134,17 @@ def monodromy(
     3
     """
     top = inputs_of_top(inertia, coupling, (0.0, 1.0), linear, quadratic)
-    given = [number(x, "A parameter of the top") for x in (*top[:4], *top[6:], M3, M3 if p is None else p)]
-    unit, *rest = given
-    I, *twist, weight, lean, along, middle = (x / unit for x in rest)
-    wells = Wells.at(along, I, (twist[0], twist[1]), weight, lean)
-    size = 4 * (abs(wells.A) + abs(wells.a)) + along * along
+    parameters = [number(x, "A parameter of the top") for x in (*top[:4], *top[6:], M3, M3 if p is None else p)]
+    unit, *scaled_values = parameters
+    I, *twist, weight, lean, momentum, middle = (x / unit for x in scaled_values)
+    wells = Wells.at(momentum, I, (twist[0], twist[1]), weight, lean)
+    size = 4 * (abs(wells.A) + abs(wells.a)) + momentum * momentum
     if size and not MIN_RATE_SQUARE < max(size, abs(middle)) < math.inf:
         raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
     whole(points, "The number of points", 3)
-    end, D = unstable_spin(*given)
+    end, D = unstable_spin(*parameters)
     values = around(wells, middle, points, end, D, slope=middle)
-    loop = on_loop(I, (twist[0], twist[1]), along, values, weight, lean)
+    loop = on_loop(I, (twist[0], twist[1]), momentum, values, weight, lean)
     return replace(loop, p=loop.p * unit, g=loop.g * unit)
 
 
@@ -171,12 +171,7 @@ def unstable_spin(*given: float) -> tuple[int, float]:
 
 
 def on_loop(
-    I: float,
-    coupling: tuple[float, float],
-    M3: float,
-    loop: FloatArray,
-    linear: float = 0.0,
-    quadratic: float = 0.0,
+    I: float, coupling: tuple[float, float], M3: float, loop: FloatArray, linear: float = 0.0, quadratic: float = 0.0
 ) -> Monodromy:
     """Carry the periods of a top round a `loop` (N, 2) of values (p, g) at one M3, closed by its first point.
 
@@ -203,13 +198,13 @@ def on_loop(
         means = [
             arb((angle / rows[0][0]).mid()) for angle in rows[0][1:]
         ]  # T comes back, and what it takes off with it
-        left, turns = [arb(0), arb(0)], []
+        previous_times, turns = [arb(0), arb(0)], []
         for time, *angles in [*rows, rows[0]]:
             for i, (angle, mean) in enumerate(zip(angles, means, strict=True)):
                 here = (angle - mean * time) / turn
-                here -= round(float(here - left[i]))
-                step, left[i] = max(step, float(abs(here - left[i]).upper())), here
-            turns.append([x + mean * time / turn for x, mean in zip(left, means, strict=True)])
+                here -= round(float(here - previous_times[i]))
+                step, previous_times[i] = max(step, float(abs(here - previous_times[i]).upper())), here
+            turns.append([x + mean * time / turn for x, mean in zip(previous_times, means, strict=True)])
         if not step < 1 / 4:
             raise DomainError(
                 f"An angle changes by {step:.3g} of a turn from one point of the loop to the next: give more points."
@@ -224,9 +219,9 @@ def on_loop(
 
 def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
     """Return the energy of the spin at nu = `end` less V, along GRID, without cancellation at that pole."""
-    d, moved = GRID, p - end * wells.M3
-    own = -D / 2 - d * (wells.A + wells.M3 * wells.M3 / (2 * (2 - d)))
-    return np.asarray(d * own - moved * (moved + 2 * end * wells.M3 * d) / (d * (2 - d)))
+    d, offset = GRID, p - end * wells.M3
+    level = -D / 2 - d * (wells.A + wells.M3 * wells.M3 / (2 * (2 - d)))
+    return np.asarray(d * level - offset * (offset + 2 * end * wells.M3 * d) / (d * (2 - d)))
 
 
 def _room(depth: FloatArray) -> float:
@@ -275,13 +270,13 @@ def around(
         raise DomainError(f"The value p = {p:g}, g = {g:g} at M3 = {wells.M3:g} is no isolated one: D is not negative.")
     widths = []
     for sense in (1, -1):
-        near, far = 0.0, 1.0
-        while room(sense * far) > 0:
-            near, far = far, 2 * far
+        inner, outer = 0.0, 1.0
+        while room(sense * outer) > 0:
+            inner, outer = outer, 2 * outer
         for _ in range(80):
-            middle = (near + far) / 2
-            near, far = (middle, far) if room(sense * middle) > 0 else (near, middle)
-        widths.append(near)
+            middle = (inner + outer) / 2
+            inner, outer = (middle, outer) if room(sense * middle) > 0 else (inner, middle)
+        widths.append(inner)
     wide = min(widths)
     if not (high > MIN_LOOP_SIZE * abs(g) and wide > MIN_LOOP_SIZE * abs(p)):
         raise DomainError(f"The spin, D = {D:.3g}, is so nearly stable that floats hold no loop round its value.")
@@ -312,14 +307,14 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
         torus = Torus(I, W, K)
         basis = np.array([[float(period.H), float(period.F)] for period in torus.periods(64)])
         if bases:
-            part = bases[-1] @ np.linalg.inv(basis)
-            step = max(step, float(np.abs(part - np.rint(part)).max()))
-            basis = np.rint(part) @ basis
+            transition = bases[-1] @ np.linalg.inv(basis)
+            step = max(step, float(np.abs(transition - np.rint(transition)).max()))
+            basis = np.rint(transition) @ basis
         bases.append(basis)
     if not step < 1 / 4:
         raise DomainError(f"A period changes by {step:.3g} of itself from one point of the loop to the next.")
-    turned = np.rint(bases[-1] @ np.linalg.inv(bases[0])).astype(int).tolist()
-    return tuple(tuple(row) for row in turned), step
+    rows = np.rint(bases[-1] @ np.linalg.inv(bases[0])).astype(int).tolist()
+    return tuple(tuple(row) for row in rows), step
 
 
 def _with_values(bifurcation: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:

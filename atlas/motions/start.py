@@ -143,9 +143,9 @@ def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
     if K1 == 0:
         return K2, np.eye(3)
     with workprec():
-        size = as_rational(length(K1, K2))
-        c, s = (nearest(x / size) for x in (K2, K1))
-    return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+        length_across = as_rational(length(K1, K2))
+        c, s = (nearest(x / length_across) for x in (K2, K1))
+    return length_across, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
 
 
 def _copied(value: Any) -> Any:

@@ -67,8 +67,8 @@ class Quadric:
     def axes(self) -> list[list[Real]]:
         """The directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3)."""
         s, c = self._angle()
-        zero, one = fmpq(0), fmpq(1)
-        return [[one, zero, zero], [zero, c, s], [zero, -s, c]]
+        zero, unit = fmpq(0), fmpq(1)
+        return [[unit, zero, zero], [zero, c, s], [zero, -s, c]]
 
     def _angle(self) -> tuple[Real, Real]:
         """Return sine and cosine of beta/2 + pi/4."""

@@ -67,8 +67,8 @@ class TopQuadric(Quadric):
         """D = A + kappa^2 + a0/n3, which is (I - 1) b^2 for the paper's body."""
         I, k2, k3, n2, n3, a0, A0 = self.top
         check_D(self.B3, a0)
-        one = n3.of(1)
-        return (one.of(top.excess(I, k2, k3, n2, one, a0, A0)) if n3.is_zero else self._excess / n3).value
+        unit = n3.of(1)
+        return (unit.of(top.excess(I, k2, k3, n2, unit, a0, A0)) if n3.is_zero else self._excess / n3).value
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
@@ -164,8 +164,8 @@ class TopHyperbola:
             if n % 2:
                 ends += _real_roots(factor)
             else:  # the frequency touches zero: unstable at the point itself, but for a fourfold root
-                left = divided(factor, gcd(factor, self._fourfold))[0] if self._leading < 0 else factor
-                ends += 2 * _real_roots(left)
+                factor_left = divided(factor, gcd(factor, self._fourfold))[0] if self._leading < 0 else factor
+                ends += 2 * _real_roots(factor_left)
         ends_of_bands = sorted(((u - k2) * n2.value for u in ends), key=lambda end: end.mid())
         return list(zip(ends_of_bands[::2], ends_of_bands[1::2], strict=True))
 
@@ -174,12 +174,12 @@ class TopHyperbola:
         """The stability times x^2 as a polynomial in u = omega2/n2 + k2."""
         I, k2, k3, _, n3, a0, _ = self.top
         kappa, A = k2 - k3 / I, self._leading
-        force, one = n3 * A + a0, n3.of(1)
-        level = (one - 3 * n3 * n3) * A - 2 * n3 * a0
+        force, unit = n3 * A + a0, n3.of(1)
+        level = (unit - 3 * n3 * n3) * A - 2 * n3 * a0
         # x^2 (u^2 + level) - 2 n3 kappa x (n3 u^2 + force) + (kappa n3 u + force)^2, x = u - kappa
         square = kappa * kappa
         constant = level * square + 2 * square * n3 * force + force * force
-        return constant, -2 * kappa * level, level + (3 * n3 * n3 + 1) * square, -2 * kappa * (n3 * n3 + 1), one
+        return constant, -2 * kappa * level, level + (3 * n3 * n3 + 1) * square, -2 * kappa * (n3 * n3 + 1), unit
 
     def _off_the_pole(self, omega2: Any) -> Surd:
         n2 = self.top[3]

@@ -162,9 +162,11 @@ class Quadric(Shown):
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3 = sqrt(|1-I| B2^2 (1, |a2|, |a3|)), (55), (57), in 1/time; shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
-        along = np.asarray(B2) == 0
-        found = over(quadric.semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, None), degree=(1, 1, 1))
-        C1, C2, C3 = (plain(np.where(along, 0.0, C)) for C in found)
+        is_upright = np.asarray(B2) == 0
+        semi_axes = over(
+            quadric.semi_axes, I2, I3, np.where(is_upright, 1.0, B2), B3, unit=slice(2, None), degree=(1, 1, 1)
+        )
+        C1, C2, C3 = (plain(np.where(is_upright, 0.0, C)) for C in semi_axes)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
     @kept
@@ -221,9 +223,9 @@ class Quadric(Shown):
         common_shape(self.shape, omega.shape[:-1])
         # the difference and its turn may be larger than the coordinates: a quarter of each is not
         power = -2 if max(np.abs(omega).max(initial=0.0), np.abs(self.centre).max(initial=0.0)) > 1.0 else 0
-        turned = np.matvec(self.axes, np.ldexp(omega, power) - np.ldexp(self.centre, power))
+        coordinates = np.matvec(self.axes, np.ldexp(omega, power) - np.ldexp(self.centre, power))
         with np.errstate(over="ignore"):
-            return np.asarray(np.ldexp(turned, -power))
+            return np.asarray(np.ldexp(coordinates, -power))
 
     def residual(self, omega: RealArrayLike) -> FloatOrArray:
         """Residual of eq. (50) at points, zero on the surface only.
@@ -317,8 +319,8 @@ class TopQuadric(Quadric):
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         self._needs_finite()
-        found = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), along=True)
-        C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in found)
+        semi_axes = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), along=True)
+        C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in semi_axes)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
     @kept

@@ -27,8 +27,8 @@ class DoubleTurn:
     @property
     def _direction(self) -> Sequence[fmpq]:
         """A vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
-        along = self._turning[0]
-        return along if any(along) else AXES[2]
+        axis_vector = self._turning[0]
+        return axis_vector if any(axis_vector) else AXES[2]
 
     @property
     def k(self) -> Real:
@@ -93,8 +93,8 @@ class ElementaryMotion(DoubleTurn):
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
         """A vector along the axis, k and phi."""
-        along, k, phi = elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
-        return (fmpq(0), *along), k, phi
+        axis_vector, k, phi = elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
+        return (fmpq(0), *axis_vector), k, phi
 
     def quaternion(self, t: Any) -> list[Real]:
         """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (85)."""
@@ -126,11 +126,11 @@ class ElementaryMotion(DoubleTurn):
         m2, m3 = self.omega2, self.I * self.omega3
         _, x, y = self._direction
         square = x**2 + y**2
-        along, across = m2 * x + m3 * y, m3 * x - m2 * y
+        along_part, across_part = m2 * x + m3 * y, m3 * x - m2 * y
         return [
-            across * s / root(square),
-            (along * x - across * y * c) / square,
-            (along * y + across * x * c) / square,
+            across_part * s / root(square),
+            (along_part * x - across_part * y * c) / square,
+            (along_part * y + across_part * x * c) / square,
         ]
 
     @property

@@ -29,20 +29,20 @@ class BallMotion:
     @property
     def k_hat(self) -> tuple[Real, Real]:
         """The axis (k2, k3), (29); (0, -1) where gamma = 0 and the paper's form is 0/0."""
-        along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
+        axis_vector, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
         if gamma == 0:
             return fmpq(0), fmpq(-1)
-        k2, k3 = direction(along)
+        k2, k3 = direction(axis_vector)
         return k2, k3
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t), (28); for a momentum along the field (30), in which the two turns are one."""
-        t, last = rational(t, "the time"), AXES[2]
+        t, last_row = rational(t, "the time"), AXES[2]
         if self.m2 == 0:
             s, c = sin_cos(self.m3 / self.inertia * t)
-            return turn(last, c, s)
-        along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
-        return turns(t, (last, -self.larmor), ((fmpq(0), *along), -gamma))
+            return turn(last_row, c, s)
+        axis_vector, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
+        return turns(t, (last_row, -self.larmor), ((fmpq(0), *axis_vector), -gamma))
 
     def quaternion(self, t: Any) -> list[Real]:
         """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (28)."""
@@ -64,9 +64,9 @@ class BallMotion:
             return [fmpq(0), self.m2 / self.inertia, self.m3 / self.inertia]
         s, c = sin_cos(self.gamma * rational(t, "the time"))
         x, y, v = self.m2, self.m3 + self.larmor * self.inertia, (1 - c) / self.inertia
-        along = (x * self.m2 + y * self.m3) / (x**2 + y**2)
+        quotient = (x * self.m2 + y * self.m3) / (x**2 + y**2)
         return [
             self.larmor * self.m2 * s / size,
-            c * self.m2 / self.inertia + along * x * v,
-            c * self.m3 / self.inertia + along * y * v,
+            c * self.m2 / self.inertia + quotient * x * v,
+            c * self.m3 / self.inertia + quotient * y * v,
         ]

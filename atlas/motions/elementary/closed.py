@@ -27,7 +27,7 @@ class Closed(DoubleRotation):
     case = "precession"
 
     def __init__(self, I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
-        k, w2, w3, first, second = map(middle, enclosed(lambda: _constants(I2, I3, B2, B3, r), BITS))
+        k, w2, w3, n2, n3 = map(middle, enclosed(lambda: _constants(I2, I3, B2, B3, r), BITS))
         self.omega2, self.omega3 = nearest(w2), nearest(w3)
         with workprec():
             third, self.period, phi = nearest(I3 * w3 / I2), nearest(TURN * int(r.q) / abs(k)), k * r
@@ -36,7 +36,7 @@ class Closed(DoubleRotation):
             "K": (0.0, nearest(B2), nearest(B3)),
             "m": (0.0, self.omega2, third),
         }
-        super().__init__((ZERO, first, second), k, phi)
+        super().__init__((ZERO, n2, n3), k, phi)
 
 
 def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:

@@ -35,10 +35,10 @@ class AxisAndRates:
         """Return cosine and sine of half the tilt of the axis, and of its azimuth."""
         axis = self._axes[0]
         n1, n2, n3 = (arb(y) for y in direction(axis))
-        across = (n1 * n1 + n2 * n2).sqrt() if not axis[0] == axis[1] == 0 else arb(0)
-        C, S = (n2 / across, n1 / across) if across != 0 else (arb(1), arb(0))
+        across_size = (n1 * n1 + n2 * n2).sqrt() if not axis[0] == axis[1] == 0 else arb(0)
+        C, S = (n2 / across_size, n1 / across_size) if across_size != 0 else (arb(1), arb(0))
         longer = ((1 + abs(n3)) / 2).sqrt()
-        shorter = across / (2 * longer)
+        shorter = across_size / (2 * longer)
         return (longer, shorter, C, S) if axis[2] >= 0 else (shorter, longer, C, S)
 
     @property
@@ -48,8 +48,8 @@ class AxisAndRates:
 
     def rotation(self, t: fmpq) -> Matrix:
         """Return R(t) as rows."""
-        axis, last = self._axes
-        return turns(t, (axis, self.k), (last, self.phi))
+        axis, last_column = self._axes
+        return turns(t, (axis, self.k), (last_column, self.phi))
 
     def angular_velocity(self, t: fmpq) -> list[Any]:
         """Return Omega(t) in the body."""

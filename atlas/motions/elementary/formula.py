@@ -14,8 +14,8 @@ def constants(
 ) -> tuple[Number, tuple[Number, Number], Number, Number]:
     """Return omega3, which in the cases FREE_CASES is as given, a vector (x, y) along the axis, k and phi."""
     if case == "free body":
-        along = omega2, I3 * omega3 / I2
-        return omega3, along, length(*along), (I2 - I3) * omega3 / I2
+        axis_vector = omega2, I3 * omega3 / I2
+        return omega3, axis_vector, length(*axis_vector), (I2 - I3) * omega3 / I2
     if case == "spin along the field":
         return omega3, (B2, B3), omega2, omega3
     k = precession(B2, B3, omega2)

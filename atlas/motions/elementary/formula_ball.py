@@ -5,8 +5,8 @@ from atlas.arithmetic.numbers import Number, length
 
 def turning(I0: Number, alpha: Number, m2: Number, m3: Number) -> tuple[tuple[Number, Number], Number, Number]:
     """Return a vector along k_hat, gamma and alpha, (29)."""
-    along = m3 + alpha * I0
-    return (-m2, -along), length(m2, along) / I0, alpha
+    total3 = m3 + alpha * I0
+    return (-m2, -total3), length(m2, total3) / I0, alpha
 
 
 def rates(I0: Number, m2: Number, m3: Number) -> tuple[Number, Number]:

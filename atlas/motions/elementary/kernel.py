@@ -46,8 +46,8 @@ class Elementary(DoubleRotation):
         inputs = exact(I2, I3, B2, B3, omega2, 0.0 if omega3 is None else omega3)
         self.case = case_of(*inputs[:5])
         with workprec():
-            w3, along, k, phi = constants(self.case, *inputs)
-            axis, third = (ZERO, *direction(along)), nearest(inputs[1] * w3 / inputs[0])
+            w3, axis_vector, k, phi = constants(self.case, *inputs)
+            axis, third = (ZERO, *direction(axis_vector)), nearest(inputs[1] * w3 / inputs[0])
         self.omega3 = nearest(w3)
         check_omega3(self.case, omega3, self.omega3)
         _, _, B2, B3, omega2, _ = map(nearest, inputs)
@@ -215,8 +215,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         I2, I3, B2, B3, w2, _ = np.broadcast_arrays(*self._inputs)
         flat, steady = B3 == 0, B2 == 0
         pole = (w2 == -B2) & (low_word(self._inputs[4]) == -low_word(self._inputs[2]))
-        free = [steady & flat, steady & (w2 == 0), ~steady & pole & flat, ~steady & pole & (I2 == I3)]
-        return np.select([*free, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
+        conditions = [steady & flat, steady & (w2 == 0), ~steady & pole & flat, ~steady & pole & (I2 == I3)]
+        return np.select([*conditions, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
 
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
         """Return each case that there is, its rows and their inputs; omega2 = 0 is on the curve like any other."""
@@ -254,10 +254,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             return None
         size, turn = across(K1, K2)
         square = K1 * K1 + K2 * K2
-        along = exact_number((w1 * K1 + w2 * K2) / square * size if square != 0 else w2)
+        omega_along = exact_number((w1 * K1 + w2 * K2) / square * size if square != 0 else w2)
         for third in (None, exact_number(w3)):
             with suppress(DomainError):
-                return ElementaryMotion(body, (exact_number(size), exact_number(K3)), along, third), turn @ axes
+                return ElementaryMotion(body, (exact_number(size), exact_number(K3)), omega_along, third), turn @ axes
         return None
 
     def _inputs_of(self, i: int) -> Any:
@@ -361,8 +361,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             return dict(zip(NAMES, map(plain, self._table(conserved, (2, 2, 1, 2, 2))), strict=True))
         Omega, K = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
         four = integrals(self.ratio, Omega, K)
-        along = Omega * K * np.stack(np.broadcast_arrays(1.0, 1.0, shape_factors(self.ratio)[0]), -1)
-        return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(m,B')": plain(along.sum(-1))}
+        products = Omega * K * np.stack(np.broadcast_arrays(1.0, 1.0, shape_factors(self.ratio)[0]), -1)
+        return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(m,B')": plain(products.sum(-1))}
 
     @property
     def beside(self) -> "FreeMotion":

@@ -35,9 +35,9 @@ class Ball(DoubleRotation):
 
     def __init__(self, inertia: Any, larmor: Any, m2: Any, m3: Any) -> None:
         with workprec():
-            along, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
+            axis_vector, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
             # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
-            axis = (ZERO, *direction(along)) if gamma != 0 else (ZERO, ZERO, -ONE)
+            axis = (ZERO, *direction(axis_vector)) if gamma != 0 else (ZERO, ZERO, -ONE)
         self.vectors = {"m": (0.0, np.asarray(m2), np.asarray(m3)), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
         super().__init__(axis, gamma, alpha, inverse=True)
 
@@ -183,15 +183,15 @@ class BallMotion(DoubleTurn[Ball]):
             return None
         _, axes, field, omega = start.symmetric
         K, w = exactly(*field), exactly(*omega)
-        square, along, size = dot(K, K), dot(w, K), rational(float(I[2]))
-        aside = [square * x - along * y for x, y in zip(w, K, strict=True)]
+        square, projection, size = dot(K, K), dot(w, K), rational(float(I[2]))
+        aside = [square * x - projection * y for x, y in zip(w, K, strict=True)]
         with workprec():
             b, side = as_rational(length(*K)), as_rational(length(*aside))
             if side == 0:
                 e = exact(*np.eye(3)[np.argmin([abs(nearest(x / b)) for x in K])])
                 aside = [square * x - dot(e, K) * y for x, y in zip(e, K, strict=True)]
             turn = np.array([[nearest(x) for x in unit(row)] for row in (cross(aside, K), aside, K)])
-        larmor, m2, m3 = (exact_number(x) for x in (b, size * side / square, size * along / square * b))
+        larmor, m2, m3 = (exact_number(x) for x in (b, size * side / square, size * projection / square * b))
         return cls(float(I[2]), larmor, (m2, m3)), turn @ axes
 
     def _inputs_of(self, i: int) -> Any:

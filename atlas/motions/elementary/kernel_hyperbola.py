@@ -361,8 +361,8 @@ class Hyperbola(Shown):
         DomainError, AtlasError
             As for `branches`.
         """
-        first, second = zip(*self.branches(points, reach=reach), strict=True)
-        return np.concatenate(first), np.concatenate(second)
+        omega2, omega3 = zip(*self.branches(points, reach=reach), strict=True)
+        return np.concatenate(omega2), np.concatenate(omega3)
 
     def branches(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
         """Branches of (67) sampled by the hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s; X > 0 first.
@@ -422,8 +422,8 @@ class Hyperbola(Shown):
             raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
         high = np.log(extent / scale)
         low = np.log(scale / B2) + np.log(tangent * B2 / extent) if self.I2 != self.I3 else high - np.log(1e3)
-        first, second = (np.linspace(min(low, high - 1), high, n) for n in halves(points))
-        return first, second
+        lower_branch, upper_branch = (np.linspace(min(low, high - 1), high, n) for n in halves(points))
+        return lower_branch, upper_branch
 
     def _branch(self, sign: int, s: FloatArray) -> Branch:
         """Return the points at parameters s on the side X > 0 or X < 0."""
@@ -431,8 +431,8 @@ class Hyperbola(Shown):
             omega2 = sign * self._scale() * np.exp(s) - self.B2
         if not np.isfinite(omega2).all():
             raise AtlasError(f"A parameter of {np.max(s)} leads beyond the largest float.")
-        beside = np.nextafter(self.pole, sign * np.inf)
-        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, beside)
+        neighbour = np.nextafter(self.pole, sign * np.inf)
+        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, neighbour)
         return omega2, np.asarray(self.omega3(omega2))
 
     def _scale(self) -> float:

@@ -51,8 +51,8 @@ def circling(_: Number, c: Number, *x: Number) -> Vector:
 
 def looping(mu: Number, c: Number, *x: Number) -> Number:
     """Return B^4 times the square of the velocity of circling less that of the drift."""
-    turned, drifting = circling(mu, c, *x), [c * e for e in cross(x[:3], x[3:6])]
-    return dot(turned, turned) - dot(drifting, drifting)
+    force, drifting = circling(mu, c, *x), [c * e for e in cross(x[:3], x[3:6])]
+    return dot(force, force) - dot(drifting, drifting)
 
 
 def drift(_: Number, c: Number, *x: Number) -> Vector:
@@ -62,8 +62,8 @@ def drift(_: Number, c: Number, *x: Number) -> Vector:
 
 def radius(mu: Number, c: Number, *x: Number) -> Number:
     """Return the radius a of (97): |circling| c/(|mu| |B|), of one root, so that it is rational where it can be."""
-    turned, b2 = circling(mu, c, *x), dot(x[3:6], x[3:6])
-    return root(dot(turned, turned) * c * c / (mu * mu * b2 * b2 * b2))
+    force, b2 = circling(mu, c, *x), dot(x[3:6], x[3:6])
+    return root(dot(force, force) * c * c / (mu * mu * b2 * b2 * b2))
 
 
 def arm(mu: Number, c: Number, *x: Number) -> Vector:
@@ -85,8 +85,8 @@ def centre(mu: Number, c: Number, *x: Number) -> Vector:
 
 def axes(_: Number, __: Number, *x: Number) -> Vector:
     """Return unit vectors along [E, B], [B, [E, B]] and B: the frame of figure Magn."""
-    first, third = cross(x[:3], x[3:6]), x[3:6]
-    return [n for row in (first, cross(third, first), third) for n in unit(row)]
+    first_axis, third = cross(x[:3], x[3:6]), x[3:6]
+    return [n for row in (first_axis, cross(third, first_axis), third) for n in unit(row)]
 
 
 def velocity_parts(mu: Number, _: Number, *x: Number) -> Vector:

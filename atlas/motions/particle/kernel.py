@@ -136,10 +136,10 @@ class ParticleMotion(Shown):
         data, (100), shift the path along e2 by a constant. The constant is printed as mu |E_perp|/omega; a length is
         mu |E_perp|/omega^2.
         """
-        still = cls(mu, E, B, np.zeros(3), np.zeros(3), c)
-        e1, e2, _ = np.moveaxis(still.axes, -2, 0)
-        a, omega = real(radius, "radius")[..., None], np.asarray(still.cyclotron_frequency)[..., None]
-        return cls(mu, E, B, a * e2, still.drift + a * omega * e1, c)
+        particle_at_rest = cls(mu, E, B, np.zeros(3), np.zeros(3), c)
+        e1, e2, _ = np.moveaxis(particle_at_rest.axes, -2, 0)
+        a, omega = real(radius, "radius")[..., None], np.asarray(particle_at_rest.cyclotron_frequency)[..., None]
+        return cls(mu, E, B, a * e2, particle_at_rest.drift + a * omega * e1, c)
 
     @property
     def case(self) -> NameOrArray:
@@ -271,17 +271,17 @@ class ParticleMotion(Shown):
     def _spread(self, fill: Callable[[Charge, FloatArray, FloatArray], None], t: Any) -> FloatArray:
         """Return vectors (..., 3) that `fill` writes for times (m,) into an array (m, 3)."""
         times = real(t, "t", TIME)
-        full = common_shape(self.shape, times.shape)
-        times, out = np.broadcast_to(times, full), np.empty((*full, 3))
+        full_shape = common_shape(self.shape, times.shape)
+        times, out = np.broadcast_to(times, full_shape), np.empty((*full_shape, 3))
         rows = out.reshape(-1, 3)
         if not self.shape:
             fill(self._all, times.reshape(-1), rows)
             return out
-        own = (1,) * (len(full) - len(self.shape)) + self.shape
-        indices = np.broadcast_to(np.arange(prod(own)).reshape(own), full)
+        own_shape = (1,) * (len(full_shape) - len(self.shape)) + self.shape
+        indices = np.broadcast_to(np.arange(prod(own_shape)).reshape(own_shape), full_shape)
         for start in range(0, times.size, BLOCK):
             block = slice(start, start + BLOCK)
             moment = np.asarray(times.flat[block])
-            some = self._all.at(indices.flat[block], moment, centre=fill is Charge.fill_centre)
-            fill(some, moment, rows[block])
+            selected = self._all.at(indices.flat[block], moment, centre=fill is Charge.fill_centre)
+            fill(selected, moment, rows[block])
         return out

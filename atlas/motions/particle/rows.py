@@ -53,8 +53,8 @@ def gyration(x: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArra
     divisor = np.where(tiny, 1.0, x)
     s, g = sin / divisor, versine / divisor
     f, h = g / divisor, (1.0 - s) / divisor
-    near = np.abs(x) < 2
-    h[near] = x[near] * np.polyval(SERIES, x[near] ** 2)
+    is_small = np.abs(x) < 2
+    h[is_small] = x[is_small] * np.polyval(SERIES, x[is_small] ** 2)
     s[tiny], f[tiny], g[tiny] = 1.0, 0.5, x[tiny] / 2
     return Gyration(cos, sin, s, f, g, h)
 
@@ -94,16 +94,16 @@ class Charge:
 
         Of the point O(t) of (99) alone if `centre`.
         """
-        some = copy(self)
+        selection = copy(self)
         if centre:
-            some.centre = self.centre[..., index]
-            return some
-        some.y0, some.rate = self.y0[:, index], self.rate[index]
-        some.velocity_parts, some.acceleration_parts = (
+            selection.centre = self.centre[..., index]
+            return selection
+        selection.y0, selection.rate = self.y0[:, index], self.rate[index]
+        selection.velocity_parts, selection.acceleration_parts = (
             x[..., index] for x in (self.velocity_parts, self.acceleration_parts)
         )
-        some.phases = Phases.of_words(self._frequencies.at(index, t))
-        return some
+        selection.phases = Phases.of_words(self._frequencies.at(index, t))
+        return selection
 
     @cached_property
     def rate(self) -> Any:
@@ -228,10 +228,10 @@ class Charge:
 
     @cached_property
     def _frequencies(self) -> Frequencies:
-        words, lack = words_of(lambda *x: (particle.rate(*x),), self.safe, slice(0))
-        words[..., ~self.force], lack[:, ~self.force] = 0.0, 0.0
+        words, error = words_of(lambda *x: (particle.rate(*x),), self.safe, slice(0))
+        words[..., ~self.force], error[:, ~self.force] = 0.0, 0.0
         rate, inputs = self._exact_rate, self.inputs  # not self, which refers to what is returned
-        return Frequencies(words, lack, lambda i: [rate(*(x[i] for x in inputs))])
+        return Frequencies(words, error, lambda i: [rate(*(x[i] for x in inputs))])
 
     @staticmethod
     def _exact_rate(*inputs: float) -> Number:
