@@ -3,7 +3,7 @@
 `certified` computes a quantity at rising precision until the digits asked for are proven, and returns their text.
 `printed` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
 number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven; `NOT_CERTIFIED`
-stands where not even the first is, and `INFINITE` for what is exactly so.
+stands where not even the first is, and `INFINITE` for an infinite number.
 """
 
 from collections.abc import Callable, Iterator
@@ -35,7 +35,7 @@ class Printed:
 
 
 def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain", spare: int = SPARE_BITS) -> Any:
-    """Return what ``function`` returns, each certified number in it as text with ``digits`` proven digits.
+    """Return the result of ``function``, each certified number in it as text with ``digits`` proven digits.
 
     ``function`` takes no argument and computes at the precision of the moment; it returns a number or lists, tuples
     and dictionaries of them; whatever else it holds (names, None) stays as it is. ``digits`` counts significant
@@ -52,7 +52,7 @@ def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain"
 
 
 def enclosed(function: Callable[[], Any], bits: int) -> Any:
-    """Return what ``function`` returns, each ball with a relative radius below 2**-bits or as near as can be had.
+    """Return the result of ``function``, each ball with a relative radius below 2**-bits or as near as can be had.
 
     A ball about zero that lies within 2**-4000 suffices: zero is the float nearest to all that it holds.
     """

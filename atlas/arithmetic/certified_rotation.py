@@ -21,7 +21,7 @@ def identity() -> Matrix:
 def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
     """Return the turn about a vector that is not zero by the angle whose cosine and sine are given, by Rodrigues.
 
-    Of rational vectors all but the length is rational, and what is zero at all angles is exactly zero.
+    Of rational vectors all but the length is rational, and an entry that is zero at all angles is exactly zero.
     """
     x, y, z = vector
     square = x * x + y * y + z * z

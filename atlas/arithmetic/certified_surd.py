@@ -1,4 +1,4 @@
-"""Numbers a + b sqrt(N) with rational a, b, N, exactly: what the length of a rational vector makes of others."""
+"""Numbers a + b sqrt(N) with rational a, b, N, exactly: the numbers in which the length of a rational vector stands."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -143,7 +143,7 @@ def roots(p: Polynomial) -> list[acb]:
     while precision < MAX_BITS:
         precision *= 2
         with workprec(precision):
-            # first from balls, in which most signs are known; what is exact takes longer
+            # first from balls, in which most signs are known; exact arithmetic takes longer
             for exact in (True,) if precision > 2 * digits else (False, True):
                 closed = _closed(p, exact=exact)
                 are_apart = not any(x.overlaps(y) for x, y in combinations(closed, 2))

@@ -25,11 +25,12 @@ def circle_of(
     sin: FloatArray,
     versine: FloatArray,
 ) -> None:
-    """Fill what `Phases.circle` does from what `Phases.angles` returns; x may leave its range where it was added to.
+    """Fill the arrays of `Phases.circle` from the result of `Phases.angles`; x may leave its range after a sum.
 
     Without `e`, nothing was left out of x/2.
     """
-    # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
+    # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine;
+    # u then gets the rounding error of x
     np.tan(u, out=u)
     if e is not None:
         np.multiply(u, u, out=square)

@@ -1,7 +1,7 @@
 """Numbers with a unit, of pint or of astropy, as plain numbers in SI.
 
-They are known by what they can do: neither library is loaded here. What is plain beside them is in SI, and so is what
-comes out: rates in rad/s, times in s.
+They are known by their methods: neither library is loaded here. Plain numbers beside them are in SI, and so are the
+results: rates in rad/s, times in s.
 """
 
 import reprlib
@@ -30,9 +30,9 @@ def is_quantity(value: Any) -> bool:
 
 
 def bare(value: Any, name: str, unit: str) -> Any:
-    """Return what was given in that unit of SI, a number or an array; lists are gone through, the rest stays.
+    """Return a quantity in that unit of SI, a number or an array; lists are gone through, other values stay.
 
-    Raises AtlasError for another dimension, for a rate in hertz, and, without a unit, for what has a dimension.
+    Raises AtlasError for another dimension, for a rate in hertz, and, without a unit, for a value with a dimension.
     """
     if isinstance(value, tuple | list):
         has_units = bool(value) and any(is_quantity(component) for component in value[:3])

@@ -1,6 +1,7 @@
 """Arrays of numbers in two words, each row with a bound on its error: the scalars of many motions at once.
 
-A formula written with + - * / and `root` takes these arrays as it takes exact rationals and balls. What a row loses, by
+A formula written with + - * / and `root` takes these arrays as it takes exact rationals and balls. The error of a
+row, by
 rounding and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row is
 computed again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
 
@@ -167,7 +168,7 @@ class DoubleDouble:
         return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
 
     def _lost(self, other: "DoubleDouble", total: Any, rounding: float) -> Any:
-        """Return the relative error of a sum: what the terms lack, in parts of it, and its rounding."""
+        """Return the relative error of a sum: the errors of the terms, in parts of the sum, and its rounding."""
         if isinstance(self.rel, float) and isinstance(other.rel, float) and not (self.rel or other.rel):
             return rounding
         error = self.rel * abs(self.hi) + other.rel * abs(other.hi)
@@ -345,7 +346,7 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
 
 
 def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> Any:
-    """Return in which rows all numbers are zero or far from what products of a few could not hold."""
+    """Return a boolean per row: all numbers are zero, or products of a few of them neither over- nor underflow."""
     ordinary = np.ones(rows, dtype=bool)
     for size in map(abs, columns):
         ordinary &= (size == 0) | ((size >= 1 / bound) & (size <= bound))

@@ -1,4 +1,4 @@
-"""Exact numbers that no double holds: fractions, and products or components along other axes of what was given."""
+"""Exact numbers that no double holds: fractions, and products or components along other axes of given numbers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Given:
     """Exact numbers, each also as a double-double: the nearest double `hi` and the low part `lo`, within `rel`.
 
     NumPy takes an object of this class for the array of its nearest doubles; kernels for arrays take both words, and
-    what is made of one motion the rational number itself.
+    the constants of one motion the rational number itself.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ QUARTER_TURN, TAIL = nearest(QUARTER), np.array(LACKING)
 """pi/2 as a double, and the remainders of its head of 27 binary digits."""
 
 TIME_BITS = 26
-"""Those of what is multiplied by the head."""
+"""Binary digits of the factor of the head."""
 
 
 class Progression:
@@ -62,7 +62,7 @@ class Progression:
         self.table = np.array([*(cut[:2] for cut in cuts), *(cut[2:] for cut in cuts)])
 
     def circle(self, i: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-        """Fill what `Phases.circle` does, within the same 8 w, at whole numbers i above ones, (2, m).
+        """Fill the arrays of `Phases.circle`, within the same 8 w, at whole numbers i above ones, (2, m).
 
         Unless `refined`, x/2 is rounded: that adds half an ulp of it times 1 + u^2, at most w, to the error of
         u = tan(x/2), and saves that of a sum. As |u| is below 1 + 2^-12 for size <= 8000, u is within 2 w below 1 and
@@ -141,7 +141,7 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step.
 
     A grid with tables that passes t = 0 is cut there, and each part runs away from zero: so coarse and fine times never
-    cancel. Times are counted from the one nearest to zero. So what is small with k t keeps its digits.
+    cancel. Times are counted from the one nearest to zero. So entries that are small with k t keep their digits.
     """
     count, size = len(out), len(turning.weights)
     if not count:
@@ -183,7 +183,7 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
     With the functions G_q of tau, not halved, L_r R(tau) Q_r is the sum over q of G_q L_r L_q Q_q Q_r. Its errors would
     be those of every matrix of the grid: so it is rounded once. The G_q are made in long doubles, where the machine has
     them. Both factors are cut into multiples of 2^-25 and rests: sums of products of the multiples are exact, since the
-    terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and what is added is below 2^-20.
+    terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and the added terms are below 2^-20.
     """
     phases = Progression(turning.turns, 0.0, step, 0, FINE_TIMES)
     head, remainder, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))

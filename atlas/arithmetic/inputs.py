@@ -138,7 +138,7 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
 
 
 def numbers(value: Any, name: str, unit: str = "") -> Any:
-    """Return `value` as `real` does, but numbers that no double holds, such as a Fraction, as exact `Given` ones."""
+    """Return `value` as an array by `real`, or numbers that no double holds, such as a Fraction, as `Given`."""
     if isinstance(value, Fraction):
         value = exact_number(value)
     return value if isinstance(value, Given) else real(value, name, unit)

@@ -144,7 +144,7 @@ class Phases:
 
     @cached_property
     def _sums(self) -> tuple[FloatArray, FloatArray]:
-        """Head of P0 + P1 with 26 digits, and the matrix that sums what `halves_of` has."""
+        """Head of P0 + P1 with 26 digits, and the matrix that sums the rows of `halves_of`."""
         with workprec():
             head, *lows = _columns([_head(p) for p in self._small])
         columns = [] if self.origins is None else [self.origins[1]]
@@ -192,7 +192,7 @@ class Phases:
         circle_of(*self.angles(t, work), cos, sin, versine)
 
     def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return x/2 for x = f t less whole half turns, what rounding left out of it, and the turns' sign.
+        """Return x/2 for x = f t less whole half turns, its rounding error, and the sign of the turns.
 
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near MAX_PHASE
         the whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8.
@@ -219,7 +219,7 @@ class Phases:
                 lower += low
                 t = t + low
             return self._reduced_near(t, halves, work)
-        # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
+        # the sum of -P0 t, its four products of halves and P1 t, in this order, is the error of -P0 t, by Dekker
         products, remainder, multiple = work[:6], work[6], work[7]
         np.multiply(self.words, t, out=products[::5])
         np.multiply(self.halves, halves, out=products[1:5].reshape(2, 2, *remainder.shape))
@@ -227,12 +227,12 @@ class Phases:
         if low is not None:
             np.multiply(self.words[0], low, out=multiple)
             remainder -= multiple
-        # `whole` half turns and `product`, what is left of them, come with the sign turned round
+        # `half_turns` and the remainder `product` have the opposite sign
         product, half_turns, y = products[:3]
         np.add(product, self.rounder, out=half_turns)
         np.subtract(half_turns, self.rounder, out=multiple)
         product -= multiple
-        # in half turns the phase is rest - coarse, coarse a multiple of 2^-25
+        # in half turns the phase is remainder - multiple, the latter of 2^-25
         np.add(product, QUANTUM, out=multiple)
         multiple -= QUANTUM
         product -= multiple
@@ -244,7 +244,7 @@ class Phases:
             half_turns.view(np.int64)[:] += y.view(np.int64)
             y -= self.rounder
             multiple -= y
-        # in radians, and halved: coarse MINUS_HEAD is exact, y is small
+        # in radians, and halved: multiple MINUS_HEAD is exact, y is small
         np.multiply(multiple, MINUS_TAIL, out=y)
         remainder *= QUARTER_TURN
         y += remainder
@@ -262,7 +262,7 @@ class Phases:
         `turns` (n, m), if given, gets the number of half turns that are left out, plus `rounder`.
 
         For half phases up to NEAR_PHASE_RATIO MAX_NEAR_PHASE the head of the frequency times that of t is exact, and
-        so is what is left of it
+        so is its remainder
         without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
         """
         if self.exponents is not None or not farthest(t) <= NEAR_PHASE_RATIO * self.near:
@@ -299,7 +299,7 @@ class Phases:
         With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53 digits, and
         their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8: two sums of it
         are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x.
-        What a time lacks is in t1, whose sum and product are then within 2^-59 each: 0.1 w more.
+        The low part of a time is in t1, whose sum and product are then within 2^-59 each: 0.1 w more.
         """
         products, product, half_turns, w = work[:2], work[2], work[3], work[7]
         np.multiply(self.radians[0], halves, out=products)

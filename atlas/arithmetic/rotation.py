@@ -49,7 +49,7 @@ class Basis:
         self.rows = np.empty((count, size))
 
     def at(self, t: FloatArray) -> FloatArray:
-        """Return the functions over SCALE, shape (count, m), at times t (m,), or what a `Progression` takes for them.
+        """Return the functions over SCALE, shape (count, m), at times t (m,), or indices of a `Progression`.
 
         Valid until the next call.
         """
@@ -115,7 +115,7 @@ def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], F
 
 
 BLOCK, PRODUCT_MATRICES = 6000, 3000
-"""Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
+"""Times evaluated at once, so that their arrays stay in the second-level cache, and matrices made from them at once,
 so few that the library does not thread the product. No powers of two, whose multiples a cache takes for one another."""
 
 LARGEST = float(np.finfo(float).max) / 4
@@ -161,7 +161,7 @@ class DoubleRotation:
 
     @cached_property
     def composition(self) -> tuple[FloatArray, FloatArray]:
-        """Matrices L_r L_q Q_q Q_r of `Basis`, times SCALE of r, as multiples of 2^-25 and what is left.
+        """Matrices L_r L_q Q_q Q_r of `Basis`, times SCALE of r, as multiples of 2^-25 and remainders.
 
         By r, q and entry: the multiples (r, q, 9); the same above the rests, (r, 2 q, 9), for factors that are small.
         """

@@ -1,6 +1,7 @@
 """Rotation matrices of many motions R = R_n(k t) R_z(phi t), (85), each at a few times: no motion is made alone.
 
-What `rotation` makes once for one motion, and then evaluates as a matrix product, is here an array over motions: the
+The constants that `rotation` makes once for one motion, and evaluates as a matrix product, are here arrays over
+motions: the
 axis, products of its components, both frequencies in two words. The entries are those of Rodrigues' formula,
 1 + sin x [n, .] + (1 - cos x)(n n^T - 1), times R_z. For phases up to 2^50
 the frequencies have a bound on their error.
@@ -196,7 +197,7 @@ class DoubleRotationRows:
     def _columns(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
         """Return the columns of R_n(k t) R_z(phi t), or of its inverse, each entry (m,).
 
-        What rounding did to the length of a column is taken back by a step of Newton's.
+        A step of Newton's corrects the length of a column for rounding.
         """
         cos, sin, _ = self._circle(1, t)
         rows = [(x * cos + y * sin, y * cos - x * sin, z) for x, y, z in self._precession(*self._circle(0, t)[1:])]

@@ -66,12 +66,12 @@ def check_column(j: Any) -> None:
 class Motion(Shown, Generic[Single]):
     """Motions R(t) of the shape of the parameters, which broadcasts with the times.
 
-    One motion is evaluated by what `_single` makes of its inputs. So is each of an array of them at many times, and at
-    few where there are no `_rows`, or where these do not hold a motion.
+    One motion is evaluated by the object that `_single` makes of its inputs. So is each of an array at many times,
+    and at few where there are no `_rows`, or where these do not hold a motion.
     """
 
     _rows: Any = None
-    """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
+    """All motions in arrays, for a few times each: `at(index, t)` returns an object with the methods of one motion."""
     _min_array_motions = 1
     """Number of motions from which `_rows` are faster than motion by motion."""
     _placement: Placement | None = None
@@ -553,7 +553,7 @@ class Motion(Shown, Generic[Single]):
         return actions(self)
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion, what they make, and its scalars."""
+        """Return the exact inputs of the i-th motion, the twin made of them, and its scalars."""
         raise NotImplementedError
 
     def _dynamics(self) -> Any:
@@ -683,7 +683,7 @@ class Motion(Shown, Generic[Single]):
     def _evaluate_rows(
         self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
     ) -> None:
-        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), by blocks of rows."""
+        """Write values of motions of shape `own`, at times that broadcast with them, into (m, ...), by blocks."""
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
         for start in range(0, times.size, BLOCK):
             block = slice(start, start + BLOCK)

@@ -1,7 +1,7 @@
 """How a motion depends on its inputs: R(t) by the vector v, dR/dp = [v]x R, Omega, the field in the body, and scalars.
 
-The inputs of a class are what its twin in balls is made of, with the field and the angular velocity in the body at
-t = 0. What a user may ask for moves several of them: with R(0) = L C, C the axes of the class as rows in those of the
+The inputs of a class are those of its twin in balls, with the field and the angular velocity in the body at
+t = 0. A parameter of a user moves several of them: with R(0) = L C, C the axes of the class as rows in those of the
 body, the field B of the laboratory is K = L^T B there, and turning the body at t = 0 by a turns it by -L^T [a, B]. All
 else follows from v and dv/dt: dOmega/dp = R^T dv/dt, dK/dp = R^T (dB/dp - [v, B]).
 """
@@ -103,7 +103,7 @@ class One:
             moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
         if placed and "omega1" in own:
             moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
-        # no derivative has to be made in what has no weight
+        # no derivative has to be made in inputs without weight
         return {name: x._replace(weights={y: w for y, w in x.weights.items() if w != 0}) for name, x in moved.items()}
 
     @cached_property
@@ -121,7 +121,7 @@ class One:
         return {name: float(np.spacing(abs(values[name]))) / 2 for name in self.moved if name in values}
 
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
-        """Return what a change of the field in the axes of the class at t = 0 moves, and a turn of the body."""
+        """Return the inputs moved by a change of the field along the class's axes at t = 0, and a turn of the body."""
         if "K1" in self.inputs.names:
             return Moved({f"K{k + 1}": change[k] for k in range(3)}, turn)
         # a top's direction has no first component: its axes turn with that about the third

@@ -20,9 +20,9 @@ class Placement:
     """Constant rotations beside a motion, R(t) = left R_class(t) right, and its state as it was given.
 
     `left` and `right` (..., 3, 3), None for the unit matrix, are rounded: they add an error of 1e-15 at any time, since
-    what the motion is made of is turned exactly. The rows of `right` are the axes of the class in those of the body.
+    the inputs of the motion are turned exactly. The rows of `right` are the axes of the class in those of the body.
     `tensor` is the inertia tensor, `field` B' in the laboratory, `attitude` R(0) and `omega` Omega(0), in the axes that
-    were given. `make` is the call that makes the motion, `arguments` what its class was made of.
+    were given. `make` is the call that makes the motion, `arguments` the arguments of its class.
     """
 
     left: FloatArray | None

@@ -149,7 +149,7 @@ def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
 
 
 def _copied(value: Any) -> Any:
-    """Return what was given with arrays of its own, so that it stays when those of the user change."""
+    """Return an argument with copies of its arrays, so that a change of the user's does not reach the motion."""
     if isinstance(value, tuple | list):
         return type(value)(map(_copied, value))
     return frozen(value.copy()) if isinstance(value, np.ndarray) else value
@@ -236,7 +236,7 @@ def joined_columns(v: list[Any]) -> FloatArray:
 
 
 def argument(value: Any, parts: list[Any]) -> Any:
-    """Return what is kept of vectors: an array of them, or where no floats hold the components what was given."""
+    """Return vectors for storage: an array, or the value as given where no floats hold the components."""
     return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
 
 
