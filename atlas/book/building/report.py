@@ -169,7 +169,9 @@ def _build(
     set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
-    contents = {form: MAKERS[form](document, builds, cache, sources) for form in formats}
+    with ThreadPoolExecutor(len(LANGUAGES)) as threads:  # Typst leaves the interpreter to the pages
+        made = threads.map(lambda form: MAKERS[form](document, builds, cache, sources), formats)
+        contents = dict(zip(formats, made, strict=True))
     record_before: dict[str, Any] = cache.load(_noted(report.name, out))
     noted = [item for form in LANGUAGES for item in record_before.get(form, {"files": {}})["files"].items()]
     publish(contents, out, report.name, [f"{digest_before}  {path}" for path, digest_before in noted])
