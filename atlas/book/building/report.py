@@ -135,10 +135,7 @@ def _build(
     key: str | None,
     progress: Progress,
 ) -> Built:
-    """Build a report, and note its sources and files in the cache.
-
-    The key of one that was never built is found out while its figures are drawn.
-    """
+    """Build a report; the key of one that was never built is found out while its figures are drawn."""
     from atlas import gl
     from atlas.book.building import figures
     from atlas.book.load import load
@@ -172,28 +169,38 @@ def _build(
     with ThreadPoolExecutor(len(LANGUAGES)) as threads:  # Typst leaves the interpreter to the pages
         made = threads.map(lambda form: MAKERS[form](document, builds, cache, sources), formats)
         contents = dict(zip(formats, made, strict=True))
-    record_before: dict[str, Any] = cache.load(_noted(report.name, out))
-    noted = [item for form in LANGUAGES for item in record_before.get(form, {"files": {}})["files"].items()]
-    publish(contents, out, report.name, [f"{digest_before}  {path}" for path, digest_before in noted])
+    failures = [figure for figure in builds if figure.failure]
+    counts = {"pages": len(document.pages), "figures": len(builds) - len(failures)}
+    _publish(report.name, out, contents, None if failures else key, counts, cache)
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
-    failures = [figure for figure in builds if figure.failure]
-    for form, files in contents.items():
-        digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
-        record_before[form] = {"key": None if failures else key, "files": digests}
-    cache.save(
-        _noted(report.name, out), record_before | {"pages": len(document.pages), "figures": len(builds) - len(failures)}
-    )
     return Built(
         report.name,
         *_places(out, report.name),
-        len(document.pages),
-        len(builds) - len(failures),
+        *counts.values(),
         failures=tuple((figure.stem, figure.failure) for figure in failures),
         notes=tuple(dict.fromkeys(note for figure in builds if (note := figure.facts.get("note")))),
         reasons=tuple(("figure", figure.name, figure.reason) for figure in builds),
         costs=figures.write_costs(out / f"{report.name}.costs.json", report.name, list(builds), times, jobs),
     )
+
+
+def _publish(
+    name: str,
+    out: Path,
+    contents: Mapping[str, Mapping[str, bytes]],
+    key: str | None,
+    counts: dict[str, int],
+    cache: Cache,
+) -> None:
+    """Write the files of each format to their places, and note their digests, the key and the counts in the cache."""
+    record: dict[str, Any] = cache.load(_noted(name, out))
+    before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
+    publish(contents, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
+    for form, files in contents.items():
+        digests = {path: hashlib.sha256(content).hexdigest() for path, content in files.items()}
+        record[form] = {"key": key, "files": digests}
+    cache.save(_noted(name, out), {**record, **counts})
 
 
 def document_of(
