@@ -177,7 +177,8 @@ def _build(
     return Built(
         report.name,
         *_places(out, report.name),
-        *counts.values(),
+        counts["pages"],
+        counts["figures"],
         failures=tuple((figure.stem, figure.failure) for figure in failures),
         notes=tuple(dict.fromkeys(note for figure in builds if (note := figure.facts.get("note")))),
         reasons=tuple(("figure", figure.name, figure.reason) for figure in builds),
