@@ -1,4 +1,4 @@
-"""The command line. Commands import what they need when they run, so that ``--help`` is there at once."""
+"""The command line. Commands import libraries when they run, so that ``--help`` is there at once."""
 
 from atlas.cli.app import main
 

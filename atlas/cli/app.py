@@ -136,7 +136,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end the process.
 
     The exit status is 0 if all went well, 1 if something failed, 2 for a wrong input, and as a shell counts them for
-    what a signal ended: 130 SIGINT, 129 SIGHUP, 143 SIGTERM, and 141 (SIGPIPE) where the reader of the output has gone.
+    a process that a signal ended: 130 SIGINT, 129 SIGHUP, 143 SIGTERM, and 141 (SIGPIPE)
+    where the reader of the output has gone.
     """
     if sys.stdout is None:
         sys.exit(complain("standard output is closed", 1))
@@ -181,7 +182,7 @@ def show_warning(otherwise: Callable[..., None], message: Any, category: type[Wa
 
 
 def complain(sentence: str, status: int) -> int:
-    """Print one line on standard error, without what a terminal would obey, and return the exit status."""
+    """Print one line on standard error, without control characters, and return the exit status."""
     words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
     from atlas.trial.ledger.plain import printable
 

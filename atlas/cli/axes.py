@@ -49,9 +49,9 @@ class Principal(NamedTuple):
 
 
 def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
-    """Return what asks for a motion in given axes in those of its class, rates in a unit.
+    """Return the request of a motion in given axes, turned into the axes of its class, rates in a unit.
 
-    Where floats do not hold what the class is made of, or its field has three components, the family is that of any
+    Where floats do not hold the inputs of the class, or its field has three components, the family is that of any
     three moments; not for a motion that was fitted, which is rounded.
     """
     from atlas.arithmetic.given import Given
@@ -68,7 +68,7 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
 
 
 def along_principal_axes(motion: Any, unit: str = "") -> Principal:
-    """Return what asks for a motion in given axes as that of a body with three moments, rates in a unit."""
+    """Return the request of a motion in given axes, as that of a body with three moments, rates in a unit."""
     from atlas.motions.start import start_of
 
     start = start_of(**motion.arguments)

@@ -17,7 +17,7 @@ from atlas.measured import RATE, WANTED
 F = TypeVar("F", bound=Callable[..., Any])
 
 BODY = ("ratio", "inertia", "shape", "points")
-"""The options of which one says what body it is."""
+"""Options of which exactly one gives the body."""
 SIZES = ("radius", "height", "length", "equatorial", "polar")
 TIMES = ("1/time", "1/time^2", "time", "inertia/time^2", "(inertia/time)^2")
 SECONDS = {unit: unit.replace("time", "s") for unit in TIMES}
@@ -37,7 +37,7 @@ ROD_REASON = (
 
 
 def points_option(axes: str) -> Callable[[F], F]:
-    """Return the option for point masses, with what is said of their axes."""
+    """Return the option for point masses; `axes` ends its help."""
     says = f"Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge{axes}."
     return click.option("--points", type=FILE, metavar="FILE", help=says)
 
@@ -60,7 +60,7 @@ body_options: Callable[[F], F] = stack(
 
 
 def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
-    """Return the options that say what the field is, of so many components, along certain axes."""
+    """Return the options of the field; `components` is the metavar, `along` names the axes in the help."""
     return stack(
         numbers("field", f"Components of B' = mu B/(2c){along}, in 1/time.", components),
         numbers("magnetic", "Components of B itself; needs --mass --charge or --mu.", components),
@@ -210,7 +210,7 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
 
 
 def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
-    """Return which of some options says what it is. Raises click.UsageError unless it is one."""
+    """Return the one option that was given among several. Raises click.UsageError for none and for two."""
     typed = list(given(options, names))
     if len(typed) != 1:
         known = ", ".join(f"--{name}" for name in names if name in options)
@@ -307,7 +307,7 @@ def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> 
     """Return the ratio of `charge_to_mass_of` for certified classes, from the typed decimals without rounding."""
     from atlas.arithmetic.certified_inputs import rational
 
-    charge_to_mass_of(options, needs)  # says what is wrong with it
+    charge_to_mass_of(options, needs)  # raises for wrong values
     charge, mass = exactly(_charge_and_mass(options, needs), options)
     return rational(charge, "the charge") / rational(mass, "the mass")
 
@@ -337,7 +337,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
 
     A product that is no float is a Fraction, and so not rounded.
 
-    Raises click.UsageError when neither or both are given, or what belongs to the one stands beside the other.
+    Raises click.UsageError when neither or both are given, or an option of the one stands beside the other.
     """
     if (options["field"] is None) == (options["magnetic"] is None):
         raise click.UsageError("the field is one of --field (components of B') and --magnetic, with --mass and "
@@ -350,7 +350,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
     from atlas.bodies.field import Field
 
     typed, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
-    charge_to_mass_of(options)  # says what is wrong with it
+    charge_to_mass_of(options)  # raises for wrong values
     mu = Fraction(charge) / Fraction(mass)
     return Field((0.0,) * (3 - len(typed)) + typed, mu=mu, c=speed_of_light(options)).exact[3 - len(typed) :]
 
@@ -386,15 +386,15 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
     units = system(system_of(options)) if known else system("SI")
     if charge:
         check_drift(options["electric"] or (0, 0, 0), options["magnetic"], units)
-        speed, what = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"
+        speed, place = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"
     else:
         start = start or options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
         sizes = {name: float(size) for name, size in given(options, SIZES).items()}
         if shape is None:
-            speed, what = fastest_of(point_masses(options["points"]).places, start), "a point of the body at t = 0"
+            speed, place = fastest_of(point_masses(options["points"]).places, start), "a point of the body at t = 0"
         else:
-            speed, what = fastest_point(shape.replace("-", "_"), sizes, start), "the surface at t = 0"
-    warn_of(what, speed / speed_of_light(units))
+            speed, place = fastest_point(shape.replace("-", "_"), sizes, start), "the surface at t = 0"
+    warn_of(place, speed / speed_of_light(units))
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:

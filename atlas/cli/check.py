@@ -101,7 +101,7 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
 
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
-    """Grade trajectories against what has these parameters, field and start; show the grades, and return the status."""
+    """Grade trajectories against the motion with these parameters; show the grades, and return the exit status."""
     from atlas.checking.check import check_file
     from atlas.checking.order import convergence
 

@@ -67,7 +67,7 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
 def started(args: list[str]) -> tuple[str, str]:
     """Return the family of a motion, from options of atlas motion, and the fragment of an address with its numbers.
 
-    Raises click.UsageError for what is no such option.
+    Raises click.UsageError for another word.
     """
     from atlas.cli.axes import in_principal_axes, motion_in_given_axes
     from atlas.cli.family import command as made
@@ -86,7 +86,7 @@ def started(args: list[str]) -> tuple[str, str]:
     else:
         parts = zip(family.parameters, values_of(family, options, exact=False), strict=True)
         given = {p.name: x for p, x in parts if x is not None}
-        family.kernels()(**given)  # says what no body has before a server starts
+        family.kernels()(**given)  # raises for an impossible body before a server starts
         values = {name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for name, x in given.items()}
     numbers = {
         name: float(x) for p in family.parameters for name, x in zip(p.names, values.get(p.name, ()), strict=False)

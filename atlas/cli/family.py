@@ -1,4 +1,4 @@
-"""``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at given times."""
+"""``atlas classify|motion|general|ball|particle``: quantities of an object of a family, and its samples at times."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -161,14 +161,14 @@ def _command_of(family: Family, described: Described) -> click.Command:
 
 
 class Best(dict[tuple[str, Any], Any]):
-    """What was certified at the highest precision that it can be had with, by name and time; and why no higher one."""
+    """Values certified at the highest precision reached, by name and time; `reason` says why no higher one."""
 
     reason = ""
 
 
 @dataclass(frozen=True)
 class Question:
-    """What the command of a family is asked: which object, by the options, and what it has at times."""
+    """Request of the command of a family: an object, given by options, and its samples at times."""
 
     family: Family
     described: Described
@@ -187,7 +187,7 @@ class Question:
         return [s for s in self.family.sampled if s.printed]
 
     def floats(self) -> dict[str, Any]:
-        """Return what the object in doubles has."""
+        """Return the record of the object in doubles: quantities and samples by name."""
         family, times = self.family, self.times
         motion = _kernel(family, self.options)
         lines = recorded(spectrum_of(motion, self.options))
@@ -203,7 +203,7 @@ class Question:
             return [None for _ in self.times]
 
     def balls(self, times: Sequence[float], quantities: Family) -> dict[str, Any]:
-        """Return what the object in balls has at some of the times, with the quantities of a family."""
+        """Return the record of the object in balls: the family's quantities, and samples at some of the times."""
         motion, options, best = _balls(self.family, self.options), self.options, self.best
         moments = [exactly(t, options) for t in times]
         values = {s.name: [sample(s, motion, t, best) for t in moments] for s in self.sampled if not s.uncertified}
@@ -235,7 +235,7 @@ class Question:
 
 
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
-    """Write what the motion has at its times, and show where."""
+    """Write the samples at all times as a table, and print its path."""
     if options["digits"] is not None or options["decimal"] or options["as_json"] or uncertain(options):
         raise click.UsageError("--out is a table in doubles: it goes without --digits, --decimal, --json and ±.")
     motion = motion_in_given_axes(options) if family.in_given_axes else None
@@ -261,9 +261,9 @@ def _later(
 def _shown_otherwise(
     family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
 ) -> bool:
-    """Show what stands in no list of quantities, or no twin has: a file, a curve, uncertain numbers, given axes.
+    """Show results outside the list of quantities, or without a certified counterpart: a file, a curve, uncertainties.
 
-    Return whether it is such.
+    Return whether the options ask for one of them.
     """
     if options.get("out") is not None:
         _write_table(family, options, times)
@@ -305,7 +305,7 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
 def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = (), named: str = "") -> Spread:
     """Return the quantities of an object of a family, and samples at times, with their standard deviations.
 
-    `named` is the name of the command, which says in the answer what family it is where several share it.
+    `named` is the name of the command, whose record has the name of the family where several share it.
     """
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options.get("as_json"))]
 
@@ -392,7 +392,7 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
 
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
-    """Return what rounding of the inputs to floats can turn the body by until the farthest time, where it is much."""
+    """Return the angle by which rounding of the inputs turns the body until the farthest time, if above `ROUNDING`."""
     if not times or not family.is_sensitive:
         return {}
     with suppress(AtlasError):  # where there are no derivatives there is no bound
@@ -409,7 +409,7 @@ def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
 
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
-    """Yield the sentence under a table that says what rounding of the inputs does, where they are rounded."""
+    """Yield the sentence on the error by rounding of the inputs, where they are rounded."""
     rounded = options["digits"] is None and not options["decimal"] and family.is_sensitive
     if not rounded or _is_short(options, times):
         return
@@ -433,13 +433,13 @@ def _balls(family: Family, options: dict[str, Any]) -> Any:
 
         attitude = exactly(options["attitude"] or (0.0, 0.0, 0.0, 1.0), options)
         omega = exactly(body.start_of(options), options)
-        body.given_attitude(options)  # says what is wrong with it
+        body.given_attitude(options)  # raises for wrong values
         return PlacedMotion(body.exact_tensor(options), body.exact_field(options), omega, attitude)
     return family.balls()(*values_of(family, options, exact=True))
 
 
 def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:
-    """Return what there is of a motion in doubles: quantities, and what it has at the times.
+    """Return the quantities of a motion in doubles, and its samples at the times, by name.
 
     In given axes m is that of the body, not over I2 as in tables.
     """
@@ -540,7 +540,7 @@ def _quaternion(motion: Any, t: Any, R: Any, near: Any) -> Any:
     q = quaternion(R, near)
     if not hasattr(motion, "quaternion"):
         return q
-    w, *vector = motion.quaternion(t)  # what is zero at all times is exactly zero in one of both
+    w, *vector = motion.quaternion(t)  # a component that is zero at all times is exactly zero in one of both
     own, i = [*vector, w], max(range(4), key=lambda i: abs(near[i]))
     own = own if (own[i] > 0) == (near[i] > 0) else [-x for x in own]
     return [x if isinstance(x, fmpq) or x.rad() < y.rad() else y for x, y in zip(own, q, strict=True)]

@@ -115,7 +115,7 @@ def command(
     --for makes NAME-TARGET with the width, type, lines and resolution that are asked there; the guide has the table. A
     figure that can't be read at that width says so; `atlas list` tells which need more than a column.
 
-    What was drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
+    A figure drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
     others; then the exit status is 1. Beside a file that you edited, or put there, the new one is written, as
     NAME.new.svg, and then the exit status is 2.
     """

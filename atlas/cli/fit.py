@@ -26,7 +26,7 @@ fit_options: Callable[[Any], Any] = stack(
     click.option(
         "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
     ),
-    click.option("--predict", multiple=True, type=REAL, metavar="T [T ...]", help="Predict what was measured."),
+    click.option("--predict", multiple=True, type=REAL, metavar="T [T ...]", help="Predict the measured quantity."),
     numbers("horizon", "Until when a prediction is that good.", "ERROR"),
 )
 
@@ -51,12 +51,12 @@ def command(file: Path, **options: Any) -> int:
     """Find inertia, field and start of a motion from measured attitudes, axes, angular velocities or fields.
 
     FILE.csv has a column t and R11 to R33, or a quaternion w, x, y, z, or R13, R23, R33 of the axis alone, or Omega1 to
-    Omega3 or K1 to K3 along the axes of the body, with units if there are any, as t [ms]; what is found is then in s
+    Omega3 or K1 to K3 along the axes of the body, with units if there are any, as t [ms]; results are then in s
     and 1/s. Single entries of R are a signal. A line '# sigma = 0.01' may stand at its head, or a column sigma beside
     the data; without it the scatter about the motion tells sigma. No start is needed. Other columns, and rows that lack
     a number, are left out, with a line.
 
-    What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
+    Parameters that the data leave open are named, and so are doubts about the family: a reduced chi square far from 1,
     residuals that are correlated, a few that are far larger than the rest, or other parameters that give the same data
     by symmetry. The exit status is 1 if there is such a warning, 2 if the file or an option is wrong. In JSON the
     horizon is null if a prediction is that good nowhere, or at any time; "missing" says which.
@@ -92,7 +92,7 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """Return what is asked of the time to come, as plain data and in lines."""
+    """Return the prediction and its horizon, as plain data and as lines of text."""
     record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):
         value, error = result.predict(time)

@@ -1,4 +1,4 @@
-"""What was typed of a body that none has, by less than a unit of its last digits: the nearest body, with a line."""
+"""The nearest body to typed moments that no body has, by less than a unit of their last digits."""
 
 import math
 from collections.abc import Sequence
@@ -81,12 +81,12 @@ def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any
 
 
 def _exact(x: Typed) -> Fraction:
-    """Return what was typed in SI, exactly; the double where it has pi in it, or a standard deviation."""
+    """Return a typed number in SI, exactly; its double where it has pi in it, or a standard deviation."""
     return Fraction(float(x)) if x.sigma or (x.unit and x.exact is None) else x.exactly()
 
 
 def _unit(x: Typed) -> Fraction:
-    """Return the unit of the last digit that was typed, in SI; 0 of what is no decimal."""
+    """Return the unit of the last digit that was typed, in SI; 0 for a fraction or a hexadecimal number."""
     text = (split(x.text) or (x.text, ""))[0].lower()
     digits, _, exponent = text.partition("e")
     if x.sigma or not digits.lstrip("+-").replace(".", "", 1).isdecimal() or not float(digits):

@@ -20,7 +20,7 @@ class Place(click.Path):
     """Where a file or a folder is to be written: in a folder that is there, or that can be made."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Find the folder that is there, and say what is wrong with it before any work is done."""
+        """Return the path. Raises click.UsageError for one that cannot be written, before any work is done."""
         place = Path(os.fsdecode(super().convert(value, param, ctx)))
         there = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
         if not there.is_dir():
@@ -118,7 +118,7 @@ def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
 
 
 def chosen_times(options: dict[str, Any]) -> list[float]:
-    """Return the times of --times or --grid, with what they are exactly, none when neither is given.
+    """Return the times of --times or --grid, with their exact values, none when neither is given.
 
     Raises click.UsageError when both are given or the count is not a natural number.
     """

@@ -69,7 +69,7 @@ COMMANDS = {name: command_of(one, name) for one in FAMILIES.values() if one.comm
 @fit_options
 @page_options
 def of_fit(file: Path, **options: Any) -> int:
-    """Fit a file, and make the page of what is found; the status is that of `atlas fit`."""
+    """Fit a file, and make the page of the motion found; return the exit status of `atlas fit`."""
     from atlas.book.fit_report import Fitted
     from atlas.fitting import fit_file
 
@@ -90,7 +90,7 @@ def of_fit(file: Path, **options: Any) -> int:
 
 
 def motion_of(made: Any) -> Any:
-    """Return what a page of a motion is asked for, in the axes of its class."""
+    """Return the request of a page for a motion, in the axes of its class."""
     own = in_principal_axes(made, fitted=True)
     with COMMANDS[own.family.page].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)
@@ -172,12 +172,12 @@ def best(words: Words) -> str:
     ),
 )
 def command() -> None:
-    """Make a page of one object: a body in a field, a motion, a top, or what measured data tell of one.
+    """Make a page of one object: a body in a field, a motion, a top, or the motion that fits measured data.
 
     It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
     neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all
     that belongs to it; NAME.pdf is the same to print, and NAME.md the report that both are made from, to go on with.
-    Beside a page or PDF that you edited, or that is another's, the new one is written, as NAME.new.html, and then the
+    Beside a page or PDF that you edited, or of another command, the new one is written, as NAME.new.html, and then the
     exit status is 2.
 
     With --fit FILE.csv and the options of atlas fit it has the parameters with their errors, what the data do not
@@ -189,7 +189,7 @@ def command() -> None:
 
 
 def asked(family: Family, options: dict[str, Any]) -> Any:
-    """Return what a page is asked for by the options of its command."""
+    """Return the request of a page from the options of its command."""
     from atlas.book.page import Asked
 
     body.check_speeds(options)
@@ -201,7 +201,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
             strict=True,
         )
     )
-    family.kernels()(*options_asked.values())  # refuses what there is not, before figures are thought of
+    family.kernels()(*options_asked.values())  # refuses an impossible object before figures are drawn
     values = {
         p.name: _plain(options_asked[p.name])
         for p in family.parameters
@@ -231,7 +231,7 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
 
 
 def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
-    """Return those of the options by these names that were typed, each with what was."""
+    """Return the typed options among these names, each with its words as typed."""
     context = click.get_current_context()
     typed: dict[str, tuple[str, ...]] = {}
     for param in context.command.params:
@@ -245,7 +245,7 @@ def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[s
 
 
 def _called(options: dict[str, Any]) -> str:
-    """Return the name that was asked for, nothing where none was. Raises click.UsageError for what is no name."""
+    """Return the name of the files, empty if none was given. Raises click.UsageError for other characters."""
     if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
         raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
     return called
@@ -310,7 +310,7 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
     from atlas import processes
 
     file, recipe = (out / f"{wanted.name}{suffix}" for suffix in (".md", ".py"))
-    if not file.exists():  # its figures are to be drawn: what they need is loaded meanwhile
+    if not file.exists():  # its figures are to be drawn: their libraries are loaded meanwhile
         processes.prepare(processes.DRAWING)
     from atlas.book.building.report import build_report
     from atlas.book.page import edited

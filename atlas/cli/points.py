@@ -156,8 +156,8 @@ def measured_columns(
 ) -> tuple[dict[str, list[float]], set[str]]:
     """Return the columns of a CSV file, named by its first line, and the units there, as in omega2 [Hz].
 
-    What has a unit is converted to that of its option in `options`, but for the units in `plain`, which are taken as
-    they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
+    A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
+    taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Line:
-    """One quantity: its symbol, what it is, its value as text, its unit, the equation it comes from."""
+    """One quantity: its symbol, its meaning, its value as text, its unit, the equation it comes from."""
 
     symbol: str
     says: str
@@ -31,7 +31,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Printout:
-    """What a command prints: single quantities, then one table with a unit in each heading, then notes.
+    """Output of a command: single quantities, then one table with a unit in each heading, then notes.
 
     Rows are printed while they come, and notes asked for after the last row.
     """
@@ -204,7 +204,7 @@ def certificate(options: dict[str, Any]) -> str:
 
 
 def _inputs(options: dict[str, Any]) -> str:
-    """Return what digits are proven of: the numbers as typed, and those that are computed from them in doubles."""
+    """Return the inputs of proven digits in words: numbers as typed, and numbers computed from them in doubles."""
     from atlas.cli.typed import Inclined, measured
 
     found = {name for name, value in options.items() if value is not None}
@@ -243,13 +243,13 @@ Progress = Callable[[int, int, str], None]
 
 @contextmanager
 def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
-    """Give a function to call with what is done, of how many, and what comes next.
+    """Yield a function to be called with the count of parts done, their number, and the name of the next.
 
     The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
     terminal nothing is shown, or a line `every` so many seconds, for the log of a batch job.
     """
     if not sys.stderr.isatty():
-        yield _lines(title, every) if every else lambda _done, _total, _what: None
+        yield _lines(title, every) if every else lambda _done, _total, _part: None
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
@@ -260,15 +260,15 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
-        TextColumn("{task.fields[what]}"),
+        TextColumn("{task.fields[part]}"),
     )
     display = Display(*columns, console=Console(stderr=True), transient=True)
 
-    def tell(done: int, total: int, what: str) -> None:
+    def tell(done: int, total: int, part: str) -> None:
         if not display.tasks:
             display.start()
-            display.add_task(title, total=None, what="")
-        display.update(display.task_ids[0], completed=done, total=total, what=what)
+            display.add_task(title, total=None, part="")
+        display.update(display.task_ids[0], completed=done, total=total, part=part)
 
     try:
         yield tell

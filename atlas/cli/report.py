@@ -41,7 +41,9 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|F
 )
 @style_option
 @jobs_option
-@click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
+@click.option(
+    "--explain", is_flag=True, help="Say for each figure why it was drawn or taken from the cache, and its cost."
+)
 def command(
     names: tuple[str, ...], out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool
 ) -> int:
@@ -49,9 +51,9 @@ def command(
 
     NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. Only what
     depends on something that has changed is built. A figure that fails leaves a framed note in its place, and then the
-    exit status is 1. Beside the PDF, NAME.costs.json says what each figure cost, in processor time.
+    exit status is 1. Beside the PDF, NAME.costs.json has the cost of each figure, in processor time.
 
-    What you put into the folder of the pages stays. Beside a page or PDF that you edited the new one is written, as
+    Your own files in the folder of the pages stay. Beside a page or PDF that you edited the new one is written, as
     NAME.new.html, and then the exit status is 2.
     """
     from atlas.book.building.report import FORMATS, build_report
@@ -79,13 +81,13 @@ def status_of(built: "Built") -> int:
 
 
 def _explain(built: "Built") -> None:
-    """Show why each part was made or taken, and what the figures cost."""
+    """Show why each part was made or taken from the cache, and the costs of the figures."""
     show(explained(built.reasons))
     if built.costs is not None:
         from atlas.book.building.figures import HEADING, rows_of_costs
 
-        note = "A figure from the cache shows what it cost when it was drawn."
-        show(Printout("what the figures cost", heading=HEADING, rows=rows_of_costs(built.costs), notes=[note]))
+        note = "A figure from the cache shows its cost when it was drawn."
+        show(Printout("costs of the figures", heading=HEADING, rows=rows_of_costs(built.costs), notes=[note]))
 
 
 @click.command(
@@ -101,7 +103,7 @@ def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. The file
     datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
     draws the figure, and the digest. CSV has all digits that are printed, Parquet the nearest doubles. The folder is
-    written whole, with the same bytes each time; what you put there stays. Beside a file that you edited the new one
+    written whole, with the same bytes each time; your own files stay. Beside a file that you edited the new one
     is written, as NAME.new.csv, and then the exit status is 2.
     """
     from atlas.book.building.composed import build_data
@@ -131,7 +133,7 @@ def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     rounded to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are
     tables of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
 
-    What you put into the folder stays. Beside a file that you edited the new one is written, as paper.new.tex, and
+    Your own files in the folder stay. Beside a file that you edited the new one is written, as paper.new.tex, and
     then the exit status is 2.
     """
     from atlas.book.building.composed import build_tex

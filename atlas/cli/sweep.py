@@ -27,9 +27,9 @@ FAMILY is {NAMES}, or motion where the parameters say which; a wrong name of a p
 the right ones. A row takes microseconds, of the family general some tens of them, of asymmetric up to seconds. A CSV
 file has units in its heading, as in k [1/time]. Where an angle a period, or the like, has no value its cell is empty,
 and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep with status 2,
-its number and the reason. What is done is kept in the folder OUT.parts: a sweep that was stopped goes on when it is
-called again. A folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes a Parquet
-data set: files that pandas and Dask read as one table. Beside a file that you edited, or put there, the table is
+its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was stopped goes on when
+it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes
+a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited, or put there, the table is
 OUT.new.csv, and then the exit status is 2.
 """
 
@@ -51,7 +51,7 @@ class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since c
 
         text = str(value)
         if MEMORY in text:
-            self.fail(f"what is at {text} is gone when the command ends: name a file, a folder or another address.")
+            self.fail(f"a table at {text} is gone when the command ends: name a file, a folder or another address.")
         if "://" not in text:
             folder = text.endswith("/") or Path(text).is_dir()
             Place(file_okay=not folder, dir_okay=folder).convert(text, param, ctx)
@@ -82,7 +82,7 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
             "quantities",
             multiple=True,
             metavar="NAME [NAME ...]",
-            help="What to compute: k, R11, all of R.",
+            help="Quantities to compute: k, R11, all of R.",
         ),
         click.option(
             "--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file."
@@ -214,7 +214,7 @@ def _plain(x: float | Fraction) -> float | Fraction:
 
 
 def _body(options: dict[str, Any]) -> dict[str, float | Fraction]:
-    """Return what the options of body, field and start say, by the names of a table; a tensor along principal axes."""
+    """Return body, field and start of the options, by the names of a table's columns; a tensor along principal axes."""
     three, found = "tensor" in options, dict[str, float | Fraction]()
     if three and body.given_tensor(options) is not None:
         principal = along_principal_axes(motion_in_given_axes(options))
@@ -247,7 +247,7 @@ def read(path: Path) -> Any:
         family: str
         quantities: list[str]
         parameters: dict[str, float | int | str | list[float | int]] = {}
-        # not called list itself, which from Python 3.14 on would be what the annotations above mean
+        # not called list itself, which annotations above would mean from Python 3.14 on
         listing: str | None = msgspec.field(default=None, name="list")
         out: str | None = None
         digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None

@@ -1,4 +1,4 @@
-"""``atlas motion --out``: what a motion has at its times as a CSV, NPZ or Parquet file, with its conventions."""
+"""``atlas motion --out``: samples of a motion as a CSV, NPZ or Parquet file, with its conventions."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -18,7 +18,7 @@ CONVENTIONS = (
 out_option: Callable[[Any], Any] = click.option(
     "--out",
     type=Place(dir_okay=False, path_type=Path),
-    help="Write what the motion has at its times to a table, .csv, .npz or .parquet, in the axes given.",
+    help="Write the motion at its times as a table, .csv, .npz or .parquet, in the axes given.",
 )
 
 
@@ -34,7 +34,7 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
 
     check_format(out)
     if not times:
-        raise click.UsageError("--out writes what the motion has at --times or on a --grid: give one of them.")
+        raise click.UsageError("--out writes the motion at --times or on a --grid: give one of them.")
     columns = dict(columns_at(motion, list(map(float, times))))
     known = {**FAMILIES[motion.family].units, "t": "time"}
     content = PARTS[out.suffix[1:]](columns)
@@ -50,7 +50,7 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
 
 
 def parameters_of(motion: Any) -> dict[str, list[str]]:
-    """Return what a motion is made of as the lines of a trajectory name it, each number in its shortest digits."""
+    """Return the inputs of a motion by the names of a trajectory's head, each number in its shortest digits."""
     if getattr(motion, "is_placed", False):
         J, field, _, omega = motion.given
         moments = [J[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]

@@ -1,4 +1,4 @@
-"""What ``atlas top`` takes in the place of moments and couplings: a heavy body, or a charged one in a field."""
+"""Options of ``atlas top`` in place of moments and couplings: a heavy body, or a charged one in a field."""
 
 from collections.abc import Callable, Mapping, Sequence
 from math import hypot
@@ -40,7 +40,7 @@ top_options: Callable[[F], F] = stack(
     numbers("charge", "Charge of the coat, either sign."),
     numbers("moment", "Magnetic moment along the axis, with --magnetic."),
     numbers("polarizability", "Moments that a unit field induces across and along the axis.", "A2 A3"),
-    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Of --magnetic and what goes with it: kg, m, "
+    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Of --magnetic and its options: kg, m, "
                  "C, T (the default), or g, cm, statC, G."),
 )  # fmt: skip
 
@@ -79,7 +79,7 @@ def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[
 
 
 def chosen_top(options: Mapping[str, Any]) -> Any:
-    """Return the top that --heavy or --magnetic describes. Raises click.UsageError for what does not go together."""
+    """Return the top that --heavy or --magnetic describes. Raises click.UsageError for contradicting options."""
     if options["decimal"]:
         raise click.UsageError("--decimal goes with --inertia, --coupling and --direction, not with --heavy or "
                                "--magnetic, from which these are computed.")  # fmt: skip

@@ -38,7 +38,7 @@ UNCERTAIN = re.compile(
 
 
 class Typed(float):
-    """A double that remembers what it was typed as; in SI, where that has a unit.
+    """A double with the text that was typed for it; converted to SI if the text has a unit.
 
     `sigma` is its standard deviation, if it has one, `exact` the number with its unit, None where that has pi in it.
     """
@@ -89,7 +89,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         self.place = place
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Turn what was typed into a number, or into a list where an option takes any number; or say what is wrong."""
+        """Return the typed number, or a list for an option of any length. Raises click.UsageError for other text."""
         if param and param.multiple:
             return [x for word in re.split(r"[,\s]+", value) for x in self._listed(word, param, ctx)]
         return self._single(value, param, ctx)

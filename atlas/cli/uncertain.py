@@ -1,4 +1,4 @@
-"""Numbers typed with an uncertainty, 5000(200)e: what it does to each number that a command prints."""
+"""Numbers typed with an uncertainty, 5000(200)e, and the deviation of each number that a command prints."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -37,7 +37,7 @@ Numbers = dict[tuple[Any, ...], float]
 
 @dataclass(frozen=True)
 class Spread:
-    """An answer with the standard deviations of its numbers, the errors of sampled ones, and what is to be said."""
+    """An answer with the standard deviations of its numbers, the errors of sampled ones, and notes on the method."""
 
     found: dict[str, Any]
     sigma: Numbers
@@ -121,7 +121,7 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
 class Terms(NamedTuple):
     """How numbers change along one way, and which are there only on one side of it.
 
-    `line` is the term of first order, `second` that of second, `third` that of first with what third order adds.
+    `line` is the term of first order, `second` that of second, `third` the sum of those of first and third order.
     """
 
     line: Numbers

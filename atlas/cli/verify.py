@@ -31,8 +31,8 @@ COLUMNS = (
     epilog=examples("atlas verify 48 71", "atlas verify 48 --script > proof.py", "atlas verify --json"),
 )
 @click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
-@click.option("--record", is_flag=True, help="Keep what was found as the recorded verdicts that reports draw.")
-@click.option("--anew", is_flag=True, help="Try everything, also what was tried before with the same proof.")
+@click.option("--record", is_flag=True, help="Keep the verdicts as the recorded ones that reports show.")
+@click.option("--anew", is_flag=True, help="Run every proof, also those that have a verdict.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
 @click.option("--script", is_flag=True, help="Print the proof of one equation as a script of SymPy, nothing else.")
 @json_option
@@ -46,8 +46,8 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
     supported, or definition where there is nothing to prove. Slips are graded. Of an equation that is named, both sides
     are shown as polynomials in free parameters. The exit status is 1 if a verdict differs from the recorded one.
 
-    --script prints plain SymPy that runs without atlas: its last line says what is proved or refuted, and it exits with
-    1 if that is not so.
+    --script prints plain SymPy that runs without atlas: its last line names the equation that is proved or refuted,
+    and it exits with 1 if that is not so.
     """
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
@@ -73,7 +73,7 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
 
 
 def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int:
-    """Show verdicts, more of those asked for by name, and what differs from the record; return the exit status."""
+    """Show verdicts, at length for entries given by name, and differences from the record; return the exit status."""
     from atlas.trial.proofs.recorded import differs
 
     different = differs(verdicts)
@@ -123,7 +123,7 @@ def _table(verdicts: Any) -> None:
 
 
 def _details(verdict: Any, *, named: bool) -> str:
-    """Return what one verdict says, a line for each part; more if it was asked for by name."""
+    """Return the text of a verdict, a line for each part; `named` adds the parts shown for one entry alone."""
     from atlas.trial.ledger import EQUATIONS
 
     says = {"says": EQUATIONS[verdict.name].says, "tried from": verdict.follows} if named else {}
@@ -137,13 +137,13 @@ def _details(verdict: Any, *, named: bool) -> str:
 
 
 def _reading(phrase: str, line: str) -> str:
-    """Return what became of a phrase of the formula that is more than a relation."""
+    """Return the fate of a phrase of the formula that is more than a relation."""
     said = " ".join(plain(f"${phrase}$").split())
     return f"{said}: {f'tried as {line}' if line else 'supposed, or tried in a further line'}"
 
 
 def _proof(verdict: Any) -> list[str]:
-    """Return what the sides of a proved form are, each on a line, and how its script is had."""
+    """Return the sides of a proved form, each on a line, and the command that prints its script."""
     from atlas.trial import proofs as proof
 
     lines = [f"    {line}" for line in proof.sides_of(verdict.name)]

@@ -112,7 +112,7 @@ class Command(click.Command):
     other : callable
         Returns the command to which words belong, None where it is this one.
     carries : bool
-        Whether uncertainties of numbers go on to what is printed.
+        Whether uncertainties of numbers go on to the results.
     """
 
     def __init__(
@@ -165,7 +165,7 @@ class Command(click.Command):
 
 
 class Reader:
-    """Words beside the parameters of a command: yields them as click takes them, or says what is wrong with them."""
+    """Reader of the words of a command, by its parameters: yields words as click takes them."""
 
     def __init__(self, words: Words, params: Sequence[click.Parameter]) -> None:
         self.words, self.params = words, params

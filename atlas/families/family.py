@@ -16,9 +16,9 @@ class Parameter:
 
     name      as `--name` and, of a number, as a column; `columns` names the components of a vector
     unit      in which it is given, "" of a pure number
-    default   where a slider starts, one number a component; none for what has no slider; `range`, its ends
-    needed    whether it has to be given; `omitted` is what each component is otherwise, or None
-    says      what it is, the help of the option `--name`; `option` is false where the command has none
+    default   where a slider starts, one number a component; none without a slider; `range`, its ends
+    needed    whether it has to be given; `omitted`, otherwise, is the value of each component, or None
+    says      its meaning, the help of the option `--name`; `option` is false where the command has none
     last      whether arrays of vectors have the components last, else they are a tuple of arrays
     """
 
@@ -45,8 +45,8 @@ class Quantity:
     """A number of a family, several that belong together, or a name.
 
     name       as an attribute of both classes, and in a table; `columns` names the components of several
-    says       what it is, in a few words; `unit` "" of a pure number and of a name
-    equation   where it stands; `cases`, by the name of a case, where this and what it says are other there
+    says       its meaning, in a few words; `unit` "" of a pure number and of a name
+    equation   where it stands; `cases`, by the name of a case, where `equation` and `says` are other there
     symbol     in a printout, the name if there is none; `lines`, symbol and words of each component on its own line
     get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
     text       how the texts of its digits become one text
@@ -89,7 +89,7 @@ class Quantity:
 class Sampled:
     """A vector or, if `matrix`, a matrix as a function of time: a method of both classes, `name` in tables.
 
-    `components` are what its columns end with, 1, 2, 3 if there are none; `uncertified`, whether balls do not have it.
+    `components` are the endings of its columns, 1, 2, 3 if there are none; `uncertified`, whether balls do not have it.
     """
 
     name: str
@@ -137,8 +137,8 @@ def _component(method: str, i: int, motion: Any, t: Any) -> Any:
 class Command:
     """The command `atlas NAME` of a family.
 
-    `title` stands over what it prints, and is completed by the quantity `named`. With `undecided` a number may be zero
-    without a proof: its digits are looked for only so far, and what that leaves open is said.
+    `title` stands over the output, and is completed by the quantity `named`. With `undecided` a number may be zero
+    without a proof: its digits are sought up to a limit, beyond which it is called undecided.
     """
 
     name: str
@@ -152,13 +152,13 @@ class Command:
 
 @dataclass(frozen=True)
 class Family:
-    """A family: parameters in the order that both classes take them in, quantities, and what it has at a time.
+    """A family: parameters in the order that both classes take them in, quantities, and functions of time.
 
     `source` is the class with its module, where "{}" stands for "kernel" or "certified". `promises` holds the largest
-    errors, in ulps, by the names of a stress run: of quantities and of what else is checked. Tables make so many
-    motions `at_once`. `figures` are recipes that draw one, from parameters by the same names. `typed` is what asks for
-    one at the command line, before its parameters, where the family has no `command` of its own. Of `instead` other
-    options may stand for a parameter. `last_axis` says what is known of the last of the class's axes. With
+    errors, in ulps, by the names of a stress run: of quantities and of other checked values. Tables make so many
+    motions `at_once`. `figures` are recipes that draw one, from parameters by the same names. `typed` are the words
+    that ask for one at the command line, before its parameters, where the family has no `command` of its own. Of
+    `instead` other options may stand for a parameter. `last_axis` describes the last of the class's axes. With
     `is_sensitive` derivatives in the inputs take milliseconds; with `in_given_axes` commands take any axes of the body
     and an attitude. `axis_rate` is the rate at which the third axis goes round, where it does not nutate. `in_plane`
     makes of arguments those in axes in which the field has two components, and the turn to these axes, if any.

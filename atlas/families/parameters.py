@@ -64,12 +64,12 @@ def nutation(axis: str) -> tuple[Quantity, ...]:
         Quantity("period", "period of nutation", TIME, certified=True, cases={"free body": ("period of Omega", "")}),
         *(
             Quantity(f"{name}_per_period", unit="rad", missing="no period", certified=True,
-                     **of(f"turn about {what} in one period"))
-            for name, what in turns
+                     **of(f"turn about {axis_name} in one period"))
+            for name, axis_name in turns
         ),
         *(
-            Quantity(f"{name}_rate", unit=RATE, missing="no period", certified=True, **of(f"mean, about {what}"))
-            for name, what in turns
+            Quantity(f"{name}_rate", unit=RATE, missing="no period", certified=True, **of(f"mean, about {axis_name}"))
+            for name, axis_name in turns
         ),
     )  # fmt: skip
 

@@ -12,7 +12,7 @@ SLIDER_STEPS = 300
 
 @dataclass(frozen=True)
 class Slider:
-    """A number to choose: its name, what it is, its ends, its step, where it starts, and its symbol if it has one."""
+    """A number to choose: its name, its meaning, its ends, its step, its start, and its symbol if it has one."""
 
     name: str
     says: str

@@ -49,7 +49,7 @@ def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iter
 
 
 def columns_at(shown: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
-    """Yield names and columns of what one object has at each time, all there are or those with these names."""
+    """Yield names and columns of the samples of an object at each time, all or those with these names."""
     swept = FAMILIES[shown.family]
     if getattr(shown, "shape", ()):
         raise AtlasError(f"Rows by time are of one {type(shown).__name__}: make one with numbers in place of arrays.")

@@ -29,7 +29,7 @@ FLOW = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">
 
 
 def html(shown: Shown) -> str:
-    """Return what makes an object, the picture, and the table; arrays and what has no family have no table."""
+    """Return the call that makes an object, the picture, and the table; only single objects of a family have one."""
     lines = rows(shown)
     heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in lines)])
     table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if lines else ""
@@ -103,7 +103,7 @@ def _cells(row: Row) -> list[str]:
 
 
 def _html(markdown: str) -> str:
-    """Set what the register's tables have of Markdown; formulas are letters, as no notebook is sure to set TeX."""
+    """Set the Markdown of the register's tables; formulas are letters, as no notebook is sure to set TeX."""
     text = escape(markdown.replace(SPACE, "\N{NO-BREAK SPACE}"), quote=False)
     text = re.sub(r"\$([^$]+)\$", lambda formula: _letters(formula[1]), text)
     for pattern, replacement in ((r"`([^`]+)`", r"<code>\1</code>"), (r"\^([^^$]+)\^", r"<sup>\1</sup>"), (r"@", "")):

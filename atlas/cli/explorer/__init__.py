@@ -1,1 +1,1 @@
-"""The explorer on the user's own machine: what can be explored, what it answers, and the server that hands it over."""
+"""The explorer on the user's own machine: its subjects, its answers, and the server that sends them."""

@@ -1,8 +1,8 @@
 """The server of the explorer: on this machine alone, for the browser that opened an address that works once.
 
 That address sets a cookie, which script can't read and no other site's page makes a browser send, for a folder of this
-server with a random name: cookies are those of all servers at 127.0.0.1, also of another user's. What a request names
-is looked up among the families, the figures and what the user named at the start, and is never the name of a file.
+server with a random name: cookies are those of all servers at 127.0.0.1, also of another user's. The name in a request
+is looked up among the families, the figures and the file that the user named at the start; it is never a path.
 """
 
 import hmac
@@ -143,7 +143,7 @@ class Handler(BaseHTTPRequestHandler):
         return "" if self.server.admits(folder) else CLOSED
 
     def _content(self, place: str, query: dict[str, str]) -> Content | None:
-        """Return what is at a place, and its kind. Raises AtlasError for values that have no picture."""
+        """Return the content at a place, and its type. Raises AtlasError for values that have no picture."""
         if place in PAGES:
             name, kind = PAGES[place]
             return _page(name), kind
@@ -169,7 +169,7 @@ def _same(one: str, other: str) -> bool:
 
 
 def _asked(server: Explorer, query: dict[str, str]) -> Subject:
-    """Return the subject that a query names: what was named at the start, or a listed name, never a file."""
+    """Return the subject that a query names: the one of the start or a listed one, never a file."""
     name = query.pop("subject", "")
     return subject_or_file(name) if name == server.start else subject(name)
 

@@ -1,4 +1,4 @@
-"""What can be explored: each family of the register and each recipe, with sliders for its numbers."""
+"""Subjects of the explorer: each family of the register and each recipe, with sliders for its numbers."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ class OfFamily:
         return known
 
     def kernels(self, values: Mapping[str, float]) -> Any:
-        """Return what the kernels make of it, for picture and numbers, and for the next time t."""
+        """Return the object of the kernels, cached for picture, numbers and the next time t."""
         return _instance(self.family.kernels(), tuple(self.arguments(values).values()))
 
     def scene(self, values: Mapping[str, float]) -> Scene:
