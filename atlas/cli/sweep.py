@@ -29,8 +29,8 @@ file has units in its heading, as in k [1/time]. Where an angle a period, or the
 and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep with status 2,
 its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was stopped goes on when
 it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes
-a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited, or put there, the table is
-OUT.new.csv, and then the exit status is 2.
+a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited, or put there, the
+table is OUT.new.csv, and then the exit status is 2.
 """
 
 MAX_RANGE_LENGTH = 10**7
