@@ -1,4 +1,4 @@
-"""The record of the benchmark, which `make bench` writes: what figures and pages show of it, in words and lines.
+"""The record of the benchmark, which `make bench` writes, for figures and pages, in words and lines.
 
 Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
 """
@@ -46,7 +46,7 @@ METHODS = {
     "Radau": ("Radau", "reference"),
     "heyoka": ("heyoka", "fourth"),
 }
-"""What a method is called, and the role of its line in a figure."""
+"""Name of each method, and the role of its line in a figure."""
 
 CASES = {
     "elementary": "elementary motion",
@@ -84,7 +84,7 @@ class Item(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_default
 
 
 class Machine(Item, frozen=True):
-    """What ran: the processor's name, the cores this process may use, whether NumPy finds AVX-512, the system."""
+    """The machine: the processor's name, the cores this process may use, whether NumPy finds AVX-512, the system."""
 
     processor: str
     cores: int
@@ -129,7 +129,7 @@ class Cost(Item, frozen=True):
 
 
 class Limit(Item, frozen=True):
-    """A limit of speed: what it says, the limit in words, what was found, and the verdict."""
+    """A limit of speed: its meaning, the limit in words, the measured value, and the verdict."""
 
     says: str
     wanted: str
@@ -168,9 +168,9 @@ def read(path: Path | None = None) -> Results:
 
 def runs_of(record: Results, case: str) -> list[Run]:
     """Return the runs of a case that have an error and a time."""
-    known = list(dict.fromkeys(run.case for run in record.runs))
-    if case not in known:
-        raise AtlasError(f"The benchmark record has no case {case!r}; it has {', '.join(known)}.")
+    names_known = list(dict.fromkeys(run.case for run in record.runs))
+    if case not in names_known:
+        raise AtlasError(f"The benchmark record has no case {case!r}; it has {', '.join(names_known)}.")
     return [run for run in record.runs if run.case == case and run.error is not None]
 
 
@@ -194,10 +194,10 @@ def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
     return Curve(points, role(method), title(method)), Points(points, "sample")
 
 
-def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> tuple[float, float]:
+def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tuple[float, float]:
     """Return limits for a logarithmic axis with ``left`` and ``right`` decades of room for names."""
     logs = np.log10(np.fromiter(values, dtype=float))
-    return float(10.0 ** (logs.min() - left)), float(10.0 ** (logs.max() + right))
+    return float(10.0 ** (logs.min() - start)), float(10.0 ** (logs.max() + end))
 
 
 def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
@@ -208,15 +208,15 @@ def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str]
 
 def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
     """Return a panel of the layers of each case, all on the same axes, of which the lowest name the horizontal one."""
-    every, upper = [layer for some in cases.values() for layer in some], len(cases) - columns
+    every, upper = [layer for runs in cases.values() for layer in runs], len(cases) - columns
     return tuple(
-        panel(some, every, ("" if k < upper else labels[0], labels[1]), room, f"({'abcdefgh'[k]}) {case_title(case)}")
-        for k, (case, some) in enumerate(cases.items())
+        panel(runs, every, ("" if k < upper else labels[0], labels[1]), room, f"({'abcdefgh'[k]}) {case_title(case)}")
+        for k, (case, runs) in enumerate(cases.items())
     )
 
 
 def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
-    """Return the sentence that says where, when and with what it was measured."""
+    """Return a sentence on machine, date and versions of the measurement."""
     here = record.machine
     vector = "with" if here.avx512 else "without"
     versions = ", ".join(f"{name} {record.versions[name]}" for name in libraries if name in record.versions)

@@ -1,4 +1,4 @@
-"""Grade a user's trajectory against the certified motion: correct digits, where it begins to fail, what drifts."""
+"""Grade a user's trajectory against the certified motion: correct digits, first failing row, drifts."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -134,19 +134,19 @@ class Check:
         line = Curve(
             np.array([[min(self.times), limit], [max(self.times), limit]]), "limit", f"{self.threshold:g} digits"
         )
-        worst = min(self.columns, key=lambda c: c.worst)
-        each = "each row" if self.rows_a_point == 1 else f"each {self.rows_a_point} rows"
+        worst_column = min(self.columns, key=lambda c: c.worst)
+        rows_each = "each row" if self.rows_a_point == 1 else f"each {self.rows_a_point} rows"
         return Scene(
             title=f"Error of {self.file}",
             caption=(
-                f"The largest error of {each} of {self.file} against the certified motion; of a matrix and of a "
+                f"The largest error of {rows_each} of {self.file} against the certified motion; of a matrix and of a "
                 f"quaternion in units of 1, of Omega in units of its length. The dotted line marks {self.threshold:g} "
-                f"digits. The worst column is {worst.name}, with {worst.worst:.1f} correct digits at "
-                f"t = {worst.worst_time:g}.{beyond}"
+                f"digits. The worst column is {worst_column.name}, with {worst_column.worst:.1f} correct digits at "
+                f"t = {worst_column.worst_time:g}.{beyond}"
             ),
             alt=(
                 f"Curves of error against time on a logarithmic scale, for {', '.join(self.errors)}; the worst column, "
-                f"{worst.name}, has {worst.worst:.1f} correct digits at t = {worst.worst_time:g}."
+                f"{worst_column.name}, has {worst_column.worst:.1f} correct digits at t = {worst_column.worst_time:g}."
             ),
             panels=(Plane((*layers, line), "$t$", "error", y_scale="log", legend=True),),
             size=(120.0, 75.0),
@@ -255,9 +255,9 @@ def _arguments(motion: Any) -> dict[str, Any]:
     """Return the parameters of a motion by the names of `check_file`."""
     from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
 
-    known = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
-    if not isinstance(motion, known) and getattr(motion, "made_by", "") != "motion":
-        names = ", ".join(kind.__name__ for kind in known)
+    classes = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
+    if not isinstance(motion, classes) and getattr(motion, "made_by", "") != "motion":
+        names = ", ".join(kind.__name__ for kind in classes)
         raise AtlasError(f"A trajectory is graded against one of {names}, not {type(motion).__name__}.")
     if motion.shape:
         raise AtlasError(f"A trajectory is graded against one motion, not against {motion.shape} of them.")
@@ -277,17 +277,17 @@ def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Chec
     """Grade the trajectory in a CSV file, see `atlas.checking.trajectory`; `given` parameters override its # lines.
 
     Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
-    of a top direction, coupling, linear and quadratic; None is what is not given. With omega, all three components of
+    of a top direction, coupling, linear and quadratic; None stands for no value. With omega, all three components of
     the initial angular velocity, the trajectory is held against the general motion, with three moments of inertia
     against that of any body, with a direction against that of a top; with omega2 and, where it is free, omega3, against
     an elementary one.
 
     Three moments without omega, and the six elements of an inertia tensor, are of a body without a certified motion:
-    only what should not change is reported, against the first row.
+    only conserved quantities are reported, against the first row.
 
     A column fails from the first row on at which it has fewer than ``threshold`` correct digits, of the 17 that a
-    double can have. The times and the parameters of the file are taken as the doubles nearest to what is written.
-    The file is gone through once, in blocks. Raises AtlasError for what is no such file, or no such motion.
+    double can have. The times and the parameters of the file are rounded to doubles.
+    The file is read once, in blocks. Raises AtlasError for another file, or parameters of no motion.
     """
     with opened(path) as trajectory:
         return _graded(trajectory, threshold, parameters)
@@ -297,17 +297,17 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
     """Grade a trajectory in one go."""
     if not 0 <= threshold <= MAX_DIGITS:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MAX_DIGITS:g}; it cannot be {threshold:g}.")
-    known = reference(trajectory.parameters, parameters, trajectory.file)
-    errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
+    target = reference(trajectory.parameters, parameters, trajectory.file)
+    errors = Errors(target.motion, truth_of(target.motion, target.unit), target.unit) if target.motion else None
     graded = [name for name in trajectory.names if name != "t"] if errors else []
     if errors:
         _within(threshold, errors.floor)
     grades = [Grade(name, threshold, errors) for name in graded if errors]
-    drifts, envelope, rows, conventions = Drifts(known.deviations), Envelope(), 0, list[str]()
-    first, last, holes = 0.0, 0.0, 0
+    drifts, envelope, rows, conventions = Drifts(target.deviations), Envelope(), 0, list[str]()
+    start, end, holes = 0.0, 0.0, 0
     for read in trajectory.blocks:
-        block, missing = whole_rows(read)
-        holes += missing
+        block, hole_count = whole_rows(read)
+        holes += hole_count
         if not block["t"].size:
             continue
         if errors:
@@ -319,7 +319,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
             if not rows and max(map(np.median, differences.values())) > 10.0**-threshold:
                 conventions += conventions_that_fit(block, errors, 10.0**-threshold)
         drifts.add(block)
-        first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
+        start, end = (start if rows else float(block["t"][0])), float(block["t"][-1])
         rows += len(block["t"])
     notes = trajectory.left_out, holes_left_out(holes, rows, trajectory.file)
     if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.drifts()):
@@ -330,9 +330,9 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
         )
     return Check(
         file=trajectory.file,
-        case=known.case,
-        parameters=known.parameters,
-        frequencies=known.frequencies(),
+        case=target.case,
+        parameters=target.parameters,
+        frequencies=target.frequencies(),
         rows=rows,
         threshold=float(threshold),
         columns=tuple(replace(grade.column(), name=trajectory.names[grade.name]) for grade in grades),
@@ -341,8 +341,8 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
         times=tuple(envelope.times()),
         errors={group: tuple(values) for group, values in envelope.errors().items()},
         conventions=tuple(conventions),
-        step=trajectory.parameters.get("step", (abs(last - first) / max(rows - 1, 1),))[0],
-        end=last,
+        step=trajectory.parameters.get("step", (abs(end - start) / max(rows - 1, 1),))[0],
+        end=end,
         notes=tuple(filter(None, notes)),
     )
 

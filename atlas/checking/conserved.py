@@ -29,10 +29,10 @@ class Drift:
 
 
 Value: TypeAlias = tuple[str, str, str, Any, Any]
-"""Name, meaning, equation, values and size, the sum of the sizes of its terms, of what is conserved."""
+"""Name, meaning, equation, values and size, the sum of the sizes of its terms, of a conserved quantity."""
 
 Deviation: TypeAlias = tuple[str, str, str, Any]
-"""Name of what should not change, what it is, its equation, and how far it is off in each row."""
+"""Name of a conserved quantity, its meaning, its equation, and its deviation in each row."""
 
 
 class Drifts:
@@ -46,11 +46,11 @@ class Drifts:
         for name, says, label, deviations in self._deviations(block):
             size = np.abs(deviations)
             i = int(np.argmax(size))
-            worst, time = float(size[i]), float(block["t"][i])
-            known = self._found.get(name)
-            if known is not None and known.worst >= worst:
-                worst, time = known.worst, known.worst_time
-            self._found[name] = Drift(name, says, label, worst, time, float(size[-1]))
+            worst_row, time = float(size[i]), float(block["t"][i])
+            drift = self._found.get(name)
+            if drift is not None and drift.worst >= worst_row:
+                worst_row, time = drift.worst, drift.worst_time
+            self._found[name] = Drift(name, says, label, worst_row, time, float(size[-1]))
 
     def drifts(self) -> tuple[Drift, ...]:
         """Return the drifts: orthogonality, the norm, and the integrals of motion."""
@@ -58,7 +58,7 @@ class Drifts:
 
 
 def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield what the columns allow to test against a certified motion: orthogonality, the norm, and the integrals."""
+    """Yield the tests that the columns allow against a certified motion: orthogonality, the norm, and the integrals."""
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
     I, B2, B3 = (long(x) for x in (motion.I, motion.B2, motion.B3))
@@ -76,16 +76,16 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
 def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
     """Yield the integrals of any inertia tensor J (3, 3), theorem-clebsch, and more; Omega, K (..., 3)."""
     M = (Omega + K) @ J
-    H2, F, along, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
+    H2, F, component, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
     yield "H", "Hamiltonian in Larmor's frame", "theorem-lie-poisson", H2 / 2, H2 / 2
     yield "F", "Clebsch's integral", "theorem-clebsch", F, 2 * (M * M).sum(-1) - F
-    yield "(M,K)", "canonical momentum along the field", "theorem-lie-poisson", along, np.abs(M * K).sum(-1)
+    yield "(M,K)", "canonical momentum along the field", "theorem-lie-poisson", component, np.abs(M * K).sum(-1)
     yield "K^2", "length of the field in the body, squared", "(37)", square, square
     yield "T", "kinetic energy", "theorem-kinetic-energy", energy2, energy2
 
 
 class AnyBody:
-    """What a body of any inertia tensor (3, 3) in the field B' (3,) conserves: H, F, (M,K), K^2 and T.
+    """Conserved quantities of a body of any inertia tensor (3, 3) in the field B' (3,): H, F, (M,K), K^2 and T.
 
     Deviations are from the values of `start`, Omega and K, else from those of the first row of all.
     """
@@ -103,8 +103,8 @@ class AnyBody:
         K, J = self._field @ R, self._J
         if self._start is None:
             self._start = Omega[0], K[0]
-        first, field = self._start
-        yield from _against(conserved(J, Omega, K), conserved(J, first, field))
+        start, field = self._start
+        yield from _against(conserved(J, Omega, K), conserved(J, start, field))
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
@@ -166,8 +166,8 @@ def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> 
     if Omega is not None and K is not None:
         yield "c3", "K3 + Omega3", "(40)", c3, w3 + B3
         yield "c5", "the fourth integral", "(41)", c5, w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3
-        along = formulas.along_field(long(I), w, k)
-        yield "(m,B')", "momentum along the field, over I2", "(88)", along, w2 * B2 + I * w3 * B3
+        component = formulas.along_field(long(I), w, k)
+        yield "(m,B')", "momentum along the field, over I2", "(88)", component, w2 * B2 + I * w3 * B3
 
 
 def _matrices(columns: Mapping[str, Any], count: int) -> Any:

@@ -30,17 +30,17 @@ def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit:
         return []
     R, Omega = errors.true(block["t"][rows])
     x = {name: values[rows] for name, values in block.items()}
-    found: list[str] = []
+    sentences: list[str] = []
     if set(MATRIX) <= x.keys():
         M = np.stack([x[name] for name in MATRIX], axis=-1).reshape(-1, 3, 3)
-        found += _of_attitudes(
+        sentences += _of_attitudes(
             {"R": M, "R, transposed (R takes the body to the laboratory),": M.swapaxes(1, 2)}, R, limit
         )
     if QUATERNION[0] in x:
-        found += _of_attitudes(dict(_of_quaternions(np.stack([x[name] for name in QUATERNION], axis=-1))), R, limit)
+        sentences += _of_attitudes(dict(_of_quaternions(np.stack([x[name] for name in QUATERNION], axis=-1))), R, limit)
     if set(OMEGA) <= x.keys():
-        found += _of_rates(np.stack([x[name] for name in OMEGA], axis=-1), R, Omega, limit)
-    return found
+        sentences += _of_rates(np.stack([x[name] for name in OMEGA], axis=-1), R, Omega, limit)
+    return sentences
 
 
 def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
@@ -66,36 +66,36 @@ def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: float) -> list[str]:
     """Return a sentence on the first reading of matrices that is R, as given or turned; none if as given it is R."""
-    if not readings or _apart(next(iter(readings.values())), R) <= limit or _apart(R, R[0]) < CHANGE:
+    if not readings or _median_error(next(iter(readings.values())), R) <= limit or _median_error(R, R[0]) < CHANGE:
         return []
     for words, M in readings.items():
-        if _apart(M, R) <= limit:
+        if _median_error(M, R) <= limit:
             return [f"{words} fits"]
     from scipy.spatial.transform import Rotation
 
     for words, M in readings.items():
         start = M[0] @ R[0].T
-        if _apart(start.T @ M, R) <= limit:
+        if _median_error(start.T @ M, R) <= limit:
             x, y, z, w = Rotation.from_matrix(start).as_quat(canonical=True)
             start_of = f"--attitude {x:.9g} {y:.9g} {z:.9g} {w:.9g}"
             return [f"{words} fits turned in the laboratory: give {start_of}, and the field along those axes"]
-        if _apart(M @ (M[0].T @ R[0]), R) <= limit:
+        if _median_error(M @ (M[0].T @ R[0]), R) <= limit:
             return [f"{words} fits turned in the body: its axes are others than those of the moments of inertia"]
     return []
 
 
-def _of_rates(found: FloatArray, R: FloatArray, Omega: FloatArray, limit: float) -> list[str]:
+def _of_rates(rates: FloatArray, R: FloatArray, Omega: FloatArray, limit: float) -> list[str]:
     """Return a sentence on the first frame and unit in which rates are Omega."""
     size = float(np.abs(Omega).max()) or 1.0
-    if _apart(found / size, Omega / size) <= limit:
+    if _median_error(rates / size, Omega / size) <= limit:
         return []
     for frame, true in (("", Omega), ("R Omega, in the laboratory", np.matvec(R, Omega))):
         for unit, scale in SCALES.items():
-            if _apart(found / (scale * size), true / size) <= limit:
+            if _median_error(rates / (scale * size), true / size) <= limit:
                 return [f"Omega fits as {', '.join(filter(None, [frame, unit]))}"]
     return []
 
 
-def _apart(x: FloatArray, y: FloatArray) -> float:
+def _median_error(x: FloatArray, y: FloatArray) -> float:
     """Return the error below which half of the rows are."""
     return float(np.median(np.abs(x - y).reshape(len(x), -1).max(-1)))

@@ -62,8 +62,8 @@ class Errors:
     def of_block(self, block: Block) -> dict[str, FloatArray]:
         """Return the errors (m,) of each column of a block."""
         t = block["t"]
-        near = self._truth.within(t)
-        R, Omega, q = self._truth.values(np.where(near, t, 0.0))
+        rows = self._truth.within(t)
+        R, Omega, q = self._truth.values(np.where(rows, t, 0.0))
         if QUATERNION[0] in block:
             same = sum(block[name] * q[:, i] for i, name in enumerate(QUATERNION))
             q = np.where(np.asarray(same)[:, None] < 0, -q, q)
@@ -75,17 +75,17 @@ class Errors:
         }
         differences = {name: np.maximum(errors, self._truth.floor) for name, errors in differences.items()}
         least = np.min(list(differences.values()), axis=0)
-        for i in np.flatnonzero(~near | (least < self._truth.near)):
+        for i in np.flatnonzero(~rows | (least < self._truth.near)):
             for name, error in self.certified(block, int(i)).items():
                 differences[name][i] = error
         return differences
 
     def true(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return R (m, 3, 3) and Omega (m, 3) at a few times (m,), by balls where there is nothing faster."""
-        near = self._truth.within(t)
-        R, Omega, _ = self._truth.values(np.where(near, t, 0.0)) if near.any() else np.zeros((3, t.size, 9))
+        rows = self._truth.within(t)
+        R, Omega, _ = self._truth.values(np.where(rows, t, 0.0)) if rows.any() else np.zeros((3, t.size, 9))
         R, Omega = R.reshape(-1, 3, 3).astype(np.float64), Omega[:, :3].astype(np.float64)
-        for i in np.flatnonzero(~near):
+        for i in np.flatnonzero(~rows):
             R[i] = [[float(arb(x)) for x in row] for row in _precise(partial(self._motion.rotation, float(t[i])))]
             Omega[i] = [float(arb(x)) for x in _precise(partial(self._motion.angular_velocity, float(t[i])))]
         return R, Omega
@@ -150,8 +150,8 @@ class Grade:
         values = np.array(sorted(self._thousandths))
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
-        certain = self._worst > self._errors.floor
-        worst = self._errors.certified(self._worst_row, 0)[self.name] if certain else self._errors.floor
+        is_certain = self._worst > self._errors.floor
+        worst = self._errors.certified(self._worst_row, 0)[self.name] if is_certain else self._errors.floor
         time = float(self._worst_row["t"][0])
         return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), time, self._fails_at)
 
@@ -161,7 +161,7 @@ class Envelope:
 
     def __init__(self) -> None:
         self.rows = 1
-        self._kept = self._waiting = np.empty((0, 0))
+        self._points_kept = self._waiting = np.empty((0, 0))
         self._groups: list[str] = []
 
     def add(self, t: FloatArray, errors: Mapping[str, FloatArray]) -> None:
@@ -170,14 +170,14 @@ class Envelope:
         self._groups = [group for group, values in groups.items() if values]
         new = np.column_stack([t, *(np.max(groups[group], axis=0) for group in self._groups)])
         self._waiting = np.concatenate([self._waiting, new]) if self._waiting.size else new
-        self._kept = self._kept if self._kept.size else new[:0]
+        self._points_kept = self._points_kept if self._points_kept.size else new[:0]
         while len(self._waiting) >= self.rows:
-            count = min(2 * POINTS - len(self._kept), len(self._waiting) // self.rows)
+            count = min(2 * POINTS - len(self._points_kept), len(self._waiting) // self.rows)
             whole = count * self.rows
-            self._kept = np.concatenate([self._kept, _largest(self._waiting[:whole], self.rows)])
+            self._points_kept = np.concatenate([self._points_kept, _largest(self._waiting[:whole], self.rows)])
             self._waiting = self._waiting[whole:]
-            if len(self._kept) == 2 * POINTS:
-                self._kept, self.rows = _largest(self._kept, 2), 2 * self.rows
+            if len(self._points_kept) == 2 * POINTS:
+                self._points_kept, self.rows = _largest(self._points_kept, 2), 2 * self.rows
 
     def times(self) -> list[float]:
         """Return the first time of each point; none where nothing is graded."""
@@ -188,8 +188,8 @@ class Envelope:
         return dict(zip(self._groups, self._points()[:, 1:].T.tolist(), strict=True)) if self._groups else {}
 
     def _points(self) -> FloatArray:
-        rest = len(self._waiting)
-        return np.concatenate([self._kept, _largest(self._waiting, rest)]) if rest else self._kept
+        count = len(self._waiting)
+        return np.concatenate([self._points_kept, _largest(self._waiting, count)]) if count else self._points_kept
 
 
 def _quaternion(motion: Any, t: float) -> list[Real]:
@@ -217,5 +217,5 @@ def _precise(function: Callable[[], Any]) -> Any:
 
 def _largest(rows: FloatArray, count: int) -> FloatArray:
     """Return the first time and the largest errors of each `count` rows."""
-    parts = rows.reshape(-1, count, rows.shape[1])
-    return np.column_stack([parts[:, 0, 0], parts[:, :, 1:].max(axis=1)])
+    blocks = rows.reshape(-1, count, rows.shape[1])
+    return np.column_stack([blocks[:, 0, 0], blocks[:, :, 1:].max(axis=1)])

@@ -42,7 +42,7 @@ QUESTIONS = {
 
 @dataclass(frozen=True)
 class Heading:
-    """The columns of a table: canonical names with their places, what they were called, factors to s and rad/s."""
+    """The columns of a table: canonical names with their places, names in the file, factors to s and rad/s."""
 
     width: int
     places: Mapping[str, int]
@@ -53,51 +53,53 @@ class Heading:
     """A sentence on columns that are not used, empty without any."""
 
 
-def headed(cells: Sequence[str], where: str, more: Sequence[str] = ()) -> Heading:
-    """Return what a line of names says; `more` are canonical names known beside. Raises AtlasError, with `where`.
+def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -> Heading:
+    """Return the heading of a line of names; `extra_names` are further known names. Raises AtlasError, with `source`.
 
-    What is not known is left out, as long as there are times and something beside them.
+    Unknown columns are left out, as long as there are times and another known column.
     """
     titles = [heading(cell) for cell in cells]
     while len(titles) > 1 and not titles[-1][0]:
         del titles[-1]  # a separator at the end
     if all(re.fullmatch(r"[+-]?\.?\d.*", name) for name, _ in titles if name):
-        first = cells[0].strip()
-        raise AtlasError(f"{where}: {first!r} stands where the names of columns are wanted, such as t,R11,R12,R13.")
-    known = _canonical([name for name, _ in titles], more)
+        first_cell = cells[0].strip()
+        raise AtlasError(
+            f"{source}: {first_cell!r} stands where the names of columns are wanted, such as t,R11,R12,R13."
+        )
+    columns = _canonical([name for name, _ in titles], extra_names)
     places: dict[str, int] = {}
-    for i, name in known.items():
+    for i, name in columns.items():
         if name in places:
-            raise AtlasError(f"{where}: the column {name} is there twice.")
+            raise AtlasError(f"{source}: the column {name} is there twice.")
         places[name] = i
-    rest = [name for i, (name, _) in enumerate(titles) if name and i not in known]
-    hints = "; ".join(dict.fromkeys(filter(None, map(_hint, rest))))
+    unknown = [name for i, (name, _) in enumerate(titles) if name and i not in columns]
+    hints = "; ".join(dict.fromkeys(filter(None, map(_hint, unknown))))
     ask = f" ({hints})" if hints else ""
     if "t" not in places:
-        raise AtlasError(f"{where}: there is no column t{ask}.")
+        raise AtlasError(f"{source}: there is no column t{ask}.")
     if not places.keys() - {"t", "sigma"}:
-        left = f" There is {', '.join(map(repr, rest))}{ask}." if rest else ""
+        remark = f" There is {', '.join(map(repr, unknown))}{ask}." if unknown else ""
         raise AtlasError(
-            f"{where}: there is nothing to grade beside t; add R11 to R33 (the axis is R13, R23, R33), Omega1 to "
-            f"Omega3, {'K1 to K3, ' if more else ''}or the quaternion qw, qx, qy, qz.{left}"
+            f"{source}: there is nothing to grade beside t; add R11 to R33 (the axis is R13, R23, R33), Omega1 to "
+            f"Omega3, {'K1 to K3, ' if extra_names else ''}or the quaternion qw, qx, qy, qz.{remark}"
         )
-    written = {name: titles[i][0] for name, i in places.items()}
+    titles_used = {name: titles[i][0] for name, i in places.items()}
     units = {name: titles[i][1] for name, i in places.items()}
-    if written["t"].lower() == "timestamp" and not units["t"]:
-        raise AtlasError(f"{where}: timestamp has no unit; call it t [s], t [ms], t [us] or t [ns].")
-    sizes = {name: _size(name, unit, where) for name, unit in units.items()}
-    left_out = f"columns left out: {', '.join(rest)}{ask}" if rest else ""
-    return Heading(len(titles), places, written, sizes, units, left_out)
+    if titles_used["t"].lower() == "timestamp" and not units["t"]:
+        raise AtlasError(f"{source}: timestamp has no unit; call it t [s], t [ms], t [us] or t [ns].")
+    sizes = {name: _size(name, unit, source) for name, unit in units.items()}
+    left_out = f"columns left out: {', '.join(unknown)}{ask}" if unknown else ""
+    return Heading(len(titles), places, titles_used, sizes, units, left_out)
 
 
-def _canonical(names: Sequence[str], more: Sequence[str]) -> dict[int, str]:
+def _canonical(names: Sequence[str], extra_names: Sequence[str]) -> dict[int, str]:
     """Return the canonical names of columns that are known, by their places."""
     bare = [re.sub(r"[\s_.]+", "", name).lower() for name in names]
-    known = _NAMES | {name.lower(): name for name in more}
+    by_spelling = _NAMES | {name.lower(): name for name in extra_names}
     spelling = next((s.split() for s in SPELLINGS if set(s.split()) <= set(bare)), ())
-    known |= dict(zip(spelling, QUATERNION, strict=False))
+    by_spelling |= dict(zip(spelling, QUATERNION, strict=False))
     start = {name for name in ("omega1", "omega2", "omega3") if STARTS & {*names}}  # of a sweep, beside Omega
-    return {i: known[name] for i, name in enumerate(bare) if name in known and names[i] not in start}
+    return {i: by_spelling[name] for i, name in enumerate(bare) if name in by_spelling and names[i] not in start}
 
 
 def _hint(name: str) -> str:
@@ -108,7 +110,7 @@ def _hint(name: str) -> str:
     return next((text for pattern, text in QUESTIONS.items() if re.fullmatch(pattern, bare)), "")
 
 
-def _size(name: str, unit: str, where: str) -> Fraction:
+def _size(name: str, unit: str, place: str) -> Fraction:
     """Return how many of the unit of a column, s or rad/s, that of its heading is, 1 where it has none."""
     if unit in PLAIN:
         return Fraction(1)
@@ -116,5 +118,5 @@ def _size(name: str, unit: str, where: str) -> Fraction:
     try:
         return Fraction(size(unit, option))
     except AtlasError as error:
-        right = f"is in {WANTED[option]}, or what can be made of it" if option else "has no unit"
-        raise AtlasError(f"{where}: {name} {right}, not in {unit!r}.") from error
+        remedy = f"is in {WANTED[option]}, or what can be made of it" if option else "has no unit"
+        raise AtlasError(f"{place}: {name} {remedy}, not in {unit!r}.") from error

@@ -51,8 +51,8 @@ class Convergence:
 
     @property
     def _title(self) -> str:
-        shown = (f"{name} {'not told' if p is None else f'{p:.2f}'}" for name, p in self.order.items())
-        return f"order of convergence of {len(self.steps)} runs, case {self.case}: {', '.join(shown)}"
+        order_text = (f"{name} {'not told' if p is None else f'{p:.2f}'}" for name, p in self.order.items())
+        return f"order of convergence of {len(self.steps)} runs, case {self.case}: {', '.join(order_text)}"
 
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Return heading and rows: of each run its step, the largest errors, and the orders beside the run before."""

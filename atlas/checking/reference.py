@@ -32,7 +32,7 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 
 @dataclass(frozen=True)
 class Reference:
-    """A certified motion with the unit of Omega's errors, or, without one, what should not change all the same."""
+    """A certified motion with the unit of Omega's errors, or, without one, the conserved quantities alone."""
 
     case: str
     parameters: Mapping[str, Any]
@@ -48,134 +48,134 @@ class Reference:
         return digits
 
 
-def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str) -> Reference:
-    """Return what a trajectory is graded against: `given` parameters come before those `written` in its file.
+def reference(of_file: Mapping[str, tuple[float, ...]], overrides: Given, file: str) -> Reference:
+    """Return the reference of a trajectory: `given` parameters come before those `written` in its file.
 
-    Raises AtlasError, with the name of the file, for what is missing or contradicts itself, and what the classes of
-    motions raise for what is no body or no motion.
+    Raises AtlasError, with the name of the file, for missing or contradictory parameters, and the errors of
+    the classes of motions for impossible bodies and starts.
     """
-    if "motion" in given:
-        return _in_given_axes(given["motion"])
-    given = {name: value for name, value in given.items() if value is not None}
-    if given.keys() & {"ratio", "inertia"}:
-        written = {name: value for name, value in written.items() if name not in {"ratio", "inertia"}}
-    known = dict(written) | given
-    if known.keys() & set(OF_TOPS):
-        return _top(known, file)
-    if "attitude" in known and (body := _moments(known, file)):
-        known |= {"inertia": body}
-    if len(known.get("inertia", ())) > 2:
-        return _any_body(known, _start(written, file, given), file)
-    parameters = {"ratio": _body(known, file), "field": _needed(known, "field", file)}
+    if "motion" in overrides:
+        return _in_given_axes(overrides["motion"])
+    overrides = {name: value for name, value in overrides.items() if value is not None}
+    if overrides.keys() & {"ratio", "inertia"}:
+        of_file = {name: value for name, value in of_file.items() if name not in {"ratio", "inertia"}}
+    values = dict(of_file) | overrides
+    if values.keys() & set(OF_TOPS):
+        return _top(values, file)
+    if "attitude" in values and (body := _moments(values, file)):
+        values |= {"inertia": body}
+    if len(values.get("inertia", ())) > 2:
+        return _any_body(values, _start(of_file, file, overrides), file)
+    parameters = {"ratio": _body(values, file), "field": _parameter(values, "field", file)}
     if len(parameters["field"]) == 3 and parameters["field"][0] == 0:
         parameters["field"] = parameters["field"][1:]
-    start = _start(written, file, given)
+    start = _start(of_file, file, overrides)
     if "omega" not in start:
-        start = {"omega2": _needed(start, "omega2", file)} | start
+        start = {"omega2": _parameter(start, "omega2", file)} | start
     motion = (GeneralMotion if "omega" in start else ElementaryMotion)(*parameters.values(), **start)
     with workprec():
         unit = arb(sum(w * w for w in motion.omega)).sqrt() if any(motion.omega) else 1
     case = motion.case if isinstance(motion, ElementaryMotion) else motion.kind
-    return Reference(case, _shown(parameters | start), partial(of_motion, motion), motion, unit)
+    return Reference(case, _plain_parameters(parameters | start), partial(of_motion, motion), motion, unit)
 
 
 def _in_given_axes(motion: Any) -> Reference:
     """Return a motion of `atlas.motion` with its arguments, and its integrals in the given axes."""
     tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)
-    parts = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
-    shown = {name: x.tolist() for name, x in parts.items()}
+    arguments = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
+    lists = {name: x.tolist() for name, x in arguments.items()}
     unit = float(np.abs([*K, *omega]).max()) or 1.0
-    return Reference(motion.kind, shown, AnyBody(tensor, field, (omega, K)), motion, unit)
+    return Reference(motion.kind, lists, AnyBody(tensor, field, (omega, K)), motion, unit)
 
 
-def _any_body(known: Given, start: Given, file: str) -> Reference:
+def _any_body(values: Given, start: Given, file: str) -> Reference:
     """Return the motion of a body of any inertia tensor: certified where its moments and its start are given."""
-    inertia, B = known["inertia"], np.array(_needed(known, "field", file), dtype=float)
+    inertia, B = values["inertia"], np.array(_parameter(values, "field", file), dtype=float)
     a, b, c, ab, ac, bc = (*inertia, 0.0, 0.0, 0.0)[:6]
     tensor, field = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]]), B if B.size == 3 else np.array([0.0, *B])
-    shown = {"inertia": [*map(float, inertia)], "field": field.tolist()}
+    parameters = {"inertia": [*map(float, inertia)], "field": field.tolist()}
     if start.keys() & {"omega2", "omega3"}:
         raise AtlasError(
             f"{file}: omega2 and omega3 start an elementary motion of a symmetric body; one with three moments of "
             "inertia is started by omega, three components."
         )
-    if start and (len(inertia) > 3 or "attitude" in known):
-        R = rotation_of(known["attitude"], f"{file}: attitude") if "attitude" in known else None
+    if start and (len(inertia) > 3 or "attitude" in values):
+        R = rotation_of(values["attitude"], f"{file}: attitude") if "attitude" in values else None
         return _in_given_axes(motion(tensor, field, start["omega"], R))
     if not start:
-        return Reference("any inertia tensor", shown, AnyBody(tensor, field))
+        return Reference("any inertia tensor", parameters, AnyBody(tensor, field))
     omega = np.array(start["omega"], dtype=float)
     asymmetric = AsymmetricMotion(inertia, field.tolist(), omega.tolist())
     unit = float(np.abs([*field, *omega]).max()) or 1.0
-    return Reference(
-        asymmetric.kind, shown | {"omega": omega.tolist()}, AnyBody(tensor, field, (omega, field)), asymmetric, unit
-    )
+    parameters |= {"omega": omega.tolist()}
+    return Reference(asymmetric.kind, parameters, AnyBody(tensor, field, (omega, field)), asymmetric, unit)
 
 
-def _moments(known: Given, file: str) -> tuple[float, ...]:
+def _moments(values: Given, file: str) -> tuple[float, ...]:
     """Return three moments of a symmetric body, nothing for another."""
-    if len(known.get("inertia", ())) > 2:
+    if len(values.get("inertia", ())) > 2:
         return ()
-    I2, I3 = moments(_body(known, file))
+    I2, I3 = moments(_body(values, file))
     return (float(I2), float(I2), float(I3))
 
 
-def _top(known: Given, file: str) -> Reference:
+def _top(values: Given, file: str) -> Reference:
     """Return the motion of a symmetric top in a uniform field."""
-    strange = known.keys() & {"field", "omega2", "omega3", "ratio"}
-    if strange or len(known.get("inertia", ())) != 2:
+    strange = values.keys() & {"field", "omega2", "omega3", "ratio"}
+    if strange or len(values.get("inertia", ())) != 2:
         raise AtlasError(
-            f"{file} is of a top, for it has {' and '.join(sorted(known.keys() & set(OF_TOPS)))}: a top has inertia = "
-            f"I2 I3, direction, omega and, where they are not zero, coupling, linear, quadratic{_beside(strange)}."
+            f"{file} is of a top, for it has {' and '.join(sorted(values.keys() & set(OF_TOPS)))}: a top has inertia = "
+            f"I2 I3, direction, omega and, where they are not zero, coupling, linear, quadratic{_refused(strange)}."
         )
-    omega, direction = _needed(known, "omega", file), _needed(known, "direction", file)
-    coupling, linear, quadratic = known.get("coupling", (0.0, 0.0)), *(_number(known.get(x, 0.0)) for x in OF_TOPS[2:])
-    motion = TopMotion(known["inertia"], coupling, direction, omega, linear, quadratic)
-    I2 = float(known["inertia"][0])
+    omega, direction = _parameter(values, "omega", file), _parameter(values, "direction", file)
+    coupling = values.get("coupling", (0.0, 0.0))
+    linear, quadratic = (_number(values.get(x, 0.0)) for x in OF_TOPS[2:])
+    motion = TopMotion(values["inertia"], coupling, direction, omega, linear, quadratic)
+    I2 = float(values["inertia"][0])
     rates = np.abs([*omega, *(k / I2 for k in coupling), *(np.sqrt(abs(a) / I2) for a in (linear, quadratic))])
-    parts = {"inertia": known["inertia"], "coupling": coupling, "direction": direction, "omega": omega}
+    vectors = {"inertia": values["inertia"], "coupling": coupling, "direction": direction, "omega": omega}
     potential = {"linear": float(linear), "quadratic": float(quadratic)}
-    shown = {name: [*map(float, value)] for name, value in parts.items()} | potential
-    return Reference(f"top, {motion.kind}", shown, partial(of_top, motion), motion, float(rates.max()) or 1.0)
+    parameters = {name: [*map(float, value)] for name, value in vectors.items()} | potential
+    return Reference(f"top, {motion.kind}", parameters, partial(of_top, motion), motion, float(rates.max()) or 1.0)
 
 
-def _beside(names: Iterable[str]) -> str:
+def _refused(names: Iterable[str]) -> str:
     return f", not {' and '.join(sorted(names))}" if names else ""
 
 
-def _start(written: Mapping[str, tuple[float, ...]], file: str, given: Given) -> dict[str, Any]:
-    """Return the initial angular velocity: omega, or omega2 and omega3, or nothing; what is given comes first."""
-    components = given.keys() & {"omega2", "omega3"}
-    if "omega" in given and components:
+def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given) -> dict[str, Any]:
+    """Return the initial angular velocity: omega, or omega2 and omega3, or nothing; overrides come first."""
+    components = overrides.keys() & {"omega2", "omega3"}
+    if "omega" in overrides and components:
         raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
-    if "omega" in given:
-        return {"omega": given["omega"]}
-    if not components and "omega" in written and "omega2" in written:
+    if "omega" in overrides:
+        return {"omega": overrides["omega"]}
+    if not components and "omega" in of_file and "omega2" in of_file:
         raise AtlasError(f"{file} gives the start twice, by omega and by omega2: leave one of them out.")
-    if not components and "omega" in written:
-        return {"omega": written["omega"]}
-    start = {name: written[name][0] for name in ("omega2", "omega3") if name in written}
-    return start | {name: given[name] for name in sorted(components)}
+    if not components and "omega" in of_file:
+        return {"omega": of_file["omega"]}
+    start = {name: of_file[name][0] for name in ("omega2", "omega3") if name in of_file}
+    return start | {name: overrides[name] for name in sorted(components)}
 
 
-def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:
+def _plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
     """Return the parameters of a symmetric body's motion as plain numbers, a body as its two moments."""
     body = parameters["ratio"]
-    shown: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
-    shown["field"] = [float(component) for component in parameters["field"]]
+    plain: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
+    plain["field"] = [float(component) for component in parameters["field"]]
     if "omega" in parameters:
-        return shown | {"omega": [float(w) for w in parameters["omega"]]}
-    return shown | {name: float(parameters[name]) for name in ("omega2", "omega3") if name in parameters}
+        return plain | {"omega": [float(w) for w in parameters["omega"]]}
+    return plain | {name: float(parameters[name]) for name in ("omega2", "omega3") if name in parameters}
 
 
-def _body(known: Given, file: str) -> Any:
-    if "inertia" in known and "ratio" in known:
+def _body(values: Given, file: str) -> Any:
+    if "inertia" in values and "ratio" in values:
         raise AtlasError(f"{file} gives the body twice, by ratio and by inertia: leave one of them out.")
-    if "inertia" in known:
-        I2, I3 = known["inertia"]
+    if "inertia" in values:
+        I2, I3 = values["inertia"]
         return SymmetricBody(I2, I3)
-    return _number(_needed(known, "ratio", file))
+    return _number(_parameter(values, "ratio", file))
 
 
 def _number(value: Any) -> Any:
@@ -183,12 +183,12 @@ def _number(value: Any) -> Any:
     return value[0] if isinstance(value, tuple) else value
 
 
-def _needed(known: Given, name: str, file: str) -> Any:
-    if name not in known:
+def _parameter(values: Given, name: str, file: str) -> Any:
+    if name not in values:
         example = {
             "field": "# field = 1 2",
             "direction": "# direction = 0.6 0.8",
             "omega": "# omega = 0.3 0.7 0.2",
         }.get(name, f"# {name} = 1.5")
         raise AtlasError(f"{file} does not say {name}: give the option, or a line such as '{example}' in the file.")
-    return known[name]
+    return values[name]

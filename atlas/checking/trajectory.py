@@ -4,7 +4,7 @@ Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega
 or a gyroscope's x, y, z; a quaternion that takes the body's frame to the laboratory, as ``w x y z``, ``qw qx qy qz``
 or, scalar first, ``q0 q1 q2 q3``; other columns are left out. Names may have units, as ``t [ms]`` or ``Omega1 (Hz)``;
 times are then in s, rates in rad/s. Lines such as ``# ratio = 1.5`` and ``# field: 1 2`` above the rows hold
-parameters; other # lines are comments, and so is what follows a colon and does not begin with a number. The numbers are
+parameters; other # lines are comments, and so is text behind a colon that does not begin with a number. The numbers are
 separated by commas, or by semicolons, tabs or spaces where the line of names has no comma; an empty cell is NaN. Rows
 are read in blocks, so that a file may be larger than the memory.
 """
@@ -55,10 +55,10 @@ NAMED = re.compile(
 
 
 HOLES = ("na", "n/a", "null", "none")
-"""What stands in cells without a number, beside NaN and nothing."""
+"""Texts of cells without a number, besides NaN and the empty text."""
 
 POLICIES = ("omit", "raise")
-"""What may be done with rows that lack a number."""
+"""Policies for rows that lack a number."""
 
 
 @dataclass(frozen=True)
@@ -80,9 +80,9 @@ class Trajectory:
 
 @contextmanager
 def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
-    """Open a file and read what stands above its rows; with `fields` the columns K1 to K3 and sigma are known, too.
+    """Open a file and read the lines above its rows; with `fields` the columns K1 to K3 and sigma are known, too.
 
-    Raises AtlasError, which names the line and the column, for what is not such a trajectory; the blocks do as well.
+    Raises AtlasError, which names the line and the column, for no such trajectory; the blocks do as well.
     """
     parameters: dict[str, tuple[float, ...]] = {}
     separator = ""
@@ -91,18 +91,18 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
     with path.open(encoding=encoding, errors="atlas-latin-1", newline=None) as file:
         lines = _decoded(file, path.name)
         for number, raw_line in enumerate(lines, 1):
-            line, where = raw_line.strip(" \n"), f"{path.name}, line {number}"
+            line, place = raw_line.strip(" \n"), f"{path.name}, line {number}"
             line = line.lstrip("# ") if NAMED.fullmatch(line) else line
             if line.startswith("#"):
-                for name, values in _parameters(line.lstrip("# "), where).items():
+                for name, values in _parameters(line.lstrip("# "), place).items():
                     if parameters.setdefault(name, values) != values:
-                        raise AtlasError(f"{where}: {name} is there twice, with other numbers.")
+                        raise AtlasError(f"{place}: {name} is there twice, with other numbers.")
             elif re.fullmatch("sep=.", line):
                 separator = line[-1]
             elif line.strip():
                 separator = separator or max(",;\t", key=re.sub('"[^"]*"', "", line).count)
                 separator = separator if separator in line else " "
-                title = headed(_split(_one_word(line) if separator == " " else line, separator), where,
+                title = headed(_split(_one_word(line) if separator == " " else line, separator), place,
                                (*FIELD, "sigma") if fields else ())  # fmt: skip
                 blocks = _blocks(lines, number, title, separator, path.name)
                 yield Trajectory(path.name, title.written, parameters, blocks, title.left_out, title.units)
@@ -125,7 +125,7 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_
     """Return the trajectory of times (N,) and arrays, None where one is left out.
 
     They are rotation (N, 3, 3), quaternion (N, 4) and angular_velocity (N, 3). Raises AtlasError for another shape,
-    and for what is no number; NaN is none with the policy "raise".
+    and for an entry that is no number; NaN is none with the policy "raise".
     """
     times = measured(t, "t", nan_policy)
     if times.ndim != 1 or not times.size:
@@ -133,19 +133,19 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_
     shapes = {"rotation": (3, 3), "quaternion": (4,), "angular_velocity": (3,)}
     order = QUATERNION if scalar_first else (*QUATERNION[1:], QUATERNION[0])
     columns = {"t": times}
-    for (what, shape), names in zip(shapes.items(), (MATRIX, order, OMEGA), strict=True):
-        if quantities[what] is None:
+    for (quantity, shape), names in zip(shapes.items(), (MATRIX, order, OMEGA), strict=True):
+        if quantities[quantity] is None:
             continue
-        values, wanted = measured(quantities[what], what, nan_policy), (*times.shape, *shape)
-        if values.shape != wanted:
-            raise AtlasError(f"The {what} at {times.size} times is an array {wanted}, not {values.shape}.")
+        values, required_shape = measured(quantities[quantity], quantity, nan_policy), (*times.shape, *shape)
+        if values.shape != required_shape:
+            raise AtlasError(f"The {quantity} at {times.size} times is an array {required_shape}, not {values.shape}.")
         columns |= dict(zip(names, values.reshape(times.size, -1).T, strict=True))
     if len(columns) == 1:
         raise AtlasError(f"There is nothing to grade: give {', '.join(shapes)}, at least one of them.")
     starts = range(0, times.size, BLOCK)
     blocks = ({name: x[start : start + BLOCK] for name, x in columns.items()} for start in starts)
-    written = dict(zip(QUATERNION, "wxyz", strict=True))
-    return Trajectory("the trajectory", {name: written.get(name, name) for name in columns}, {}, blocks)
+    names_of_columns = dict(zip(QUATERNION, "wxyz", strict=True))
+    return Trajectory("the trajectory", {name: names_of_columns.get(name, name) for name in columns}, {}, blocks)
 
 
 def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
@@ -163,8 +163,8 @@ def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
 
 def whole_rows(block: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], int]:
     """Return the rows of a block that have all their numbers, and the count of the others."""
-    whole = np.all([np.isfinite(x) for x in block.values()], axis=0)
-    return {name: x[whole] for name, x in block.items()}, int(whole.size - whole.sum())
+    is_whole = np.all([np.isfinite(x) for x in block.values()], axis=0)
+    return {name: x[is_whole] for name, x in block.items()}, int(is_whole.size - is_whole.sum())
 
 
 def holes_left_out(count: int, rows: int, file: str) -> str:
@@ -208,9 +208,9 @@ def _blocks(
     lines: Iterator[str], above: int, title: Heading, separator: str, file: str
 ) -> Iterator[dict[str, FloatArray]]:
     """Yield the rows below the line of names, the number `above`; messages have the names as they are written."""
-    first, empty = above + 1, True
+    first_row, empty = above + 1, True
     while block := list(islice(lines, BLOCK)):
-        numbered = [(i, line.strip(" \n")) for i, line in enumerate(block, first) if line.strip()]
+        numbered = [(i, line.strip(" \n")) for i, line in enumerate(block, first_row) if line.strip()]
         for i, line in numbered:
             if line.startswith("#") and _parameters(line.lstrip("# "), f"{file}, line {i}"):
                 raise AtlasError(f"{file}, line {i}: a parameter stands above the line of names, not below it.")
@@ -222,7 +222,7 @@ def _blocks(
             yield {
                 name: x * float(title.sizes[name].numerator) / float(title.sizes[name].denominator) for name, x in sized
             }
-        first += len(block)
+        first_row += len(block)
     if empty:
         raise AtlasError(f"{file} has names but no rows of numbers.")
 
@@ -235,24 +235,24 @@ def _rows(rows: Sequence[tuple[int, str]], title: Heading, separator: str, file:
         try:
             return np.array(_DECODER.decode(f"[{','.join(lines)}]")).reshape(-1, title.width)[:, places]
         except msgspec.DecodeError:
-            pass  # 1., +1 and .5 are numbers but no JSON; and what is no number is told below
+            pass  # 1., +1 and .5 are numbers but no JSON; and a text that is no number is refused below
     return np.array([_cells(line, title, separator, f"{file}, line {i}") for i, line in rows])
 
 
 _DECODER = msgspec.json.Decoder(list[float])
 
 
-def _cells(line: str, title: Heading, separator: str, where: str) -> list[float]:
+def _cells(line: str, title: Heading, separator: str, place: str) -> list[float]:
     """Return the numbers of one line."""
     cells = _split(line, separator)
     if len(cells) == title.width + 1 and not cells[-1].strip():
         del cells[-1]  # a separator at the end
     if len(cells) != title.width:
-        raise AtlasError(f"{where}: {len(cells)} cells where the line of names has {title.width}.")
-    return [_number(cells[i], f"{where}, column {title.written[name]}") for name, i in title.places.items()]
+        raise AtlasError(f"{place}: {len(cells)} cells where the line of names has {title.width}.")
+    return [_number(cells[i], f"{place}, column {title.written[name]}") for name, i in title.places.items()]
 
 
-def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
+def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
     """Return the parameters of a # line, none where it is a comment."""
     parameters: dict[str, tuple[float, ...]] = {}
     for item in line.split(";"):
@@ -262,15 +262,15 @@ def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
         words = re.split(r"[,\s]+", item[key.end() :].strip(" ()[]"))
         if key[2] == ":" and not re.match(r"[+-]?\.?\d", words[0]):
             continue  # "# field: along e3" is a comment
-        values = tuple(_number(word, f"{where}, parameter {name}") for word in words)
+        values = tuple(_number(word, f"{place}, parameter {name}") for word in words)
         if len(values) not in PARAMETERS[name]:
             counts = " or ".join(map(str, PARAMETERS[name]))
-            raise AtlasError(f"{where}: {name} takes {counts} numbers, not {len(values)}.")
+            raise AtlasError(f"{place}: {name} takes {counts} numbers, not {len(values)}.")
         parameters[name] = values
     return parameters
 
 
-def _number(cell: str, where: str) -> float:
+def _number(cell: str, place: str) -> float:
     """Return the number in a cell, NaN where it is empty."""
     text = cell.strip(" \t")
     text = "" if text.lower() in HOLES else text
@@ -278,9 +278,9 @@ def _number(cell: str, where: str) -> float:
     try:  # Python reads underscores and the digits of other scripts
         value = float(plain if plain.isascii() and "_" not in plain else "") if text else math.nan
     except ValueError as error:
-        right = "; a decimal has a point" * bool(re.fullmatch(r"[+-]?\d+,\d+", text))
-        right = right or "; it has a no-break space" * ("\N{NO-BREAK SPACE}" in text)
-        raise AtlasError(f"{where}: {text!r} is not a number{right}.") from error
+        remedy = "; a decimal has a point" * bool(re.fullmatch(r"[+-]?\d+,\d+", text))
+        remedy = remedy or "; it has a no-break space" * ("\N{NO-BREAK SPACE}" in text)
+        raise AtlasError(f"{place}: {text!r} is not a number{remedy}.") from error
     if math.isinf(value):
-        raise AtlasError(f"{where}: the cell is {text}; every cell must be a finite number, or empty.")
+        raise AtlasError(f"{place}: the cell is {text}; every cell must be a finite number, or empty.")
     return value

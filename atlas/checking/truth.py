@@ -1,8 +1,8 @@
 """The true motion at arrays of times: elementary ones some three digits beyond a double, others by their kernels.
 
 Of an elementary motion axis and frequencies come from the exact floor, and the phases are reduced in two words, see
-`atlas.arithmetic.phase`; sines, cosines and what is made of them are long doubles. It is what a million rows can
-be graded against in a second; where a digit hangs on it, and for phases out of `within`, balls decide.
+`atlas.arithmetic.phase`; sines, cosines and R are long doubles. A million rows are graded
+in a second; balls decide digits that hang on the last bits, and phases out of `within`.
 """
 
 from dataclasses import dataclass
@@ -74,11 +74,11 @@ class Truth:
         C, c = sign[1] * (1 - 2 * sines[1] ** 2), sign[0] * (1 - 2 * sines[0] ** 2)
         v = np.where(sign[0] > 0, 2 * sines[0] ** 2, 2 * cosines[0] ** 2)
         n2, n3 = self.n2, self.n3
-        first, second = (c, n3 * s, -n2 * s), (-n3 * s, c + n2 * n2 * v, n2 * n3 * v)
-        columns = [a * C + b * S for a, b in zip(first, second, strict=True)]
-        across = [b * C - a * S for a, b in zip(first, second, strict=True)]
+        c1, second = (c, n3 * s, -n2 * s), (-n3 * s, c + n2 * n2 * v, n2 * n3 * v)
+        columns = [a * C + b * S for a, b in zip(c1, second, strict=True)]
+        second_column = [b * C - a * S for a, b in zip(c1, second, strict=True)]
         third = [n2 * s, n2 * n3 * v, c + n3 * n3 * v]
-        R = np.stack([column[i] for i in range(3) for column in (columns, across, third)], axis=-1)
+        R = np.stack([column[i] for i in range(3) for column in (columns, second_column, third)], axis=-1)
         Omega = np.stack([self.omega2 * S, self.omega2 * C, np.full_like(S, self.omega3)], axis=-1)
         halves = [(np.where(up, b, -a), np.where(up, a, b)) for up, a, b in zip(sign > 0, sines, cosines, strict=True)]
         (c, s), (C, S) = halves

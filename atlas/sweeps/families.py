@@ -74,10 +74,10 @@ class Swept:
         """Return the objects of parameters, arrays or numbers."""
         values = []
         for p in self.family.parameters:
-            parts: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
+            components: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
             if p.last:
-                parts = (np.stack(np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in parts)), -1),)
-            values.append(parts if p.columns and not p.last else parts[0])
+                components = (np.stack(np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in components)), -1),)
+            values.append(components if p.columns and not p.last else components[0])
         return (self.family.balls if exact else self.family.kernels)()(*values)
 
     def columns(
@@ -126,12 +126,12 @@ class Swept:
 
     def _explained(self, columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
         """Return the quantities, and beside those that may have no value a column that says why they have none."""
-        lacking = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
-        if lacking:
+        reasons_by_name = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
+        if reasons_by_name:
             reasons = np.zeros(next(iter(columns.values())).shape, dtype=NAME)
             for reason in dict.fromkeys(column.missing for column in self.quantities.values() if column.missing):
                 gone = np.zeros(reasons.shape, dtype=bool)
-                for name, why in lacking.items():
+                for name, why in reasons_by_name.items():
                     gone |= (why == reason) & empty(columns[name])
                 reasons[gone] = [f"{text}, {reason}" if text else reason for text in reasons[gone].tolist()]
             columns[MISSING] = reasons
@@ -139,19 +139,19 @@ class Swept:
 
     def check(self, parameters: Sequence[str], names: Sequence[str], digits: int | None) -> None:
         """Raise AtlasError for parameters or quantities that the family does not have, or that are missing."""
-        known = (*self.needed, *self.optional)
+        names_known = (*self.needed, *self.optional)
         certified = [name for name, column in self.quantities.items() if column.certified]
         lists = (
-            ("parameter", [x for x in parameters if x not in known], known),
+            ("parameter", [x for x in parameters if x not in names_known], names_known),
             ("quantity", [x for x in names if x not in self.quantities], self.quantities),
             ("quantity with certified digits", [x for x in names if digits and x not in certified], certified),
         )
-        for what, refused, there in lists:
+        for subject, refused, known in lists:
             if refused:
-                raise AtlasError(f"There is no {what} {refused[0]!r} here; there is {', '.join(there) or 'none'}.")
-        missing = [name for name in self.needed if name not in parameters]
-        if missing:
-            raise AtlasError(f"The parameter {missing[0]} is missing; needed are {', '.join(self.needed)}.")
+                raise AtlasError(f"There is no {subject} {refused[0]!r} here; there is {', '.join(known) or 'none'}.")
+        missing_names = [name for name in self.needed if name not in parameters]
+        if missing_names:
+            raise AtlasError(f"The parameter {missing_names[0]} is missing; needed are {', '.join(self.needed)}.")
         if not names:
             raise AtlasError(f"Name at least one quantity: {', '.join(self.quantities)}.")
 
@@ -163,10 +163,10 @@ def empty(column: NDArray[Any]) -> NDArray[np.bool]:
 
 def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
     """Go through the columns of a quantity: one, or one for each of its components."""
-    more = q.unit, q.certified, q.missing
+    details = q.unit, q.certified, q.missing
     for i, name in enumerate(q.names):
         place = i if q.columns else None
-        yield name, Column(partial(_value, q, place, exact=False), *more, partial(_value, q, place, exact=True))
+        yield name, Column(partial(_value, q, place, exact=False), *details, partial(_value, q, place, exact=True))
 
 
 def _value(q: Quantity, place: int | None, motion: Any, _: Row, *, exact: bool) -> Any:

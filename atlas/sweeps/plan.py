@@ -55,8 +55,8 @@ class Plan:
         if family not in FAMILIES:
             raise AtlasError(f"There is no family {family!r} to sweep; there is {', '.join(FAMILIES)}.")
         quantities = [quantities] if isinstance(quantities, str) else quantities
-        whole = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
-        quantities = [column for name in quantities for column in whole.get(name, (name,))]
+        columns_of = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
+        quantities = [column for name in quantities for column in columns_of.get(name, (name,))]
         FAMILIES[family].check(list(parameters), quantities, digits)
         arrays = {name: np.atleast_1d(real(value, name)) for name, value in parameters.items()}
         for name, array in arrays.items():
@@ -134,12 +134,12 @@ class Plan:
         """Return some rows of the table."""
         parameters, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
-        full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | parameters
+        inputs: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | parameters
         exact = {name: Fraction(*pair) for name, pair in self.exact.items()}
         quantities = (
-            family.columns(full, self.quantities, exact)
+            family.columns(inputs, self.quantities, exact)
             if self.digits is None
-            else family.digits(full, self.quantities, self.digits, exact)
+            else family.digits(inputs, self.quantities, self.digits, exact)
         )
         return {name: quantities[name] if name in quantities else parameters[name] for name in self.names}
 

@@ -48,30 +48,30 @@ def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = No
 
 def error(motion: ElementaryMotion, p: Any) -> FloatArray:
     """Largest error in any entry of R(t), (84), at most 1, which is no digit; NaN for phases beyond 2^50."""
-    rows, near = _rows(motion, p)
+    rows, is_near = _rows(motion, p)
     ratio, B2, B3, omega2, t, *omega3 = rows
-    return _against_balls(ElementaryMotion(ratio, (B2, B3), omega2, *omega3).rotation(t), rows, near)
+    return _against_balls(ElementaryMotion(ratio, (B2, B3), omega2, *omega3).rotation(t), rows, is_near)
 
 
 def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
     """Largest error in any entry of R(t) by the formula as anyone would write it. DomainError for B2 = 0."""
     if np.any(p["B2"] == 0):
         raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")
-    rows, near = _rows(motion, p)
-    return _against_balls(formula(constants(*rows[:4]), rows[4]), rows, near)
+    rows, is_near = _rows(motion, p)
+    return _against_balls(formula(constants(*rows[:4]), rows[4]), rows, is_near)
 
 
 def _rows(motion: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
     """Return the parameters of rows whose phases are within the limit, and which rows these are."""
-    near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= MAX_PHASE
+    is_near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= MAX_PHASE
     names = ("ratio", "B2", "B3", "omega2", "t", *(name for name in ("omega3",) if name in p))
-    return [p[name][near] for name in names], near
+    return [p[name][is_near] for name in names], is_near
 
 
-def _against_balls(R: FloatArray, rows: list[FloatArray], near: Any) -> FloatArray:
-    errors = np.full(near.shape, np.nan)
+def _against_balls(R: FloatArray, rows: list[FloatArray], is_near: Any) -> FloatArray:
+    errors = np.full(is_near.shape, np.nan)
     high, low = _true(*(np.ascontiguousarray(x).tobytes() for x in rows))
-    errors[near] = np.fmin(abs((R.reshape(-1, 9) - high) - low).max(axis=1), 1.0)
+    errors[is_near] = np.fmin(abs((R.reshape(-1, 9) - high) - low).max(axis=1), 1.0)
     return errors
 
 

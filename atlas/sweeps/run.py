@@ -223,7 +223,7 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
     """
     begin = perf_counter(), process_time()
     data = PARTS[table.ending](plan.rows(start, stop))
-    # without what others took of the machine, or other threads of this process
+    # without the time of other processes, or of other threads of this one
     seconds = min(perf_counter() - begin[0], process_time() - begin[1])
     name = table.name((plan.first + start, plan.first + stop), data)
     if not table.seen():
@@ -242,44 +242,44 @@ def width(executor: Any, jobs: int | None) -> int:
 
 
 def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
-    """Call `make` for each part, here or, a few ahead of what is taken, elsewhere; yield the results in order.
+    """Call `make` for each part, here or, a few ahead of the results, elsewhere; yield the results in order.
 
     `executor` is one, a client of Dask, or None: then the parts are made here, and from where it is worth it by so many
     processes, if the system lets us have any. At the end nothing is under way any more, however it came.
     """
-    own = None
+    processes = None
     if executor is None:
         for span in spans:
             yield make(plan, *span, table)
             if spans.processes > 1:
                 from atlas.processes import pool  # which loads multiprocessing
 
-                if own := pool(spans.processes):  # if the system lets us have any
+                if processes := pool(spans.processes):  # if the system lets us have any
                     break
         else:
             return
-    there, engine, waiting = None, cast("Any", executor or own), deque[Future[Made]]()
+    remote_plan, engine, waiting = None, cast("Any", executor or processes), deque[Future[Made]]()
     if hasattr(executor, "get_executor"):
         engine = executor.get_executor(pure=False)
         # the plan itself goes there once: a client keeps its last 1000 messages
-        there = None if plan.listed else executor.submit(replace, plan, pure=False)
-    with own or nullcontext(), _workers_lost():
+        remote_plan = None if plan.listed else executor.submit(replace, plan, pure=False)
+    with processes or nullcontext(), _workers_lost():
         try:
             for start, stop in spans:
-                rows = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
+                rows = (remote_plan, start, stop) if remote_plan else (plan.list_of(start, stop), 0, stop - start)
                 waiting.append(engine.submit(make, *rows, table))
                 if len(waiting) > PARTS_AHEAD * workers:
                     yield waiting.popleft().result()
             while waiting:
                 yield waiting.popleft().result()
         finally:
-            if own is None:  # which cancels what has not begun by itself
+            if processes is None:  # which cancels what has not begun by itself
                 wait([future for future in waiting if not future.cancel()])
 
 
 @contextmanager
 def _workers_lost() -> Iterator[None]:
-    """Say what to do where workers, or the scheduler of a client, have come to an end."""
+    """Turn a sudden end of workers, or of the scheduler of a client, into an AtlasError with the remedy."""
     try:
         yield
     except (BrokenExecutor, CancelledError) as error:

@@ -1,7 +1,7 @@
 """Where a table and its parts are: on this machine or at any address that fsspec knows, one sweep at a time.
 
-A part is a file whose name says all that is to be known of it: its rows, the sweep that it is of, and the digest of
-what it holds. So a part that is cut, altered or of another sweep is known as such, and no record is kept beside.
+The name of a part has its rows, the key of its sweep, and the digest of its bytes. A part that is cut, altered or of
+another sweep is so recognised, without a record beside it.
 """
 
 import fcntl
@@ -67,15 +67,15 @@ class Folder:
         return system, str(path).rstrip("/")
 
     def names(self) -> set[str]:
-        """Return the names of the parts that it holds. Raises AtlasError for other files, a link and what is none."""
+        """Return the names of the parts that it holds. Raises AtlasError for other files and for a link."""
         path = Path(self.address)
         if self.is_local and (path.is_symlink() or (path.exists() and not path.is_dir())):
             kind = "a symbolic link" if path.is_symlink() else "no folder"
             raise AtlasError(f"{path} is {kind}; a sweep keeps its files in a folder of its own.")
-        system, there = self._place
+        system, path_there = self._place
         system.invalidate_cache()
         try:
-            names = {str(name).rsplit("/", 1)[-1] for name in system.ls(there, detail=False)}
+            names = {str(name).rsplit("/", 1)[-1] for name in system.ls(path_there, detail=False)}
         except FileNotFoundError:
             return set()
         except Exception as error:
@@ -151,7 +151,7 @@ class Table:
             if path.suffix not in {"", ".parquet"}:
                 raise AtlasError(f"A table in a folder is of Parquet, as table.parquet/, not {text}.")
             self.whole = Folder(text.rstrip("/") if remote else str(path.absolute()))
-            self.whole.names()  # what can't be reached is said before libraries are installed for it
+            self.whole.names()  # an address out of reach is refused before libraries are installed for it
             check_format(Path("table.parquet"))
         else:
             check_format(path)
@@ -177,15 +177,15 @@ class Table:
 
         Those of a data set may be in its place already, if a sweep was stopped in its last steps.
         """
-        whole: dict[Span, str] = {}
+        parts_by_rows: dict[Span, str] = {}
         end = 0
         places = {name: folder for folder in (self.whole, self.parts) if folder for name in folder.names()}
         for name in sorted(places):
             span = span_of(name)
             if f"-{self.key}-" in name and name.endswith(self.ending) and span[0] >= end and places[name].holds(name):
-                whole[span], end = name, span[1]
-        self.parts.clear(self.parts.names() - {*whole.values()})
-        return whole
+                parts_by_rows[span], end = name, span[1]
+        self.parts.clear(self.parts.names() - {*parts_by_rows.values()})
+        return parts_by_rows
 
     def move(self, names: list[str]) -> None:
         """Put all parts of a data set into its place, after those of the old one went."""
@@ -197,7 +197,7 @@ class Table:
     def seen(self) -> bool:
         """Return whether this process sees the folder that the sweep sees: the lock beside it is the same.
 
-        What is at memory:// is seen by the process of the sweep alone.
+        Files at memory:// are seen by the process of the sweep alone.
         """
         if self.parts.address.startswith(MEMORY):
             return bool(json.loads(self.mark)["pid"] == os.getpid())
@@ -208,7 +208,7 @@ class Table:
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Hold the table's lock, that of the system, which ends with this process; `mark` is what its file holds.
+        """Hold the table's lock, that of the system, which ends with this process; `mark` is the text of its file.
 
         The file is removed at the end; one that a killed sweep left behind is no hindrance. Raises AtlasError that says
         who holds it, that the file is of another kind, or that none can be written there.

@@ -37,12 +37,12 @@ def _quoted(text: str) -> str:
 
 def _shortest(column: NDArray[Any]) -> Iterable[str]:
     """Return the numbers of a column as text."""
-    written = (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
+    text_of = (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
     # of a parameter there are few values, each in many rows; by their bits, which tell 0.0 from -0.0
     bits, places = np.unique(np.ascontiguousarray(column).view(np.int64), return_inverse=True)
     if 2 * bits.size > column.size:
-        return map(written, column.tolist())
-    texts = [*map(written, bits.view(np.float64).tolist())]
+        return map(text_of, column.tolist())
+    texts = [*map(text_of, bits.view(np.float64).tolist())]
     return [texts[i] for i in places.tolist()]
 
 
@@ -105,10 +105,10 @@ def write_parquet(out: Path, _: Plan, parts: Parts) -> None:
         with parquet.ParquetWriter(out, rows.schema) as writer:
             for part in parts:
                 rows = arrow.concat_tables([rows, parquet.read_table(part)])
-                full = rows.num_rows // ROW_GROUP * ROW_GROUP
-                if full:
-                    writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=ROW_GROUP)
-                    rows = rows.slice(full)
+                full_rows = rows.num_rows // ROW_GROUP * ROW_GROUP
+                if full_rows:
+                    writer.write_table(rows.slice(0, full_rows).combine_chunks(), row_group_size=ROW_GROUP)
+                    rows = rows.slice(full_rows)
             if rows.num_rows:
                 writer.write_table(rows.combine_chunks())
 

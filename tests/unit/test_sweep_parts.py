@@ -383,3 +383,13 @@ def test_a_table_beyond_all_disks_is_refused() -> None:
     with pytest.raises(AtlasError, match="1e\\+11"):
         Plan.of("elementary", GRID | {"B2": many, "omega2": many}, ["k"])
     assert MAX_ROWS == 10**11
+
+
+def test_processes_are_as_many_as_the_remaining_work_is_worth() -> None:
+    """Each process of a sweep has a second of work or more, and no more are started than were asked for."""
+    rows = 100_000
+    plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": np.linspace(0.5, 0.7, rows)}, ["k"])
+    spans = run.Spans(plan, [], None, 8)
+    for seconds, count in ((0.9, 0), (3.5, 3), (1000.0, 8)):
+        spans.learn((0, rows), seconds)
+        assert spans.processes == count
