@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pypdf import PdfReader
@@ -62,12 +63,33 @@ FIGURES = """  { kind = "figure", recipe = "magn", width = 150.0 },
 
 
 @pytest.fixture(scope="module")
-def book(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """Set the book and return the text of its pages."""
+def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Set the book and return its PDF."""
     folder = tmp_path_factory.mktemp("book")
     (folder / "book.toml").write_text(BOOK.replace(SECOND, FIGURES + SECOND), encoding="utf-8")
-    built = build_report(folder / "book.toml", folder, formats=("pdf",))
-    return [" ".join(page.extract_text().split()) for page in PdfReader(built.pdf).pages]
+    return build_report(folder / "book.toml", folder, formats=("pdf",)).pdf
+
+
+@pytest.fixture(scope="module")
+def book(printed: Path) -> list[str]:
+    """Return the text of the pages of the book."""
+    return [" ".join(page.extract_text().split()) for page in PdfReader(printed).pages]
+
+
+def test_no_figure_is_wider_than_the_text(printed: Path) -> None:
+    """Three that ask for 150 to 160 mm: none has more than the 152 mm of a line."""
+    widths = list[float]()
+    for page in PdfReader(printed).pages:
+        forms = page["/Resources"].get("/XObject", {})  # type: ignore[attr-defined]
+
+        def measure(operator: bytes, operands: Any, matrix: Any, _text: Any, forms: Any = forms) -> None:
+            if operator == b"Do":
+                left, bottom, right, top = map(float, forms[operands[0]].get_object().get("/BBox", (0, 0, 1, 1)))
+                widths.append((abs(matrix[0]) * (right - left) + abs(matrix[2]) * (top - bottom)) / 72 * 25.4)
+
+        page.extract_text(visitor_operand_before=measure)
+    assert len(widths) >= 3
+    assert max(widths) <= 152.1
 
 
 def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:
