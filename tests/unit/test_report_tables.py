@@ -365,3 +365,16 @@ def test_kinds_of_spins_are_those_of_the_linearized_equations() -> None:
         leaves, turns = np.abs(roots.real) > 1e-6, np.abs(roots.imag) > 1e-6
         assert kind == ("focus-focus" if (leaves & turns).any() else "saddle" if leaves.any() else "stable")
         assert float(value.digits) == pytest.approx(float(p.digits) ** 2 - J.prod() / (J @ axis), abs=5e-4)
+
+
+def test_a_unit_stands_in_its_column_alone() -> None:
+    """With the unit of time s no words of a given quantity say 1/time."""
+    more: dict[str, object] = {
+        "family": "asymmetric",
+        "inertia": (1.0, 2.0, 2.5),
+        "field": (0.0, 0.0, 0.0),
+        "omega": (1.0, 0.2, 0.3),
+    }
+    rows = compute("properties", Request((body_and_field(None, None),), more | {"time": "s"}, 10)).rows
+    assert any(row[0] == "Initial angular velocity" for row in rows)
+    assert not any("1/time" in str(row[0]) for row in rows)
