@@ -35,10 +35,10 @@ def motion(
         of three arrays.
     omega : array_like, shape (..., 3)
         Angular velocity at t = 0 along the axes of the body, in rad/time.
-    omega_laboratory : array_like, shape (..., 3)
-        Angular velocity at t = 0 along the axes of the laboratory, in the place of `omega`.
     attitude : array_like, shape (..., 3, 3), or scipy Rotation, optional
         Rotation R(0), with the axes of the body as columns; by default the unit matrix.
+    omega_laboratory : array_like, shape (..., 3)
+        Angular velocity at t = 0 along the axes of the laboratory, in the place of `omega`.
 
     Returns
     -------
