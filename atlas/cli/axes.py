@@ -60,8 +60,8 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
     if family.in_plane and (fitted or not float([0.0, *arguments["field"]][-3])):
         arguments, turn = family.in_plane(arguments)
         axes = axes if turn is None else turn @ axes
-    parts = [x for value in arguments.values() for x in parts_of(value)]
-    typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in parts)
+    numbers = [x for value in arguments.values() for x in parts_of(value)]
+    typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in numbers)
     if not (family.command and (fitted or typed)):
         return along_principal_axes(motion, unit)
     return _principal(family, arguments, axes, unit)

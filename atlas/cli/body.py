@@ -148,15 +148,17 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed 
     """Return the body of a shape with the dimensions that were typed; its mass is 1 where none was."""
     from atlas.bodies.body import from_shape
 
-    known = shapes()
+    shapes_by_name = shapes()
     if shape == ROD:
         raise click.UsageError(ROD_REASON)
-    if shape not in known:
-        meant = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, known)
-        raise click.UsageError(f"there is no shape {shape!r}{meant}; the shapes are {', '.join(known)}.")
-    if set(sizes) != set(known[shape]):
-        wanted, typed = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
-        raise click.UsageError(f"the shape {shape} takes {wanted}; found {typed}.")
+    if shape not in shapes_by_name:
+        meant = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, shapes_by_name)
+        raise click.UsageError(f"there is no shape {shape!r}{meant}; the shapes are {', '.join(shapes_by_name)}.")
+    if set(sizes) != set(shapes_by_name[shape]):
+        wanted, typed_options = (
+            " ".join(f"--{size}" for size in names) or "none" for names in (shapes_by_name[shape], sizes)
+        )
+        raise click.UsageError(f"the shape {shape} takes {wanted}; found {typed_options}.")
     for name, size in sizes.items():
         if size and not 1e-150 < abs(size) < 1e150:
             raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
@@ -213,9 +215,9 @@ def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
     """Return the one option that was given among several. Raises click.UsageError for none and for two."""
     typed = list(given(options, names))
     if len(typed) != 1:
-        known = ", ".join(f"--{name}" for name in names if name in options)
-        found = " and ".join(f"--{name}" for name in typed) or "none"
-        raise click.UsageError(f"the {what} is one of {known}; found {found}.")
+        option_names = ", ".join(f"--{name}" for name in names if name in options)
+        typed_options = " and ".join(f"--{name}" for name in typed) or "none"
+        raise click.UsageError(f"the {what} is one of {option_names}; found {typed_options}.")
     return typed[0]
 
 
@@ -349,10 +351,12 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
         return tuple(options["field"])
     from atlas.bodies.field import Field
 
-    typed, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
+    components, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
     charge_to_mass_of(options)  # raises for wrong values
     mu = Fraction(charge) / Fraction(mass)
-    return Field((0.0,) * (3 - len(typed)) + typed, mu=mu, c=speed_of_light(options)).exact[3 - len(typed) :]
+    return Field((0.0,) * (3 - len(components)) + components, mu=mu, c=speed_of_light(options)).exact[
+        3 - len(components) :
+    ]
 
 
 def exact_field(options: dict[str, Any]) -> Any:
@@ -375,15 +379,15 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
 
     Raises DomainError where the drift in crossed fields is not below the speed of light.
     """
-    known = options.get("magnetic") is not None and system_of(options) != "natural"
-    charge, shape = "electric" in options and known, options.get("shape")
+    has_units = options.get("magnetic") is not None and system_of(options) != "natural"
+    charge, shape = "electric" in options and has_units, options.get("shape")
     extended = (shape is not None or options.get("points") is not None) and units_of(options)
     if not (charge or ("electric" not in options and extended)):
         return
     from atlas.bodies.speeds import check_drift, fastest_of, fastest_point, speed_of_light, warn_of
     from atlas.bodies.units import system
 
-    units = system(system_of(options)) if known else system("SI")
+    units = system(system_of(options)) if has_units else system("SI")
     if charge:
         check_drift(options["electric"] or (0, 0, 0), options["magnetic"], units)
         speed, place = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"

@@ -84,8 +84,8 @@ def started(args: list[str]) -> tuple[str, str]:
         click.echo(principal.note, err=True, nl=bool(principal.note))
         family, values = principal.family, principal.values
     else:
-        parts = zip(family.parameters, values_of(family, options, exact=False), strict=True)
-        given = {p.name: x for p, x in parts if x is not None}
+        words = zip(family.parameters, values_of(family, options, exact=False), strict=True)
+        given = {p.name: x for p, x in words if x is not None}
         family.kernels()(**given)  # raises for an impossible body before a server starts
         values = {name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for name, x in given.items()}
     numbers = {

@@ -98,10 +98,10 @@ def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Comma
     """Return the command of several families: its help is that of all, its arguments are of the one they belong to."""
     params = dict[str, click.Parameter]()
     for param in (copy(param) for each in commands.values() for param in each.params):
-        known = params.setdefault(str(param.name), param)
-        known.required = False
-        if param.metavar and param.metavar not in str(known.metavar):
-            known.metavar = f"{known.metavar} or {param.metavar}"
+        option = params.setdefault(str(param.name), param)
+        option.required = False
+        if param.metavar and param.metavar not in str(option.metavar):
+            option.metavar = f"{option.metavar} or {param.metavar}"
     lines = [line.strip() for each in commands.values() for line in str(each.epilog).split("\n")[2:]]
     return Command(
         name,
@@ -122,18 +122,18 @@ def family_of(words: Words) -> str:
 
     Raises click.UsageError where there is no start.
     """
-    typed = words.names
-    if not typed & {"--omega2", "--omega3", "--omega", "--spin"}:
+    names = words.names
+    if not names & {"--omega2", "--omega3", "--omega", "--spin"}:
         raise click.UsageError(
             "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
         )
-    if typed & {"--omega2", "--omega3"}:
-        if other := sorted(typed & {"--omega", "--spin", "--curve", "--attitude", "--tensor"}):
+    if names & {"--omega2", "--omega3"}:
+        if misplaced := sorted(names & {"--omega", "--spin", "--curve", "--attitude", "--tensor"}):
             raise click.UsageError(
-                f"{other[0]} does not go with --omega2 and --omega3, which are of an elementary motion about e3: any "
-                "other starts from --omega W1 W2 W3 or --spin W3."
+                f"{misplaced[0]} does not go with --omega2 and --omega3, of an elementary motion about e3: any other "
+                "starts from --omega W1 W2 W3 or --spin W3."
             )
-        if "--omega2" not in typed:
+        if "--omega2" not in names:
             raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
         return "elementary"
     return "asymmetric" if words.are_of_any_body else "general"
@@ -326,8 +326,8 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:
     """Return a line for each quantity that is among the texts, but for the one that names the case."""
     case = texts.get(named, "") if named else ""
-    shown = [q for q in family.quantities if q.name in texts and q.name != named]
-    return [line for q in shown for line in _lines(q, texts[q.name], case, _units(family, options))]
+    quantities = [q for q in family.quantities if q.name in texts and q.name != named]
+    return [line for q in quantities for line in _lines(q, texts[q.name], case, _units(family, options))]
 
 
 def _with_sigma(
@@ -368,16 +368,16 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     record = {"family": family.name} | _answers(family, motion, times, sampled)
     record |= recorded(spectrum_of(motion, options))
-    known = body_of(motion.arguments["inertia"])
+    body_given = body_of(motion.arguments["inertia"])
     if options["as_json"]:
-        principal = {"principal_moments": known.moments, "principal_axes": known.axes}
+        principal = {"principal_moments": body_given.moments, "principal_axes": body_given.axes}
         dump({"parameters": parameters, **principal, **record, **_input_error(family, motion, times)})
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
         moments = [] if body.given_tensor(options) is None else [
             Line(f"I{i}", f"principal, about {axes_text([axis])}", f"{moment:.{TABLE_DIGITS}g}", "inertia")
-            for i, (moment, axis) in enumerate(zip(known.moments, known.axes, strict=True), 1)
+            for i, (moment, axis) in enumerate(zip(body_given.moments, body_given.axes, strict=True), 1)
         ]  # fmt: skip
         beside = [*moments, *_in_hertz(family, texts, options)]
         printout = _printout(family, described, texts, options, NOT_ASKED, beside)
@@ -404,8 +404,8 @@ def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[st
 def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
     """Whether a motion is so short that rounding can't grow, told without the libraries that a table does not load."""
     rates = [x for name in ("field", "omega", "omega2", "spin") for x in parts_of(options.get(name) or 0.0)]
-    typed = options.get("magnetic") is None and options.get("linear") is None
-    return typed and max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
+    field_is_prime = options.get("magnetic") is None and options.get("linear") is None
+    return field_is_prime and max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
 
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
@@ -487,8 +487,8 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     """Return the option of a parameter."""
     more: dict[str, Any] = {"required": True} if needed else {}
     if not needed and p.omitted is not None:
-        typed, count = f"{p.omitted:g}", len(p.names)
-        more = {"default": (typed,) * count} if count > 1 else {"default": typed, "show_default": True}
+        default, count = f"{p.omitted:g}", len(p.names)
+        more = {"default": (default,) * count} if count > 1 else {"default": default, "show_default": True}
     return numbers(p.name, p.says, p.metavar or "", **more)
 
 
@@ -553,21 +553,21 @@ def _quantities(
 
     One that may be missing is left out then; of others without a value the reason stands under their name.
     """
-    values, missing = dict[str, Any](), dict[str, str]()
+    values, reasons = dict[str, Any](), dict[str, str]()
     for q in family.quantities:
         if not q.printed:
             continue
         try:
             values[q.name] = q.value(motion, exact=exact)
         except DomainError as reason:
-            missing[q.name] = str(reason)
+            reasons[q.name] = str(reason)
             if not q.missing:
                 values[q.name] = None
         else:
             if q.unit == TIME and values[q.name] == float("inf"):
                 values[q.name] = "infinite"
     return (
-        values | ({"missing": missing} if missing else {}) | ({"samples": samples(times, **columns)} if columns else {})
+        values | ({"missing": reasons} if reasons else {}) | ({"samples": samples(times, **columns)} if columns else {})
     )
 
 
@@ -622,8 +622,8 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
     """Yield the line of a quantity, or one for each of its components."""
     says, equation = q.cases.get(case, (q.says, q.equation))
     count = len(q.lines)
-    parts = [texts] if not q.lines else [None] * count if texts is None else texts
-    for (symbol, words), component in zip(q.lines or [(q.symbol or q.name, says)], parts, strict=True):
+    components = [texts] if not q.lines else [None] * count if texts is None else texts
+    for (symbol, words), component in zip(q.lines or [(q.symbol or q.name, says)], components, strict=True):
         unit = "" if component is None else units.get(q.unit, q.unit)
         yield Line(symbol, words, "-" if component is None else q.text(component), unit, equation)
 
@@ -632,8 +632,8 @@ def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) ->
     """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits, where units tell."""
     if not _units(family, options):
         return
-    found = {q.name: texts[q.name] for q in family.quantities if q.unit == RATE and q.name in texts}
-    rates = {name: float(text) for name, text in found.items() if _is_number(text)}
+    texts_of_rates = {q.name: texts[q.name] for q in family.quantities if q.unit == RATE and q.name in texts}
+    rates = {name: float(text) for name, text in texts_of_rates.items() if _is_number(text)}
     if in_field(family) and options["magnetic"] is not None:
         larmor = hypot(*body.chosen_field(options))
         yield Line("larmor", "Larmor frequency |B'|, rounded", f"{larmor:.6g}", "1/s", "(27)")

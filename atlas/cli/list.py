@@ -83,14 +83,14 @@ def _figures(broken: list[str]) -> Listing:
     """Read titles, parameters and widths from the source of each recipe."""
     from atlas.pictures import recipes
 
-    known = {name: recipe for name in recipes.names() if (recipe := _read(recipes.load, name, broken))}
+    loaded_recipes = {name: recipe for name in recipes.names() if (recipe := _read(recipes.load, name, broken))}
     record: dict[str, Any] = {
-        "figures": {name: recipe.title for name, recipe in known.items()},
-        "parameters": {name: parameters(recipe) for name, recipe in known.items()},
-        "narrowest": {name: recipe.narrowest for name, recipe in known.items() if recipe.narrowest},
+        "figures": {name: recipe.title for name, recipe in loaded_recipes.items()},
+        "parameters": {name: parameters(recipe) for name, recipe in loaded_recipes.items()},
+        "narrowest": {name: recipe.narrowest for name, recipe in loaded_recipes.items() if recipe.narrowest},
     }
     rows = []
-    for name, recipe in known.items():
+    for name, recipe in loaded_recipes.items():
         words = [_shown(*parameter) for parameter in record["parameters"][name].items()]
         words += [f"(needs {recipe.narrowest:g} mm)"] * bool(recipe.narrowest)
         rows.append((name, recipe.title, "  ".join(words)))
@@ -122,7 +122,7 @@ def _tables(_: list[str]) -> Listing:
         name: {"says": sentence(table), "keys": dict(_keys_of(get_annotations(table)))}
         for name, table in TABLES.items()
     }
-    return {"tables": record}, [(name, one["says"], _marked(one["keys"])) for name, one in record.items()]
+    return {"tables": record}, [(name, entry["says"], _marked(entry["keys"])) for name, entry in record.items()]
 
 
 def _keys_of(annotations: dict[str, type]) -> Iterator[tuple[str, dict[str, bool]]]:
@@ -151,7 +151,7 @@ def _families(_: list[str]) -> Listing:
         }
         for name, family in FAMILIES.items()
     }  # fmt: skip
-    return {"families": record}, [(name, one["says"], _marked(one["keys"])) for name, one in record.items()]
+    return {"families": record}, [(name, entry["says"], _marked(entry["keys"])) for name, entry in record.items()]
 
 
 def _quantities(_: list[str]) -> Listing:
@@ -184,7 +184,7 @@ def _roles(_: list[str]) -> Listing:
 def _commands(_: list[str]) -> Listing:
     from atlas.cli.app import atlas
 
-    record = {name: str(one.short_help) for name, one in sorted(atlas.commands.items())}
+    record = {name: str(command.short_help) for name, command in sorted(atlas.commands.items())}
     return {"commands": record}, [(name, purpose, "") for name, purpose in record.items()]
 
 

@@ -27,25 +27,27 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
     """
     if value is None:
         return None
-    typed = value if isinstance(value, tuple) else (value,)
-    sizes = [_exact(x) for x in typed]
+    numbers = value if isinstance(value, tuple) else (value,)
+    sizes = [_exact(x) for x in numbers]
     if min(sizes) <= 0:
         return value
-    factors = [1 if x < max(sizes) else -1 for x in sizes] if len(typed) == 3 else [2, -1][-len(typed) :]
-    beyond = -sum((c * x for c, x in zip(factors, sizes, strict=True)), Fraction()) - (2 if len(typed) == 1 else 0)
-    units = [max(_unit(x), Fraction(SINGLE) * max(sizes)) for x in typed]
+    factors = [1 if x < max(sizes) else -1 for x in sizes] if len(numbers) == 3 else [2, -1][-len(numbers) :]
+    beyond = -sum((c * x for c, x in zip(factors, sizes, strict=True)), Fraction()) - (2 if len(numbers) == 1 else 0)
+    units = [max(_unit(x), Fraction(SINGLE) * max(sizes)) for x in numbers]
     reach = sum((abs(c) * u for c, u in zip(factors, units, strict=True)), Fraction())
     if not 0 < beyond < min(reach, Fraction(LARGEST) * max(sizes)):
         return value
     shift = beyond / reach
-    moved = [x + (u if c > 0 else -u) * shift for c, x, u in zip(factors, sizes, units, strict=True)]
-    doubles = [float(x) for x in moved]
-    last = factors.index(-1)
+    moved_sizes = [x + (u if c > 0 else -u) * shift for c, x, u in zip(factors, sizes, units, strict=True)]
+    doubles = [float(x) for x in moved_sizes]
+    largest_place = factors.index(-1)
     limit = sum(Fraction(x) * c for x, c in zip(doubles, factors, strict=True) if c > 0) or Fraction(2)
-    while Fraction(doubles[last]) > limit:
-        doubles[last] = math.nextafter(doubles[last], 0.0)
-    new = tuple(_moved(x, d, f) for x, d, f in zip(typed, doubles, moved, strict=True))
-    _tell(param, typed, new, "moments of no body", "the plane body next to them" if len(typed) > 1 else "the largest")
+    while Fraction(doubles[largest_place]) > limit:
+        doubles[largest_place] = math.nextafter(doubles[largest_place], 0.0)
+    new = tuple(_moved(x, d, f) for x, d, f in zip(numbers, doubles, moved_sizes, strict=True))
+    _tell(
+        param, numbers, new, "moments of no body", "the plane body next to them" if len(numbers) > 1 else "the largest"
+    )
     return new if isinstance(value, tuple) else new[0]
 
 
@@ -63,8 +65,8 @@ def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
     moves = [change[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
     size = float(np.abs(tensor).max())
     units = [max(float(_unit(x)), SINGLE * size) for x in value]
-    near = all(abs(move) < unit for move, unit in zip(moves, units, strict=True))
-    if not (1e-14 * size < beyond < LARGEST * size and near):
+    is_near = all(abs(move) < unit for move, unit in zip(moves, units, strict=True))
+    if not (1e-14 * size < beyond < LARGEST * size and is_near):
         return value
     new = tuple(_moved(x, float(x) + move, None) for x, move in zip(value, moves, strict=True))
     _tell(param, value, new, "the tensor of no body", "the plane body next to it")

@@ -73,14 +73,14 @@ def of_fit(file: Path, **options: Any) -> int:
     from atlas.book.fit_report import Fitted
     from atlas.fitting import fit_file
 
-    typed = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
+    typed_options = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
     called, given = _called(options), dict(arguments(options))
     found = {name: p for name, p in fitted(file, options).parameters.items() if not p.expr}
     given["fix"] = {name: p.value for name, p in found.items() if not p.vary}
     given["params"] = {name: p.value for name, p in found.items() if p.vary}
     result = fit_file(file, **given)  # as the recipe of the page's picture finds it
     wanted = Fitted(
-        result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
+        result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed_options,
         given, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"] or "", called,
     )  # fmt: skip
     status = make(wanted, options["out"], options["jobs"])
@@ -133,27 +133,30 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
         if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
             return []
         own = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
-        rest = [
+        own_words = [
             word
             for name, option in own.items()
             if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
             for word in (option, str(options[name]))
         ]
     click.echo(principal.note, err=True, nl=bool(principal.note))
-    return [principal.family.page, *principal.options, *rest, "--note", principal.note]
+    return [principal.family.page, *principal.options, *own_words, "--note", principal.note]
 
 
 def best(words: Words) -> str:
     """Return the command to which options belong: the fewest are strange to it, and the fewest of its own missing."""
-    typed = {option.name: option for option in words.options}
+    option_by_name = {option.name: option for option in words.options}
 
     def misfit(name: str) -> tuple[int, int]:
-        known = {opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts}
+        parameters = {
+            opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts
+        }
         strange = sum(
-            opt not in known or known[opt].nargs not in {len(x.values), len(x.components)} for opt, x in typed.items()
+            opt not in parameters or parameters[opt].nargs not in {len(x.values), len(x.components)}
+            for opt, x in option_by_name.items()
         )
-        starts = not {"--omega", "--spin"} & typed.keys() if "--spin" in known else 0
-        return strange, starts + sum(param.required for opt, param in known.items() if opt not in typed)
+        starts = not {"--omega", "--spin"} & option_by_name.keys() if "--spin" in parameters else 0
+        return strange, starts + sum(param.required for opt, param in parameters.items() if opt not in option_by_name)
 
     return min(COMMANDS, key=misfit)
 
@@ -193,7 +196,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     from atlas.book.page import Asked
 
     body.check_speeds(options)
-    typed = _typed(options.keys() - OWN, options)
+    typed_options = _typed(options.keys() - OWN, options)
     options_asked = dict(
         zip(
             (p.name for p in family.parameters),
@@ -220,28 +223,30 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     title, digits, called = options["title"] or "", options["digits"], _called(options)
     if uncertain(options):
         records |= dict(zip(("deviations", "deviation_notes"), _deviations(family, options), strict=True))
-    return Asked(family, typed, values, **records, digits=digits, title=title, called=called, note=options["note"])
+    return Asked(
+        family, typed_options, values, **records, digits=digits, title=title, called=called, note=options["note"]
+    )
 
 
 def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
     """Return quantities, symbols, values with standard deviations in brackets and units, a row each; and notes."""
-    found = spread_of(family, options | {"decimal": False})
-    lines = lines_of_quantities(family, found.texts(), options, family.command.named if family.command else "")
-    return [[line.says, f"`{line.symbol}`", line.value, line.unit] for line in lines], found.notes
+    spread = spread_of(family, options | {"decimal": False})
+    lines = lines_of_quantities(family, spread.texts(), options, family.command.named if family.command else "")
+    return [[line.says, f"`{line.symbol}`", line.value, line.unit] for line in lines], spread.notes
 
 
 def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     """Return the typed options among these names, each with its words as typed."""
     context = click.get_current_context()
-    typed: dict[str, tuple[str, ...]] = {}
+    words_by_option: dict[str, tuple[str, ...]] = {}
     for param in context.command.params:
         value = options[param.name] if param.name in names else None
         if value is None or context.get_parameter_source(param.name) is not click.core.ParameterSource.COMMANDLINE:
             continue
         option = param.opts[0].removeprefix("--")
-        parts = value.parts if isinstance(value, Inclined) else (value,)
-        typed |= dict(zip((option, "angle"), map(_texts, parts), strict=False))
-    return typed
+        values = value.parts if isinstance(value, Inclined) else (value,)
+        words_by_option |= dict(zip((option, "angle"), map(_texts, values), strict=False))
+    return words_by_option
 
 
 def _called(options: dict[str, Any]) -> str:

@@ -116,10 +116,10 @@ def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
     if np.triu(inertia, 1).any():
         moments, axes = np.linalg.eigh(inertia)
         axes *= np.linalg.det(axes)  # right-handed
-        shown = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes.T)
+        words = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes.T)
         raise click.UsageError(
             f"{path}: x, y, z are not principal axes, for I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, I23 = "
-            f"{inertia[1, 2]:.3g}; those are along {shown}, with the moments "
+            f"{inertia[1, 2]:.3g}; those are along {words}, with the moments "
             f"{', '.join(f'{x:.10g}' for x in moments)}: give the points in them, and the field and omega too."
         )
     (a, *_), (_, b, _), (*_, c) = read.exact

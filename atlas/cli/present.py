@@ -124,9 +124,9 @@ def _whole(console: "Console", table: "Table") -> str:
     """Return a table with none of its numbers cut: where they need more room than there is, the lines get longer."""
     from rich.measure import Measurement
 
-    needed = Measurement.get(console, console.options.update_width(1_000_000), table)
-    if not console.is_terminal or console.width < needed.minimum:
-        console.width = needed.maximum
+    measurement = Measurement.get(console, console.options.update_width(1_000_000), table)
+    if not console.is_terminal or console.width < measurement.minimum:
+        console.width = measurement.maximum
     return _text(console, table)
 
 
@@ -207,8 +207,8 @@ def _inputs(options: dict[str, Any]) -> str:
     """Return the inputs of proven digits in words: numbers as typed, and numbers computed from them in doubles."""
     from atlas.cli.typed import Inclined, measured
 
-    found = {name for name, value in options.items() if value is not None}
-    rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in found))
+    option_names = {name for name, value in options.items() if value is not None}
+    rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in option_names))
     rounded += ["a field at an angle"] * any(isinstance(x, Inclined) for x in options.values())
     rounded += ["numbers in turns or degrees"] * any(x.exact is None for _, x in measured(options))
     taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
@@ -234,8 +234,8 @@ def in_threes(records: Iterable[dict[str, Any]]) -> Iterator[list[str]]:
     """Yield three rows of a table for each record of texts: the rows of its matrix, the components of its vectors."""
     for t, *values in (record.values() for record in records):
         for i in range(3):
-            parts = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
-            yield [f"{float(t)!r}" if i == 0 else "", *chain(*parts)]
+            cells = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
+            yield [f"{float(t)!r}" if i == 0 else "", *chain(*cells)]
 
 
 Progress = Callable[[int, int, str], None]
@@ -279,13 +279,13 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
 
 def _lines(title: str, every: float) -> Progress:
     """Return a function that prints a line at most once in `every` seconds, none at first."""
-    start = last = monotonic()
+    start = last_time = monotonic()
 
     def tell(done: int, total: int, _: str) -> None:
-        nonlocal last
+        nonlocal last_time
         now = monotonic()
-        if now - last >= every:
-            last = now
+        if now - last_time >= every:
+            last_time = now
             done_of = f"{done} of {total} ({100 * done // max(total, 1)} %)"
             since = f"{(now - start) / 60:.0f} min" if every >= 60 else f"{now - start:.0f} s"
             click.echo(f"{title}: {done_of} after {since}", err=True)

@@ -133,9 +133,9 @@ def swept(
         family, quantities, digits, rows = recipe.family, (*recipe.quantities,), recipe.digits, recipe.rows
         listing, out = Path(recipe.listing) if recipe.listing else None, out or recipe.out
         parameters = {name: _values(family, name, value) for name, value in recipe.parameters.items()}
-    typed = [x.strip() for text in settings for x in re.split("[,:]", text.partition("=")[2])]
+    typed_options = [x.strip() for text in settings for x in re.split("[,:]", text.partition("=")[2])]
     columns, units = _listed(family, listing) if listing else ({}, set())
-    in_seconds = any(map(split, typed)) or bool(units)
+    in_seconds = any(map(split, typed_options)) or bool(units)
     _once([*columns, *parameters], f"{listing} and elsewhere")
     reached = columns | parameters
     start = [max((abs(float(x)) for x in _several(reached.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)]
@@ -220,8 +220,8 @@ def _body(options: dict[str, Any]) -> dict[str, float | Fraction]:
         principal = along_principal_axes(motion_in_given_axes(options))
         click.echo(principal.note, err=True, nl=bool(principal.note))
         names = {p.name: p.names for p in principal.family.parameters}
-        parts = ((names[name], values) for name, values in principal.values.items())
-        return {name: x for several, values in parts for name, x in zip(several, values, strict=True)}
+        numbers = ((names[name], values) for name, values in principal.values.items())
+        return {name: x for several, values in numbers for name, x in zip(several, values, strict=True)}
     if given(options, body.BODY):
         if three:
             found |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
@@ -307,14 +307,14 @@ def _values(family: str, name: str, value: Any) -> Any:
     option.opts = [name]
     if ":" not in value:
         return [float(REAL.convert(x.strip(), option, None)) for x in value.split(",")]
-    start, stop, *rest = value.split(":")
-    if not rest or rest[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", rest[0], re.ASCII):
+    start, stop, *words = value.split(":")
+    if not words or words[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", words[0], re.ASCII):
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {value!r}.")
-    first, last = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
-    if len(rest) == 2 and first * last <= 0:
+    first, word = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
+    if len(words) == 2 and first * word <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {value!r}.")
     # no more digits are read than a count can have
-    count = int(rest[0]) if len(rest[0].strip().lstrip("0")) < 9 else MAX_RANGE_LENGTH + 1
+    count = int(words[0]) if len(words[0].strip().lstrip("0")) < 9 else MAX_RANGE_LENGTH + 1
     if count > MAX_RANGE_LENGTH:
-        raise click.UsageError(f"a range of {name} has at most {MAX_RANGE_LENGTH} values, not {rest[0].strip()}.")
-    return Range(first, last, count, log=len(rest) == 2).values
+        raise click.UsageError(f"a range of {name} has at most {MAX_RANGE_LENGTH} values, not {words[0].strip()}.")
+    return Range(first, word, count, log=len(words) == 2).values

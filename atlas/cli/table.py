@@ -54,10 +54,10 @@ def parameters_of(motion: Any) -> dict[str, list[str]]:
     if getattr(motion, "is_placed", False):
         J, field, _, omega = motion.given
         moments = [J[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
-        parts = {"inertia": moments, "field": field, "omega": omega, "attitude": motion.quaternion(0.0)}
+        numbers = {"inertia": moments, "field": field, "omega": omega, "attitude": motion.quaternion(0.0)}
     else:
-        parts = {name: parts_of(value) for name, value in motion.arguments.items() if value is not None}
+        numbers = {name: parts_of(value) for name, value in motion.arguments.items() if value is not None}
         body = motion.arguments.get("ratio")
         if hasattr(body, "I2"):
-            parts = {"inertia": [body.I2, body.I3]} | {name: x for name, x in parts.items() if name != "ratio"}
-    return {name: [repr(float(x)) for x in values] for name, values in parts.items()}
+            numbers = {"inertia": [body.I2, body.I3]} | {name: x for name, x in numbers.items() if name != "ratio"}
+    return {name: [repr(float(x)) for x in values] for name, values in numbers.items()}

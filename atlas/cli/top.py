@@ -74,8 +74,8 @@ def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
     """Return the typed parameters and, under "top", the parameters of the top by these names."""
     top = chosen_top(options)
-    typed = top_parameters(options) | given(options, ("omega", "spin", "direction"))
-    return typed | {"top": {name: getattr(top, name) for name in names}}
+    typed_options = top_parameters(options) | given(options, ("omega", "spin", "direction"))
+    return typed_options | {"top": {name: getattr(top, name) for name in names}}
 
 
 def chosen_top(options: Mapping[str, Any]) -> Any:
@@ -184,9 +184,9 @@ def _goes_with(options: Mapping[str, Any], names: Sequence[str], others: Sequenc
     """Refuse options that say nothing without one of some others."""
     if not given(options, others):
         for name in given(options, names):
-            raise click.UsageError(f"--{name} goes with {' or '.join(f'--{other}' for other in others)}.")
+            raise click.UsageError(f"--{name} goes with {' or '.join(f'--{option}' for option in others)}.")
 
 
-def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, other: str) -> None:
+def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, option: str) -> None:
     for name in given(options, names):
-        raise click.UsageError(f"--{name} goes with {way}, not with {other}.")
+        raise click.UsageError(f"--{name} goes with {way}, not with {option}.")

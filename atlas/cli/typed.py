@@ -67,9 +67,9 @@ class Typed(float):
 
     def moved(self, value: float, **about: Any) -> Self:
         """Return another value with the other attributes of this one."""
-        new = float.__new__(type(self), value)
-        vars(new).update(vars(self) | about)
-        return new
+        number = float.__new__(type(self), value)
+        vars(number).update(vars(self) | about)
+        return number
 
     def exactly(self) -> Fraction:
         """Return the number that was typed, not the nearest double. Raises click.UsageError for one with pi in it."""
@@ -119,11 +119,11 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
 
     def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> list[Typed]:
         """Return the numbers of a range START:STOP:COUNT[:log], both ends among them, or the one that a word is."""
-        parts = word.split(":")
-        log = parts[3:] == ["log"]
-        if len(parts) != 3 + log:
+        fields = word.split(":")
+        log = fields[3:] == ["log"]
+        if len(fields) != 3 + log:
             return [self._single(word, param, ctx)]
-        start, stop, count = (self._single(item, param, ctx) for item in parts[:3])
+        start, stop, count = (self._single(item, param, ctx) for item in fields[:3])
         unit = str(WANTED[str(param.name)]) if start.unit or stop.unit else ""
         if not count.is_integer() or not 2 <= count <= MAX_RANGE_LENGTH:
             raise click.UsageError(f"the count of {word} is a whole number from 2 to {MAX_RANGE_LENGTH}.")
@@ -131,12 +131,12 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
             raise click.UsageError(
                 f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}."
             )
-        last = int(count) - 1
+        last_place = int(count) - 1
         if log:
-            steps: Iterable[float] = (start * (stop / start) ** (i / last) for i in range(last + 1))
+            steps: Iterable[float] = (start * (stop / start) ** (i / last_place) for i in range(last_place + 1))
         else:
-            first, step = start.exactly(), (stop.exactly() - start.exactly()) / last
-            steps = (float(first + i * step) for i in range(last + 1))
+            first, step = start.exactly(), (stop.exactly() - start.exactly()) / last_place
+            steps = (float(first + i * step) for i in range(last_place + 1))
         return [self._single(repr(x) + unit, param, ctx) for x in steps]
 
     def _with_sigma(

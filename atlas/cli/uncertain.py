@@ -50,23 +50,23 @@ class Spread:
 
     def rates(self, names: list[str]) -> dict[str, str]:
         """Return rates among the numbers, by name, in turns a second."""
-        known = {
+        numbers = {
             name: (self.found[name], self.sigma.get((name,), 0.0), self.error.get((name,), 0.0))
             for name in names
             if isinstance(self.found.get(name), float)
         }
-        return {name: concise(*(x / (2 * math.pi) for x in three)) for name, three in known.items()}
+        return {name: concise(*(x / (2 * math.pi) for x in three)) for name, three in numbers.items()}
 
     def record(self) -> dict[str, Any]:
         """Return the answer, and under sigma the same with the standard deviations in the place of its numbers."""
-        known = {place: x for place, x in self.sigma.items() if x < math.inf}
-        return self.found | {"sigma": mapped(self.found, lambda _, place: known.get(place)), "notes": self.notes}
+        deviations = {place: x for place, x in self.sigma.items() if x < math.inf}
+        return self.found | {"sigma": mapped(self.found, lambda _, place: deviations.get(place)), "notes": self.notes}
 
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
     """Return the numbers that have an uncertainty, each with the name of its option and its place in it."""
     values = ((name, _parts(value)) for name, value in options.items())
-    return [(name, i, x) for name, several in values for i, x in enumerate(several) if getattr(x, "sigma", 0.0)]
+    return [(name, i, x) for name, numbers in values for i, x in enumerate(numbers) if getattr(x, "sigma", 0.0)]
 
 
 def _parts(value: Any) -> tuple[Any, ...]:
@@ -90,12 +90,13 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     began = process_time()
     terms = [_terms(answer, options, way, middle) for way in [*ways, *together]]
     seconds = (process_time() - began) / (4 * len(terms))
-    lines, parts = (
+    lines, higher_terms = (
         [x.line for x in terms[: len(ways)]],
         [x.second for x in terms] + [x.third for x in terms[: len(ways)]],
     )
     sigma, bent = (
-        {key: math.hypot(*(part.get(key, 0.0) for part in several)) for key in middle} for several in (lines, parts)
+        {key: math.hypot(*(part.get(key, 0.0) for part in several)) for key in middle}
+        for several in (lines, higher_terms)
     )
     curved = {key for key in middle if abs(bent[key] - sigma[key]) > BENT * sigma[key] + NONE * sizes[key]}
     curved |= {key for key in middle if not all(key in x.line for x in terms)}
@@ -146,15 +147,17 @@ def _terms(
 
     terms, sides = Terms({}, {}, {}, set()), [[off(sign * step) for step in (STEP, 1.0)] for sign in (1.0, -1.0)]
     for key, x in middle.items():
-        known = [[numbers[key] - x for numbers in side] for side in sides if all(key in numbers for numbers in side)]
-        if len(known) == 2:
-            (near, after), (far, before) = known
-            terms.line[key], terms.second[key] = (near - far) / (2 * STEP), (after + before) / 2**0.5
+        differences = [
+            [numbers[key] - x for numbers in side] for side in sides if all(key in numbers for numbers in side)
+        ]
+        if len(differences) == 2:
+            (near_difference, after), (far, before) = differences
+            terms.line[key], terms.second[key] = (near_difference - far) / (2 * STEP), (after + before) / 2**0.5
             terms.third[key] = 1.5 * (after - before) - 2 * terms.line[key]
-        elif known:  # of the parabola through three points; the sign does not matter
+        elif differences:  # of the parabola through three points; the sign does not matter
             terms.ended.add(key)
-            ((near, after),) = known
-            terms.line[key] = terms.third[key] = (near - STEP**2 * after) / (STEP - STEP**2)
+            ((near_difference, after),) = differences
+            terms.line[key] = terms.third[key] = (near_difference - STEP**2 * after) / (STEP - STEP**2)
             terms.second[key] = (after - terms.line[key]) * 2**0.5
     return terms
 
@@ -170,11 +173,11 @@ def _sizes(numbers: Numbers) -> Numbers:
 
 def _moved(options: dict[str, Any], by: Mapping[tuple[str, int, Typed], float]) -> dict[str, Any]:
     """Return the options with numbers moved by parts of their standard deviations."""
-    moved = dict(options)
+    new_options = dict(options)
     for (name, i, x), step in by.items():
-        new, several = x.moved(x + step * x.sigma), _parts(before := moved[name])
-        moved[name] = type(before)((*several[:i], new, *several[i + 1 :])) if isinstance(before, tuple) else new
-    return moved
+        new, numbers = x.moved(x + step * x.sigma), _parts(before := new_options[name])
+        new_options[name] = type(before)((*numbers[:i], new, *numbers[i + 1 :])) if isinstance(before, tuple) else new
+    return new_options
 
 
 def _draws(
@@ -235,10 +238,10 @@ def concise(value: float, sigma: float, error: float = 0.0) -> str:
     """
     if not 0 < sigma < math.inf or not math.isfinite(value):
         return f"{value:.10g}" if sigma == 0 else f"{value:.10g}(?)"
-    last = math.floor(math.log10(sigma)) - 1
-    if error > 10.0**last or round(sigma / 10.0**last) == 100:
-        last += 1
+    last_power = math.floor(math.log10(sigma)) - 1
+    if error > 10.0**last_power or round(sigma / 10.0**last_power) == 100:
+        last_power += 1
     first = math.floor(math.log10(max(abs(value), sigma)))
-    if last <= 0 and -4 <= first < 10:
-        return f"{value:.{-last}f}({round(sigma / 10.0**last)})"
-    return f"{value / 10.0**first:.{first - last}f}({round(sigma / 10.0**last)})e{first:+03d}"
+    if last_power <= 0 and -4 <= first < 10:
+        return f"{value:.{-last_power}f}({round(sigma / 10.0**last_power)})"
+    return f"{value / 10.0**first:.{first - last_power}f}({round(sigma / 10.0**last_power)})e{first:+03d}"

@@ -65,8 +65,8 @@ def is_number(word: str, *, more: bool = True) -> bool:
 
 def check_units(option: str, value: Any) -> None:
     """Raise click.UsageError where one number of an option has a unit, and another that is not zero has none."""
-    known = [x for x in parts_of(value) if isinstance(x, Typed) and x]
-    bare, units = [x for x in known if not x.unit], [x for x in known if x.unit]
+    numbers = [x for x in parts_of(value) if isinstance(x, Typed) and x]
+    bare, units = [x for x in numbers if not x.unit], [x for x in numbers if x.unit]
     if bare and units:
         raise click.UsageError(
             f"{option}: {bare[0].text} has no unit, and {units[0].text} beside it has one; give each its unit, or none."
@@ -78,14 +78,14 @@ class Words:
 
     def __init__(self, words: Sequence[str]) -> None:
         self.loose, self.options = list[str](), list[Option]()
-        last = self.loose
+        values = self.loose
         for word in words:
             ended = bool(self.options) and self.options[-1].name == "--"
             if not ended and (word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha())):
                 name, equals, value = word.partition("=")
-                self.options.append(Option(word, name, last := [value] if equals else []))
+                self.options.append(Option(word, name, values := [value] if equals else []))
             else:
-                last.append(word)
+                values.append(word)
 
     @property
     def names(self) -> set[str]:
@@ -137,7 +137,7 @@ class Command(click.Command):
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
             return super().parse_args(ctx, [*help_names][:1])
-        rest = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
+        remaining_words = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
         for name in (str(param.name) for param in self.params if param.multiple and param.type is REAL):
             ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
         if (
@@ -156,7 +156,7 @@ class Command(click.Command):
                 raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
             strength, angle = ctx.params[name][0], ctx.params["angle"]
             ctx.params |= {name: Inclined((strength, angle), f"{WANTED[name]}" if strength.unit else ""), "angle": None}
-        return rest
+        return remaining_words
 
     @property
     def _optional(self) -> set[str]:
@@ -187,14 +187,14 @@ class Reader:
                 yield from self._several(option, param)
                 continue
             if param is not None and param.nargs > 1:
-                vector, rest = self._vector(option, param)
+                vector, words = self._vector(option, param)
                 yield from (option.name, *vector)
             else:
-                rest = option.values[option.typed != option.name :]
+                words = option.values[option.typed != option.name :]
                 yield option.typed
-            yield from rest
+            yield from words
             takes = param is not None and param.nargs == 1 and not param.is_flag and option.typed == option.name
-            loose += rest[takes:]
+            loose += words[takes:]
         if self.has_settings and -1 not in self.places and len(loose) > sum(self.places):
             raise click.UsageError(
                 f"{loose[sum(self.places)]!r} belongs to no option: a parameter is one word, --set KEY=VALUE, "
@@ -227,23 +227,27 @@ class Reader:
 
     def _vector(self, option: Option, param: click.Option) -> tuple[list[str], list[str]]:
         """Return the components of a vector, and the words after it, which a command with arguments may have."""
-        found, rest = list[str](), list(option.values)
-        while rest and (not self.places or all(is_number(x, more=len(found) < param.nargs) for x in apart(rest[0]))):
-            found += apart(rest.pop(0))
-        if param.name == "inertia" and {len(found), param.nargs} == {2, 3}:
+        components, words = list[str](), list(option.values)
+        while words and (
+            not self.places or all(is_number(x, more=len(components) < param.nargs) for x in apart(words[0]))
+        ):
+            components += apart(words.pop(0))
+        if param.name == "inertia" and {len(components), param.nargs} == {2, 3}:
             if param.nargs == 2:
                 raise click.UsageError(
                     "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that "
                     "of atlas motion --omega W1 W2 W3 or --spin W3, with --inertia I1 I2 I3 and --field B1 B2 B3; in a "
                     "sweep it is the family asymmetric, with --set I1=0.8 and so on."
                 )
-            found = [found[0], *found]
+            components = [components[0], *components]
         if param.name in ("field", "magnetic") and "--angle" in self.words.names & self.known.keys():
-            if len(found) != 1:
+            if len(components) != 1:
                 raise click.UsageError(
-                    f"with --angle {option.name} is one number, the strength of the field, not {len(found)}."
+                    f"with --angle {option.name} is one number, the strength of the field, not {len(components)}."
                 )
-            found *= 2
-        if len(found) != param.nargs:
-            raise click.UsageError(f"{option.name} takes {param.nargs} numbers, {param.metavar}; found {len(found)}.")
-        return found, rest
+            components *= 2
+        if len(components) != param.nargs:
+            raise click.UsageError(
+                f"{option.name} takes {param.nargs} numbers, {param.metavar}; found {len(components)}."
+            )
+        return components, words

@@ -47,8 +47,8 @@ class OfFamily:
         """Return the parameters of the class, in its order."""
         known: dict[str, Any] = {}
         for p in self.family.parameters:
-            parts = tuple(values[name] if p.default else p.omitted for name in p.names)
-            known[p.name] = parts if p.columns else parts[0]
+            components = tuple(values[name] if p.default else p.omitted for name in p.names)
+            known[p.name] = components if p.columns else components[0]
         return known
 
     def kernels(self, values: Mapping[str, float]) -> Any:
@@ -98,15 +98,19 @@ class OfRecipe:
         return [slider for key, default in self.recipe.parameters.items() for slider in self._slider(key, default)]
 
     def _slider(self, key: str, default: Any) -> Iterator[Slider]:
-        parts = default if isinstance(default, tuple) else (default,)
-        if not parts or not all(type(x) in {int, float} for x in parts) or (parts is default and key in CONTOURS):
+        components = default if isinstance(default, tuple) else (default,)
+        if (
+            not components
+            or not all(type(x) in {int, float} for x in components)
+            or (components is default and key in CONTOURS)
+        ):
             return
-        names = [key] if not isinstance(default, tuple) else [f"{key}.{i}" for i in range(1, len(parts) + 1)]
-        size = 3.0 * max(1.0, *(abs(x) for x in parts))
-        start = -size if any(isinstance(x, float) for x in parts) else 1.0  # of a number that has no range
+        names = [key] if not isinstance(default, tuple) else [f"{key}.{i}" for i in range(1, len(components) + 1)]
+        size = 3.0 * max(1.0, *(abs(x) for x in components))
+        start = -size if any(isinstance(x, float) for x in components) else 1.0  # of a number that has no range
         low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or (start, size)
-        low, high = min(low, *parts), max(high, *parts)
-        for name, start in zip(names, parts, strict=True):
+        low, high = min(low, *components), max(high, *components)
+        for name, start in zip(names, components, strict=True):
             step = 1 if type(start) is int else step_of(low, high)
             yield Slider(name, MEANINGS.get(key, key), low, high, step, start, letters(name))
 
@@ -153,9 +157,9 @@ def subject(name: str) -> Subject:
     """
     if name in FAMILIES:
         return OfFamily(FAMILIES[name])
-    name, known = name.removeprefix(FIGURE), recipes.names()
-    if name not in known:
-        options = [*FAMILIES, *known]
+    name, names = name.removeprefix(FIGURE), recipes.names()
+    if name not in names:
+        options = [*FAMILIES, *names]
         raise AtlasError(
             f"there is no family or figure {name!r}{nearest(name, options)}; families are {', '.join(FAMILIES)}, and "
             "`atlas list` names the figures."
