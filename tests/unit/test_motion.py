@@ -247,7 +247,7 @@ def test_every_class_takes_the_laboratory() -> None:
 
 @pytest.mark.parametrize(
     ("made", "more"),
-    [(atlas.GeneralMotion, {"angular_velocity": (0.3, 0.7, 0.2)}), (atlas.ElementaryMotion, {"omega2": 0.7})],
+    [(atlas.GeneralMotion, {"omega_laboratory": (0.3, 0.7, 0.2)}), (atlas.ElementaryMotion, {"omega2": 0.7})],
 )
 def test_three_different_moments_are_no_symmetric_body(made: Any, more: Any) -> None:
     """One of the moments is not left out: the class of symmetric bodies is refused."""
