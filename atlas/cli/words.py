@@ -1,7 +1,7 @@
 """Words of a command line: each option with the words that follow it, read once, in all ways to type them."""
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import chain
 from typing import Any, NamedTuple
@@ -138,30 +138,33 @@ class Command(click.Command):
         if help_names := words.names & {*ctx.help_option_names}:
             return super().parse_args(ctx, [*help_names][:1])
         remaining_words = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
-        for name in (str(param.name) for param in self.params if param.multiple and param.type is REAL):
-            ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
-        if (
-            {"field", "omega", "spin"} <= self._optional
-            and not given(ctx.params, OF_FIELD)
-            and given(ctx.params, START)
-        ):
-            size = next(param.nargs for param in self.params if param.name == "field")
-            ctx.params["field"] = (Typed("0"),) * size  # a start without a field: a free body
-        vectors = (x for x in self.params if not x.multiple and x.name not in {"grid", "heavy"})  # whose units are one
-        for option in vectors:
-            check_units(option.opts[0], ctx.params.get(str(option.name)))
+        options = {str(param.name): param for param in self.params}
+        for name, option in options.items():
+            if option.multiple and option.type is REAL:
+                ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
+            elif name not in {"grid", "heavy"}:  # whose numbers have several units
+                check_units(option.opts[0], ctx.params.get(name))
         if ctx.params.get("angle") is not None:
-            name = next((name for name in ("magnetic", "field") if ctx.params[name] is not None), "")
-            if not name:
-                raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
-            strength, angle = ctx.params[name][0], ctx.params["angle"]
-            ctx.params |= {name: Inclined((strength, angle), f"{WANTED[name]}" if strength.unit else ""), "angle": None}
+            ctx.params |= inclined_field(ctx.params)
+        reads_files = any(isinstance(param, click.Argument) for param in self.params)  # which may hold a field
+        if {"field", *START} <= options.keys() and not reads_files:
+            ctx.params |= zero_field(ctx.params, options["field"].nargs)
         return remaining_words
 
-    @property
-    def _optional(self) -> set[str]:
-        """Names of the options, none of a command that reads files, which may hold a field."""
-        return set() if any(isinstance(x, click.Argument) for x in self.params) else {str(x.name) for x in self.params}
+
+def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the field of a strength and --angle as its option. Raises click.UsageError where no strength is given."""
+    name = next((name for name in ("magnetic", "field") if options[name] is not None), "")
+    if not name:
+        raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
+    strength, angle = options[name][0], options["angle"]
+    return {name: Inclined((strength, angle), f"{WANTED[name]}" if strength.unit else ""), "angle": None}
+
+
+def zero_field(options: Mapping[str, Any], size: int) -> dict[str, Any]:
+    """Return the field zero, of `size` components, where a start is given without a field: that of a free body."""
+    is_free = given(options, START) and not given(options, OF_FIELD)
+    return {"field": (Typed("0"),) * size} if is_free else {}
 
 
 class Reader:
