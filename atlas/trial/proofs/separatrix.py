@@ -244,7 +244,7 @@ TRIALS = {
         model=double_model,
         follows="$2S' = C$, $2C' = cS$",
         defines=("nu",),
-        solves="d(nu)^2 = q(nu); q(e) = 0",
+        solves="d(nu)^2 = q(nu); 2*d2(nu) = dq(nu); q(e) = 0",
         false=Falsehood(
             "The nutation does not depend on the strength of the potential", "(c - A*(e - nu0)^2)*S^2", "c*S^2"
         ),
@@ -254,7 +254,7 @@ TRIALS = {
         follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
         signs={"q": "q(nu)"},
         defines=("nu",),
-        solves="d(nu)^2 = q(nu)",
+        solves="d(nu)^2 = q(nu); 2*d2(nu) = dq(nu)",
         false=Falsehood("It reaches half as far", "4*nu0/(1 + 4", "2*nu0/(1 + 4"),
     ),
     "theorem-axis-stable": Trial(
