@@ -1,7 +1,7 @@
 """``atlas list``: figures, reports, shapes, tables, families, quantities, roles and commands, by name."""
 
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -119,22 +119,23 @@ def _tables(_: list[str]) -> Listing:
     from atlas.book.tables import TABLES
 
     record: dict[str, Any] = {
-        name: {"says": sentence(table), "keys": dict(_keys_of(get_annotations(table)))}
+        name: {"says": sentence(table), "keys": dict(_keys_of(get_annotations(table).values()))}
         for name, table in TABLES.items()
     }
     return {"tables": record}, [(name, entry["says"], _marked(entry["keys"])) for name, entry in record.items()]
 
 
-def _keys_of(annotations: dict[str, type]) -> Iterator[tuple[str, dict[str, bool]]]:
-    """Yield the keys that a table takes as its parameters, and whether each is needed."""
+def _keys_of(kinds: Iterable[type]) -> Iterator[tuple[str, dict[str, bool]]]:
+    """Yield the keys of a table by the types of its arguments, each with whether it is needed."""
     from msgspec.structs import fields
 
+    from atlas.book.schema import StrictStruct
     from atlas.book.tables.properties import Thing
 
-    for argument, kind in annotations.items():
+    for kind in kinds:
         if kind is Thing:
             yield from ((key, {"needed": key == "family"}) for key in ("family", "PARAMETER", "time", "units", "given"))
-        elif argument == "asked":
+        elif issubclass(kind, StrictStruct):
             yield from ((key.name, {"needed": key.required}) for key in fields(kind))
 
 
