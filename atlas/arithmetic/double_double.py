@@ -1,9 +1,8 @@
 """Arrays of numbers in two words, each row with a bound on its error: the scalars of many motions at once.
 
 A formula written with + - * / and `root` takes these arrays as it takes exact rationals and balls. The error of a
-row, by
-rounding and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row is
-computed again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
+row, by rounding and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row
+is computed again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
 
 The sums and products are those of Dekker, Knuth and Joldes, Muller, Popescu (ACM TOMS 44, 15, 2017), without a fused
 multiply-add, which NumPy does not have. With u = 2^-53 their relative errors are at most 3 u^2 for a sum, 5 u^2 for a

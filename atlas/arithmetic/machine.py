@@ -46,10 +46,9 @@ def keep() -> None:
     """Keep memory for the arrays of this process, once for good: at most 64 MB a thread.
 
     Every kernel calls this before its first array. In a new process the C library returns the memory that an array of
-    some 100 kB
-    had to the system at once, and the next one pays for each page anew: up to five times the arithmetic of thousands of
-    matrices. So it does for good where MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask. Else it comes to
-    these values by itself, array by array, so that no more is kept than in any long process.
+    some 100 kB had to the system at once, and the next one pays for each page anew: up to five times the arithmetic of
+    thousands of matrices. So it does for good where MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask. Else it
+    comes to these values by itself, array by array, so that no more is kept than in any long process.
     """
     with suppress(AttributeError, OSError, TypeError):  # another C library
         mallopt = ctypes.CDLL(None).mallopt

@@ -1,10 +1,9 @@
 """Rotation matrices of many motions R = R_n(k t) R_z(phi t), (85), each at a few times: no motion is made alone.
 
 The constants that `rotation` makes once for one motion, and evaluates as a matrix product, are here arrays over
-motions: the
-axis, products of its components, both frequencies in two words. The entries are those of Rodrigues' formula,
-1 + sin x [n, .] + (1 - cos x)(n n^T - 1), times R_z. For phases up to 2^50
-the frequencies have a bound on their error.
+motions: the axis, products of its components, both frequencies in two words. The entries are those of Rodrigues'
+formula, 1 + sin x [n, .] + (1 - cos x)(n n^T - 1), times R_z. For phases up to 2^50 the frequencies have a bound on
+their error.
 """
 
 from collections.abc import Callable, Mapping, Sequence
