@@ -13,15 +13,7 @@ from atlas import files
 from atlas.cli import body
 from atlas.cli.app import GONE
 from atlas.cli.axes import in_principal_axes, motion_in_given_axes
-from atlas.cli.family import (
-    family_of,
-    in_field,
-    in_plane,
-    lines_of_quantities,
-    object_options,
-    spread_of,
-    values_of,
-)
+from atlas.cli.family import family_of, in_field, in_plane, lines_of_quantities, object_options, spread_of, values_of
 from atlas.cli.fit import ahead, arguments, fit_options, fitted
 from atlas.cli.options import FILE, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
