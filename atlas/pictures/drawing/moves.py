@@ -22,7 +22,7 @@ from atlas.pictures.drawing.plane import marker
 from atlas.pictures.drawing.space import window
 from atlas.pictures.drawing.style import context
 from atlas.pictures.drawing.view import View, fit, named
-from atlas.pictures.layers import FloatArray, Layer, Path, Plane, Scene, Space, Surface
+from atlas.pictures.layers import FloatArray, Layer, Path, Plane, Points, Scene, Space, Surface
 
 TABLE_STEPS = 32767
 _PLAIN, _MOST, _LOOKS = 96, 240, 2400
@@ -126,7 +126,7 @@ def _kinds(layer: Layer, view: View) -> Iterator[str]:
 def _marks(axes: Axes, panel: Plane, scene: Scene, times: FloatArray) -> Iterator[list[Any]]:
     """Yield colour, diameter in points and places in the figure of each mark that rides in a panel with two axes."""
     to_figure = axes.transData - axes.figure.transFigure
-    for layer in _riders(panel):
+    for layer in (rider for rider in _riders(panel) if isinstance(rider, Points)):  # a label stays in its place
         R, s = scene.paths[layer.rides](times)
         look = marker(layer.role)
         for point in np.atleast_2d(layer.points):
