@@ -91,7 +91,7 @@ class Evaluation:
         x, errors = functions.line.at(clipped, 0.0 if low is None else low)
         functions.fill(rows, x, errors)
         if self.parameters.swing:
-            u[1] = self.parameters.swing.along(u[1], x, errors)
+            u[1] = self.parameters.swing.half_along(u[1], x, errors)
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
