@@ -16,7 +16,7 @@ from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.certified_inputs import Real
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import workprec
-from atlas.arithmetic.phase import Phases, room
+from atlas.arithmetic.phase import MAX_PHASE, Phases, room
 from atlas.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
 from atlas.motions.base import Motion as Placed
 from atlas.motions.elementary.certified import ElementaryMotion
@@ -25,7 +25,6 @@ from atlas.motions.nutation.certified_top import TopMotion
 from atlas.motions.nutation.single import SingleGeneral, SingleTop
 from atlas.motions.torus.certified import AsymmetricMotion
 from atlas.motions.torus.kernel import SingleAsymmetric
-from atlas.motions.torus.rounded import MAX_PHASE
 from atlas.motions.torus.theta import ThetaKernel
 
 Long = NDArray[np.longdouble]

@@ -11,10 +11,10 @@ from flint import arb
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.phase import MAX_PHASE
 from atlas.errors import DomainError
 from atlas.motions.elementary import certified as exact
 from atlas.motions.elementary.kernel import ElementaryMotion
-from atlas.motions.torus.rounded import MAX_PHASE
 
 BITS = 110
 """Relative accuracy of the true matrices, which are kept in two words."""

@@ -87,7 +87,7 @@ def test_bounds_on_sums_hold_and_need_every_word(
         upper = [(forms, high, 0 * low) for forms, high, low in sums.words(ALL)]
         monkeypatch.setattr(sums, "words", lambda _: upper)
     phases, rest = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 2, 40))
-    x, rest = closed.rounding.into_arguments @ phases, rest * 2.0**-48
+    x, rest = closed.rounding.to_v @ phases, rest * 2.0**-48
     found, (P, Q) = sums.at(x, (rest + 0j) * (slip != "rest"), ALL), (sums.P, sums.Q)
     first, second = np.exp(1j * np.outer(P, x[0])), np.exp(1j * np.outer(Q, x[1]))
     errors = np.einsum("fpq,pm,qm->fm", abs(sums.table) * sums.steps, abs(first), abs(second))
@@ -114,7 +114,7 @@ def test_sums_of_upper_words_are_exact() -> None:
     closed = kernel(*NEAR)
     sums = closed.sums
     phases = [0.55 * np.pi * np.array(x) for x in ((-1, -1), (-1, 1), (1, -1), (1, 1), (0.3, 0.1), (-0.2, 0.4))]
-    w = np.exp(1j * closed.rounding.into_arguments @ np.transpose(phases))
+    w = np.exp(1j * closed.rounding.to_v @ np.transpose(phases))
     once, square = (np.array([inverse(x), x]) for x in (w[1], w[1] * w[1]))
     for (_, upper, _), (number, _, high) in zip(sums.words(ALL), sums.powers(once, square), strict=True):
         powers = number.reshape(2, -1, len(phases), 2)
@@ -130,7 +130,7 @@ def test_sums_of_upper_words_are_exact() -> None:
 def test_no_bound_is_given_where_powers_are_too_small(monkeypatch: pytest.MonkeyPatch) -> None:
     """The limit is that of the largest logarithm of a power at a corner of all phases."""
     rounding = kernel(*NEAR).rounding
-    corners = [rounding.into_arguments @ (0.55 * np.pi * np.array(x)) for x in product((-1, 1), repeat=2)]
+    corners = [rounding.to_v @ (0.55 * np.pi * np.array(x)) for x in product((-1, 1), repeat=2)]
     largest = rounding.sums.reach * np.abs(np.imag(corners)).max()
     assert largest > 10
     monkeypatch.setattr(clebsch_rounding, "MAX_POWER_LOG", largest * (1 - 1e-9))

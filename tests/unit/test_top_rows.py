@@ -145,7 +145,7 @@ def test_where_the_sums_are_cut_the_angle_of_spin_is_not_of_an_array() -> None:
     random = Random(7)  # noqa: S311  reproducible, not secret
     tops = [TOPS["top, axis near the vertical"](random) for _ in range(37)]
     tops = [tops[18], tops[36]]
-    known = [block.swing.weight_error for block in arrayed(tops)._scalars.blocks]
+    known = [block.swing.w_error for block in arrayed(tops)._scalars.blocks]
     assert not np.isfinite(known).any()
     np.testing.assert_array_equal(
         arrayed(tops).spin_per_period, [atlas.TopMotion(*top).spin_per_period for top in tops]

@@ -14,7 +14,7 @@ from atlas.arithmetic.certified_inputs import Real, rational, sin_cos
 from atlas.arithmetic.certified_rotation import AXES, Matrix, identity, product, turn, turned_back, turns
 from atlas.arithmetic.numbers import by_precision, dot, length, workprec
 from atlas.errors import DomainError
-from atlas.motions.nutation.certified_cayley_klein import Solution, infinite, matrix, steady
+from atlas.motions.nutation.certified_cayley_klein import Solution, infinite, matrix, steady, turning_rate
 from atlas.motions.nutation.certified_constants import Nutation
 from atlas.motions.nutation.certified_quartic import Quartic
 from atlas.motions.nutation.certified_spheres import Sphere
@@ -256,12 +256,4 @@ class Nutating:
     def turning_rate(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
         a, b, da, db = self.solution.parameters(t)
-        q, dq = self.from_frame(a, b), self.from_frame(da, db)
-        w, x, y, z = q
-        dw, dx, dy, dz = dq
-        square = (w * w + x * x + y * y + z * z) / 2
-        return [
-            (w * dx - x * dw - y * dz + z * dy) / square,
-            (w * dy - y * dw - z * dx + x * dz) / square,
-            (w * dz - z * dw - x * dy + y * dx) / square,
-        ]
+        return turning_rate(self.from_frame(a, b), self.from_frame(da, db))

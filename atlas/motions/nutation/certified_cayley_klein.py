@@ -333,6 +333,17 @@ def quaternion(R: Sequence[Sequence[Any]], doubles: Sequence[float]) -> list[arb
     return [x / size for x in row]
 
 
+def turning_rate(q: Sequence[Number], slope: Sequence[Number]) -> list[Number]:
+    """Return the angular velocity in the body, (3,), from a quaternion, scalar first, of any length, and its slope."""
+    (w, x, y, z), (dw, dx, dy, dz) = q, slope
+    half = (w * w + x * x + y * y + z * z) / 2
+    return [
+        (w * dx - x * dw - y * dz + z * dy) / half,
+        (w * dy - y * dw - z * dx + x * dz) / half,
+        (w * dz - z * dw - x * dy + y * dx) / half,
+    ]
+
+
 def matrix(q: Sequence[Number]) -> list[list[Number]]:
     """Return the rotation matrix of a quaternion that need not be normalised."""
     w, x, y, z = q

@@ -33,11 +33,7 @@ class Differences:
     """
 
     def __init__(
-        self,
-        make: Callable[..., Any],
-        values: Sequence[fmpq],
-        places: Sequence[int],
-        scales: Sequence[fmpq],
+        self, make: Callable[..., Any], values: Sequence[fmpq], places: Sequence[int], scales: Sequence[fmpq]
     ) -> None:
         self.make, self.values, self.places, self.scales = make, values, places, scales
         self._make_neighbours(STEP_BITS + 20)

@@ -36,10 +36,10 @@ class EllipticQuartic(Quartic):
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots: of a quadratic in u^2."""
-        (lower_factor, upper_factor, third), h, N = self._e, self.h, self.N
-        if third in (lower_factor, upper_factor):
+        (e_b, e_c, e_a), h, N = self._e, self.h, self.N
+        if e_a in (e_b, e_c):
             return super()._isolated()
-        squares = [(h - c * N) / (third - c) for c in (lower_factor, upper_factor)]
+        squares = [(h - c * N) / (e_a - c) for c in (e_b, e_c)]
         counts = {x: squares.count(x) * (1 if x else 2) for x in squares}
         precision = ctx.prec
         while True:

@@ -135,9 +135,8 @@ class GeneralMotion(Nutating):
             return root(w1**2 + w2**2 + (self.I * w3) ** 2), (1 - self.I) * w3
         if q.transverse_square == 0:
             return fmpq(0), w3
-        return q.transverse_product * self.b / q.transverse_square, w3 - self.field[
-            2
-        ] * q.transverse_product / q.transverse_square
+        rate = q.transverse_product / q.transverse_square
+        return rate * self.b, w3 - self.field[2] * rate
 
     def _steady_turn(self) -> fmpq:
         """Return the rate at which (Omega1, Omega2) turns in the body where Omega3 is constant."""

@@ -50,15 +50,11 @@ class Sphere:
         x, y, z = self.start
         if x == 0 and y == 0:
             return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z >= 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
-        transverse = abs(y) if x == 0 else root(x * x + y * y)
+        flat = abs(y) if x == 0 else root(x * x + y * y)
         # of the two halves the one that does not cancel first
         longer = arb((1 + abs(arb(z) / self.length)) / 2).sqrt()
-        shorter = arb(transverse) / (2 * longer * self.length)
-        return (
-            (longer, shorter, y / transverse, x / transverse)
-            if z >= 0
-            else (shorter, longer, y / transverse, x / transverse)
-        )
+        shorter = arb(flat) / (2 * longer * self.length)
+        return (longer, shorter, y / flat, x / flat) if z >= 0 else (shorter, longer, y / flat, x / flat)
 
 
 def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:

@@ -66,15 +66,13 @@ class CayleyKlein:
                 solution = self._solution()
                 a, b, da, db = solution.parameters(t, turning=False)
                 unit = (abs(a) ** 2 + abs(b) ** 2).sqrt() * (-1 if solution.is_flipped(t) else 1)
-                components = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
-                components += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
-                sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in components]
+                groups = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
+                groups += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
+                sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in groups]
                 if all(
-                    _radius(x) <= WEIGHT_RADIUS * float(y)
-                    for four, y in zip(components, sizes, strict=True)
-                    for x in four
+                    _radius(x) <= WEIGHT_RADIUS * float(y) for four, y in zip(groups, sizes, strict=True) for x in four
                 ):
-                    return [float(x.mid()) for four in components for x in four]
+                    return [float(x.mid()) for four in groups for x in four]
             precision = _doubled(precision)
 
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:

@@ -33,34 +33,30 @@ class Weighted:
 
     In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q and
     along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so from b;
-    a_p and b_p are the derivatives. `to_laboratory` (3, 3) takes vectors into the laboratory, `names` (N, P) are
+    a_p and b_p are the derivatives. `to_lab` (3, 3) takes vectors into the laboratory, `names` (N, P) are
     combinations of inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its
     own, besides.
     """
 
     def __init__(
-        self, pair: VariedPair, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
+        self, pair: VariedPair, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
     ) -> None:
-        self.pair, self.axes, self.names = pair, to_laboratory @ pair.axes, names
+        self.pair, self.axes, self.names = pair, to_lab @ pair.axes, names
         self.tables = []
         for i, table in enumerate(pair.tables):
             rows = np.concatenate([table[:2], names @ table[2:]])
             sloped = np.array([rows, pair.slope(rows, i)])
             self.tables.append(np.stack([sloped.real, sloped.imag], 1))
-        (alpha_twist, beta_twist), turning, spun = (
-            pair.twisting,
-            pair.turning @ to_laboratory.T,
-            np.outer(spins, np.eye(7)[3]),
-        )
+        (twist_a, twist_b), turning, spun = (pair.twisting, pair.turning @ to_lab.T, np.outer(spins, np.eye(7)[3]))
         columns = np.column_stack(
             [
                 pair.faster,
                 -pair.cells,
                 pair.rates[:, 1],
                 pair.chi,
-                alpha_twist - beta_twist,
+                twist_a - twist_b,
                 pair.rates[:, 0],
-                alpha_twist + beta_twist,
+                twist_a + twist_b,
             ]
         )
         self.fixed, combined = names @ turning + turns, names @ columns + spun
@@ -183,18 +179,16 @@ class Varied:
         """Evaluator of derivatives at single times."""
         return self._make()
 
-    def weighted(
-        self, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
-    ) -> list[Weighted]:
+    def weighted(self, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
         """Return the evaluators of v for combinations of inputs, see `Weighted`; v is the sum of all."""
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
             share = 0 if weighted else 1
-            weighted.append(Weighted(pair, to_laboratory, names[:, group], share * turns, share * spins))
+            weighted.append(Weighted(pair, to_lab, names[:, group], share * turns, share * spins))
         return weighted
 
     def vectors(
-        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray,
+        self, t: FloatArray, slopes: bool, to_lab: FloatArray, names: FloatArray, turns: FloatArray,
         spins: FloatArray,
         combinations: list[Weighted],
     ) -> list[FloatArray]:  # fmt: skip
@@ -216,9 +210,9 @@ class Varied:
             singles = ~(terms <= LOST_TERM * (1 + abs(out[0][block]).max(2).T)).all(0)
             for j in (i + np.flatnonzero(singles)).tolist():
                 v, faster, axis, rate = self.differences.at(float(t[j]))
-                out[0][j] = names @ v @ to_laboratory.T + turns + np.outer(spins, to_laboratory @ axis)
+                out[0][j] = names @ v @ to_lab.T + turns + np.outer(spins, to_lab @ axis)
                 if slopes:
-                    out[1][j] = names @ faster @ to_laboratory.T + np.outer(spins, to_laboratory @ rate)
+                    out[1][j] = names @ faster @ to_lab.T + np.outer(spins, to_lab @ rate)
         return out
 
 

@@ -266,10 +266,8 @@ def _terms(sum_: Sum) -> int:
     """Return how many terms of a trigonometric sum matter."""
     if sum_.doubled:
         return 1
-    term_count = 1
+    terms = 1
     for weights in (sum_.odd, sum_.even):
-        alpha_twist = float(abs(weights[0]).mid())
-        term_count = max(
-            [term_count, *(n + 1 for n, x in enumerate(weights) if float(abs(x).mid()) > NEGLIGIBLE * alpha_twist)]
-        )
-    return term_count
+        leading = float(abs(weights[0]).mid())
+        terms = max([terms, *(n + 1 for n, x in enumerate(weights) if float(abs(x).mid()) > NEGLIGIBLE * leading)])
+    return terms

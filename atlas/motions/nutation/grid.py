@@ -102,19 +102,17 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
     any time is: then the first words are exact, and the rest is known to 2^-85 of the time; that next to zero is made
     by itself.
     """
-    start_index, end_coefficients = (start + step * float(index[i]) for i in (0, -1))
-    longest = max(abs(start_index), abs(end_coefficients))
-    digit = 2.0 ** (frexp(longest)[1] - 52)
+    start_time, stop_time = (start + step * float(index[i]) for i in (0, -1))
+    span = max(abs(start_time), abs(stop_time))
+    digit = 2.0 ** (frexp(span)[1] - 52)
     away = (
         start == 0
-        or longest == 0
-        or start_index / longest > NEAR_ZERO_TIME < end_coefficients / longest
-        or -start_index / longest > NEAR_ZERO_TIME < -end_coefficients / longest
+        or span == 0
+        or start_time / span > NEAR_ZERO_TIME < stop_time / span
+        or -start_time / span > NEAR_ZERO_TIME < -stop_time / span
     )
     if not (
-        abs(start) <= longest <= phases.near
-        and digit > MIN_TIME_DIGIT
-        and (away or abs(step) > 2 * NEAR_ZERO_TIME * longest)
+        abs(start) <= span <= phases.near and digit > MIN_TIME_DIGIT and (away or abs(step) > 2 * NEAR_ZERO_TIME * span)
     ):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low
@@ -125,7 +123,7 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
         low = index * (step - stride)
         low += start - origin
         i = 0 if away else np.abs(times).argmin()
-        if start and abs(times[i]) <= NEAR_ZERO_TIME * longest:
+        if start and abs(times[i]) <= NEAR_ZERO_TIME * span:
             moment = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
             times[i], low[i] = moment.hi, moment.low
     return times, low

@@ -165,7 +165,8 @@ class NutatingMotion(Motion[Nutation]):
         Returns
         -------
         ndarray, shape (..., 3)
-            Components of K, in 1/time, within the bound that the class states.
+            Components of K, in 1/time, within the bound that the class states. For a `TopMotion` those of the unit
+            vector b(t) = R^T n/|n|.
 
         Raises
         ------

@@ -66,6 +66,11 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     - "elliptic": Jacobi's elliptic functions of time;
     - "separatrix": K tends to the axis of the middle E_i.
 
+    `period` is that of K, or where K is constant that of an infinitesimal change of K; inf where none exists. K circles
+    the axis of the largest or of the least E_i, for I1 = I2 the axis of symmetry. `precession_per_period` is the angle
+    of this axis about the field. `spin_per_period` is 2 pi or -2 pi. Other axes precess by a different number of full
+    turns. Where K is constant, the angles are the limits of neighbouring motions.
+
     The cost does not depend on t. Entries of R are within 3.6e-15 for phases up to 2^50. K is within 3.6e-15 |B'|,
     Omega_i within 3.6e-15 |E_i - 1| |B'|, and scalars are within 4 ulp.
 
@@ -93,42 +98,6 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         )
         field = tuple(map(as_given, columns[3:6]))
         self.arguments = {"inertia": self.inertia, "field": field, "z": self.z, "branch": self.branch}
-
-    @kept
-    def period(self) -> FloatOrArray:
-        """Period T of K; inf where no period exists.
-
-        Raises
-        ------
-        DomainError
-            If the period exceeds the largest float.
-
-        Notes
-        -----
-        Where K is constant, the period is that of an infinitesimal change of K.
-        """
-        return self._scalar("period")
-
-    @kept
-    def precession_per_period(self) -> FloatOrArray:
-        """Angle of precession about the field, in one period, of the axis that K circles, in rad.
-
-        Raises
-        ------
-        DomainError
-            If one motion has no period; an array has NaN there.
-
-        Notes
-        -----
-        K circles the axis of the largest or of the least E_i, for I1 = I2 the axis of symmetry. Other axes precess by
-        a different number of full turns. Where K is constant, the angle is the limit of neighbouring motions.
-        """
-        return self._scalar("precession_per_period")
-
-    @kept
-    def spin_per_period(self) -> FloatOrArray:
-        """Angle of rotation about the axis that K circles, in one period: 2 pi or -2 pi, in rad."""
-        return self._scalar("spin_per_period")
 
     @kept
     def precession_rate(self) -> FloatOrArray:

@@ -358,27 +358,6 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         return of_top(self._row(i))
 
-    def field_in_body(self, t: RealArrayLike) -> FloatArray:
-        """Unit vector b(t) = R^T n/|n| in the body.
-
-        Parameters
-        ----------
-        t : array_like
-            Times, as for `rotation`.
-
-        Returns
-        -------
-        ndarray, shape (..., 3)
-            Components of b, of length 1.
-
-        Raises
-        ------
-        AtlasError
-            For a time that is not finite or whose phases exceed 2^50.
-        """
-        b = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
-        return self._in_body(np.asarray(finite(b, "b")))
-
     def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant.
 

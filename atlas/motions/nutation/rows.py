@@ -15,6 +15,7 @@ from atlas.arithmetic.inputs import FloatArray, largest
 from atlas.arithmetic.phase import MAX_PHASE, Phases, room
 from atlas.arithmetic.rotation_rows import MAX_FREQUENCY, MAX_LOST_PHASE
 from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_cayley_klein import turning_rate
 from atlas.motions.nutation.rows_blocks import WEIGHT_RADIUS, Block, Blocks, Constants
 from atlas.motions.nutation.rows_pair import SpherePair, multiples
 from atlas.motions.nutation.rows_spheres import sphere_of_velocity
@@ -212,8 +213,8 @@ class CayleyKleinAtTimes:
         """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
         x, y, z = (self._entry(i, j - 1) for i in range(3))
         (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
-        offset, third = (side, 1.0) if j == 3 else (1.0, side)
-        out[:, 0], out[:, 1], out[:, 2] = x * offset, (cos * y + sin * z) * offset, (cos * z - sin * y) * third
+        side_1, third = (side, 1.0) if j == 3 else (1.0, side)
+        out[:, 0], out[:, 1], out[:, 2] = x * side_1, (cos * y + sin * z) * side_1, (cos * z - sin * y) * third
 
     def quaternion(self, out: FloatArray) -> None:
         """Write the quaternions into (m, 4): that of the pair after the tilt at the start, turned back."""
@@ -285,10 +286,8 @@ def velocity(pair: CayleyKleinAtTimes, out: FloatArray) -> FloatArray:
         slope = 1j * rates[:2] * pair.pair + rates[2] * rising * pair.rotated
         sizes = (abs(c.even) + abs(c.odd)) * (2 * np.arange(len(c.even)) + 1)[:, None, None]
         bound = abs(rates[:2]) * c.weight + abs(rates[2]) * (sizes.sum(axis=0) * abs(c.factor)).sum(axis=0)
-        (w, x), (dw, dx) = pair.pair.real, slope.real
-        (z, y), (dz, dy) = pair.pair.imag, slope.imag
-        out[:, 0] = 2 * (w * dx - x * dw - y * dz + z * dy) / pair.square
-        out[:, 1] = 2 * (w * dy - y * dw - z * dx + x * dz) / pair.square
-        out[:, 2] = 2 * (w * dz - z * dw - x * dy + y * dx) / pair.square
+        q, dq = ((a.real, b.real, b.imag, a.imag) for a, b in (pair.pair, slope))
+        w, x, y, z = q
+        out.T[:] = turning_rate(q, dq)
         out[:, 2] += pair.kappa * ((w * w + z * z) - (x * x + y * y)) / pair.square
         return np.asarray(2 * bound.max(axis=0) / np.sqrt(pair.square))

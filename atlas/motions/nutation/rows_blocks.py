@@ -189,12 +189,10 @@ class TopBlocks(Blocks):
         """Make the blocks."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
-            inputs_of_block = [part(x, slice(start, start + BLOCK)) for x in columns]
-            rows_of_block = [np.asarray(x) for x in inputs_of_block]
+            batch = [part(x, slice(start, start + BLOCK)) for x in columns]
+            rows_of_block = [np.asarray(x) for x in batch]
             powers, exponents = _powers(rows_of_block)
-            scaled = [
-                x if power is None else ldexp(x, -power) for x, power in zip(inputs_of_block, powers, strict=True)
-            ]
+            scaled = [x if power is None else ldexp(x, -power) for x, power in zip(batch, powers, strict=True)]
             shape = scaled[0].shape
             for rows, _, extreme, (roots,) in blocks(roots_of_tops, scaled, shape, slice(0)):
                 I2, _, k2, k3, n2, n3, *omega, linear, quadratic = (abs(np.asarray(x)) for x in scaled)

@@ -111,38 +111,31 @@ class Pencil:
         return np.array([np.broadcast_to(y, self.shape) for y in above])
 
     @staticmethod
-    def component(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
+    def pick(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
         """Return the component of `numbers` along an axis."""
-        K_following, K_preceding, third = numbers
-        return chosen(axis == 0, K_following, chosen(axis == 1, K_preceding, third))
+        K_b, K_c, third = numbers
+        return chosen(axis == 0, K_b, chosen(axis == 1, K_c, third))
 
     def difference(self, i: Any, j: Any) -> DoubleDouble:
         """Return e_j - e_i."""
-        component = self.component
-        return self.z * (component(i, self.I) - component(j, self.I)) * component(i, self.e) * component(j, self.e)
+        pick = self.pick
+        return self.z * (pick(i, self.I) - pick(j, self.I)) * pick(i, self.e) * pick(j, self.e)
 
-    def share(self, third: Any, outer_axis: Any, axis: Any) -> DoubleDouble:
+    def share(self, third: Any, outer: Any, axis: Any) -> DoubleDouble:
         """Return (e_third - e_other)/(e_third - e_axis) K_other^2, by moments."""
-        component, I, x = self.component, self.I, self.x
-        size = component(outer_axis, self.K)
-        up = (component(third, I) - component(outer_axis, I)) * component(axis, I) * component(axis, x)
-        return (
-            up
-            / ((component(third, I) - component(axis, I)) * component(outer_axis, I) * component(outer_axis, x))
-            * (size * size)
-        )
+        pick, I, x = self.pick, self.I, self.x
+        size = pick(outer, self.K)
+        up = (pick(third, I) - pick(outer, I)) * pick(axis, I) * pick(axis, x)
+        return up / ((pick(third, I) - pick(axis, I)) * pick(outer, I) * pick(outer, x)) * (size * size)
 
     @cached_property
     def nutation_axis(self) -> tuple[Any, Any, Any]:
         """The axis a that nutates, the middle one of e, and the outer one about which K goes round."""
-        component, K, e = self.component, self.K, self.e
+        pick, K, e = self.pick, self.K, self.e
         low, middle, high = (np.argmax(self.order == n, axis=0) for n in range(3))
         # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
-        outer = [
-            (component(middle, self.I) - component(i, self.I)) * component(i, e) * component(i, K) * component(i, K)
-            for i in (low, high)
-        ]
-        beyond = (outer[0] + outer[1]).hi * np.sign(self.z.hi) * np.sign(component(middle, e).hi) > 0
+        outer = [(pick(middle, self.I) - pick(i, self.I)) * pick(i, e) * pick(i, K) * pick(i, K) for i in (low, high)]
+        beyond = (outer[0] + outer[1]).hi * np.sign(self.z.hi) * np.sign(pick(middle, e).hi) > 0
         return np.where(beyond, low, high), middle, np.where(beyond, high, low)
 
     @cached_property
@@ -167,31 +160,25 @@ class Pencil:
 def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     """Return the turning points and the constants of the sphere of K from I1, I2, I3, B1, B2, B3, z, branch."""
     pencil = Pencil(*inputs)
-    component, I, K, e, v = pencil.component, pencil.I, pencil.K, pencil.e, pencil.v
-    axis, middle, outer_axis = pencil.nutation_axis
-    axial = component(axis, K)
+    pick, I, K, e, v = pencil.pick, pencil.I, pencil.K, pencil.e, pencil.v
+    axis, middle, outer = pencil.nutation_axis
+    axial = pick(axis, K)
     square_of_axial = axial * axial
-    rise, fall = pencil.share(outer_axis, middle, axis), pencil.share(middle, outer_axis, axis)
+    rise, fall = pencil.share(outer, middle, axis), pencil.share(middle, outer, axis)
     w = square_of_axial + fall
     turning = (square_of_axial + rise).sqrt()
     long_way = turning + abs(axial)
     short_way = rise / long_way
     up = axial.hi > 0  # v = u + K_a
-    following, preceding = (axis + 1) % 3, (axis + 2) % 3
-    K_following, K_preceding = component(following, K), component(preceding, K)
-    sides = [pencil.difference(i, axis) for i in (following, preceding)]
-    squares = K_following * K_following, K_preceding * K_preceding
+    axis_b, axis_c = (axis + 1) % 3, (axis + 2) % 3
+    K_b, K_c = pick(axis_b, K), pick(axis_c, K)
+    sides = [pencil.difference(i, axis) for i in (axis_b, axis_c)]
+    squares = K_b * K_b, K_c * K_c
     flat = squares[0] + squares[1]
     transverse, b = flat.sqrt(), (flat + square_of_axial).sqrt()
     L = -(pencil.square * sides[0] * sides[1])
     return EllipticRoots(
-        rate=v
-        * K_following
-        * K_preceding
-        * pencil.z
-        * (component(following, I) - component(preceding, I))
-        * component(following, e)
-        * component(preceding, e),
+        rate=v * K_b * K_c * pencil.z * (pick(axis_b, I) - pick(axis_c, I)) * pick(axis_b, e) * pick(axis_c, e),
         low=-chosen(up, short_way, long_way),
         high=chosen(up, long_way, short_way),
         f=(-(L * fall), -(L * axial).scaled(1), L),
@@ -204,13 +191,10 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         transverse=transverse,
         b=b,
         torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
-        precession=component(axis, pencil.rates) * b,
+        precession=pick(axis, pencil.rates) * b,
         rates=pencil.rates,
-        sense=(
-            np.where(outer_axis == (pencil.order == 2).argmax(0), -1.0, 1.0) * np.sign(v.hi),
-            np.sign(component(outer_axis, K).hi),
-        ),
-        frame=_frame(axis, (K_following / transverse).hi, (K_preceding / transverse).hi, pencil.shape),
+        sense=(np.where(outer == (pencil.order == 2).argmax(0), -1.0, 1.0) * np.sign(v.hi), np.sign(pick(outer, K).hi)),
+        frame=_frame(axis, (K_b / transverse).hi, (K_c / transverse).hi, pencil.shape),
         elliptic=pencil.is_elliptic(w),
     )
 
@@ -219,11 +203,11 @@ def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
     """Return axes in which (x, y) along the two that follow `axis` in the cyclic order is along the second one."""
     axes = np.zeros((3, 3, *shape))
     for k in range(3):
-        square_of_axial, following, preceding = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
+        is_axis, axis_b, axis_c = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
         axes[k] = (
-            np.where(following, y, np.where(preceding, -x, 0.0)),
-            np.where(following, x, np.where(preceding, y, 0.0)),
-            square_of_axial,
+            np.where(axis_b, y, np.where(axis_c, -x, 0.0)),
+            np.where(axis_b, x, np.where(axis_c, y, 0.0)),
+            is_axis,
         )
     return axes
 

@@ -67,18 +67,13 @@ class Means:
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
         levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / total, larger * smaller, total)]
         while len(levels) < MAX_MEANS and not levels[-1].is_merged.all():
-            previous = levels[-1]
-            a, g = previous.sum.scaled(-1), previous.product.sqrt()
-            total, square = a + g, previous.difference * previous.difference
-            following = Level(a, g, (square / total).scaled(-2), a * g, total)
+            before = levels[-1]
+            a, g = before.sum.scaled(-1), before.product.sqrt()
+            total, square = a + g, before.difference * before.difference
+            after = Level(a, g, (square / total).scaled(-2), a * g, total)
             # means that are one stay as they are: no motion depends on those beside it
             levels.append(
-                Level(
-                    *(
-                        chosen(previous.is_merged, x, y)
-                        for x, y in zip(previous.numbers, following.numbers, strict=True)
-                    )
-                )
+                Level(*(chosen(before.is_merged, x, y) for x, y in zip(before.numbers, after.numbers, strict=True)))
             )
         return levels
 
@@ -89,9 +84,9 @@ class Means:
     @cached_property
     def rate(self) -> DoubleDouble:
         """M = pi/T."""
-        previous = self.levels[-1]
-        M = previous.sum.scaled(-1)
-        return DoubleDouble(M.hi, M.lo, M.rel + previous.difference.hi / M.hi)
+        before = self.levels[-1]
+        M = before.sum.scaled(-1)
+        return DoubleDouble(M.hi, M.lo, M.rel + before.difference.hi / M.hi)
 
     @cached_property
     def moduli(self) -> tuple[DoubleDouble, DoubleDouble]:
@@ -100,10 +95,7 @@ class Means:
         root = abs(self.D).sqrt()
         square = (self.S + root).scaled(-1)
         c = abs(self.minus).sqrt().scaled(-1)
-        return (
-            chosen(self.four, (root / square).sqrt(), c / top.a),
-            chosen(self.four, self.N / square, top.g / top.a),
-        )
+        return (chosen(self.four, (root / square).sqrt(), c / top.a), chosen(self.four, self.N / square, top.g / top.a))
 
     @cached_property
     def nome(self) -> DoubleDouble:

@@ -10,15 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.arithmetic.double_double import (
-    ONE,
-    DoubleDouble,
-    better,
-    chosen,
-    constant,
-    signed,
-    stacked,
-)
+from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, signed, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.lazy import cached_property
 from atlas.motions.nutation.rows_means import MEANS_TOLERANCE, Circle, Level, Means

@@ -14,14 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import fmpq
 
-from atlas.arithmetic.double_double import (
-    ONE,
-    DoubleDouble,
-    better,
-    chosen,
-    constant,
-    stacked,
-)
+from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import Number
 from atlas.arithmetic.words import words

@@ -124,31 +124,26 @@ def _kinds(block: Block) -> dict[str, Rounded]:
     """Return the kind as its place in KINDS."""
     r = block.roots
     steady = np.select([r.at_rest, r.starts_on_field], [3, 5], 4)
-    kind_without_field, moving = np.where(r.at_rest, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
-    codes = np.select([r.is_excluded, r.steady, r.ball], [kind_without_field, steady, 2], moving)
-    is_separated = r.exact & (r.discriminant.rel < 0.5)
-    return {
-        "kind": Rounded(codes, block.is_similar & (r.is_excluded | r.steady | (r.moving & (r.ball | is_separated))))
-    }
+    fieldless, moving = np.where(r.at_rest, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
+    codes = np.select([r.is_excluded, r.steady, r.ball], [fieldless, steady, 2], moving)
+    separate = r.exact & (r.discriminant.rel < 0.5)
+    return {"kind": Rounded(codes, block.is_similar & (r.is_excluded | r.steady | (r.moving & (r.ball | separate))))}
 
 
 def _all_roots(block: Block) -> dict[str, Rounded]:
     """Return the turning points, (2, m), and the roots of Q, (4, m)."""
     r = block.roots
-    angle_of_alpha, angle_of_beta, imaginary = r.other_roots
+    root_1, root_2, imaginary = r.other_roots
     low, high = (rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
     ends = Rounded(np.array([low.values, high.values]), low.is_certain & high.is_certain & r.exact)
-    rounded_roots = [rounded(x, block, 1) for x in (r.omega[2] + angle_of_alpha, r.omega[2] + angle_of_beta, imaginary)]
+    rounded_roots = [rounded(x, block, 1) for x in (r.omega[2] + root_1, r.omega[2] + root_2, imaginary)]
     x, y, z = (x.values for x in rounded_roots)
     two = (r.discriminant.hi <= 0) & ~r.ball
     gone = r.ball | two
     roots = np.sort([*ends.values, np.where(gone, np.inf, x), np.where(gone, np.inf, y)], axis=0).astype(complex)
     roots[2:, two] = np.array([x - 1j * z, x + 1j * z])[:, two]
-    are_others_known = np.logical_and.reduce([x.is_certain for x in rounded_roots]) & (r.discriminant.rel < 0.5)
-    return {
-        "turning_points": ends,
-        "roots": Rounded(roots, ends.is_certain & (r.ball | are_others_known) & ~r.is_excluded),
-    }
+    sure = np.logical_and.reduce([x.is_certain for x in rounded_roots]) & (r.discriminant.rel < 0.5)
+    return {"turning_points": ends, "roots": Rounded(roots, ends.is_certain & (r.ball | sure) & ~r.is_excluded)}
 
 
 def _angles(block: Block) -> dict[str, Rounded]:

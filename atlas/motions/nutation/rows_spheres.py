@@ -75,10 +75,10 @@ def sphere_of_field(r: Roots) -> Sphere:
     )
 
 
-def half_angles(axial: DoubleDouble, transverse: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+def half_angles(axial: DoubleDouble, flat: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Return cosine and sine, (2, m), of half the angle whose cosine and sine are along/b and across/b."""
     longer = ((abs(axial) / b + ONE).scaled(-1)).sqrt()
-    shorter = transverse / (longer * b).scaled(1)
+    shorter = flat / (longer * b).scaled(1)
     up = axial.hi >= 0
     return stacked(chosen(up, longer, shorter), chosen(up, shorter, longer))
 
@@ -96,7 +96,7 @@ def sphere_of_velocity(r: Roots) -> Sphere:
     shorter = square / (r.I * longer)
     poles = stacked(chosen(up, longer, shorter), -chosen(up, shorter, longer))
     torques = w2 * r.n2 + poles * (r.I * w3 - (r.less + ONE) * r.n3 + poles)
-    twice, transverse = end.scaled(1), square.sqrt()
+    twice, flat = end.scaled(1), square.sqrt()
     larger, smaller = (longer / twice).sqrt(), (shorter / twice).sqrt()
     starts_at_pole = (square.hi == 0) & (torques.hi == 0) & (torques.rel < 0.5)
     turn = short.hi * r.n2.hi
@@ -108,9 +108,6 @@ def sphere_of_velocity(r: Roots) -> Sphere:
         meets=starts_at_pole & np.array([~up, up]),
         slopes=np.array([-turn, turn]) + 0j,
         frames=constant(0.0, poles),
-        azimuth=(
-            np.where(transverse.hi == 0, 1.0, (w1 / transverse).hi),
-            np.where(transverse.hi == 0, 0.0, (w2 / transverse).hi),
-        ),
+        azimuth=(np.where(flat.hi == 0, 1.0, (w1 / flat).hi), np.where(flat.hi == 0, 0.0, (w2 / flat).hi)),
         sizes=((short * end).hi, -end.hi),
     )

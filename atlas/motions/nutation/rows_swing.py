@@ -43,13 +43,13 @@ LAST = float(np.finfo(np.longdouble).eps)
 class SwingSums(NamedTuple):
     """The rate, and the weights of cos 2 n y in E and of sin 2 n y in O, (MAX_TERMS, m); y is 0 at the largest nu.
 
-    `weight_error` bounds the relative error of the weights.
+    `w_error` bounds the relative error of the weights.
     """
 
     rate: DoubleDouble
     even: Extended
     odd: Extended
-    weight_error: FloatArray
+    w_error: FloatArray
 
 
 class Swings(NamedTuple):
@@ -70,7 +70,7 @@ class Swings(NamedTuple):
     before: Extended
     slope: FloatArray
     frequency_error: FloatArray
-    weight_error: FloatArray
+    w_error: FloatArray
     fastest: FloatArray
 
     @classmethod
@@ -94,9 +94,7 @@ class Swings(NamedTuple):
             before=nothing[0],
             slope=abs(kappa.hi) * r.width.hi / means.rate.hi,
             frequency_error=np.ldexp(turns.hi * turns.rel, exponents),
-            weight_error=np.where(
-                (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < PHASE_RADIUS, sums.weight_error, np.inf
-            ),
+            w_error=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < PHASE_RADIUS, sums.w_error, np.inf),
             fastest=np.ldexp(top.rates, exponents),
         )
         return swings._replace(before=swings.half_of(*start)[0])
@@ -122,7 +120,7 @@ class Swings(NamedTuple):
         turn = np.select([self.sign > 0, self.sign < 0], [np.arctanh(x / even), np.arctan2(x, even)], odd / even)
         error_bound = (abs(even) * lost_odd + abs(odd) * lost_even) / abs(even * even - self.sign * x * x)
         scale = np.where(self.sign == 0, 1, self.size)
-        return self.factor * turn, abs(self.factor * scale * error_bound * (8 * LAST + self.weight_error)).astype(float)
+        return self.factor * turn, abs(self.factor * scale * error_bound * (8 * LAST + self.w_error)).astype(float)
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
@@ -137,14 +135,14 @@ def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
     unity, zero = constant(1.0, nu), constant(0.0, nu)
     multiple, before, twice = (cos, sin), (unity, zero), cos.scaled(1)
     weight, power, total, slope = means.nome.scaled(1), means.nome, unity, zero
-    matters, weight_error = np.ones(nu.hi.shape, dtype=bool), np.zeros(nu.hi.shape)
+    matters, w_error = np.ones(nu.hi.shape, dtype=bool), np.zeros(nu.hi.shape)
     for n in range(1, MAX_TERMS):
         c, s = _on_lattice(n, multiple, size, means.four)
         a, b = (chosen(matters, weight * x, zero) for x in (c, signed(s, -sense)))
         total, slope = total + a, slope + b.scaled(1) * constant(float(n), b)
         signs = np.where(is_at_low, (-1.0) ** n, 1.0)
         even[n], odd[n] = extended(a) * signs, extended(b) * signs
-        weight_error = np.where(matters, np.fmax(weight_error, np.fmax(a.rel, b.rel)), weight_error)
+        w_error = np.where(matters, np.fmax(w_error, np.fmax(a.rel, b.rel)), w_error)
         matters &= weight.hi * np.maximum(abs(c.hi), size.hi * abs(s.hi)) > NEGLIGIBLE
         if not matters.any():
             break
@@ -154,11 +152,11 @@ def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
     end = nu - chosen(is_at_low, r.high, r.low)
     rate = end - (means.rate * slope / total).scaled(1)
     # where more terms matter nothing is known
-    rate, weight_error = (
+    rate, w_error = (
         DoubleDouble(rate.hi, rate.lo, np.where(matters, np.inf, rate.rel)),
-        np.where(matters, np.inf, weight_error),
+        np.where(matters, np.inf, w_error),
     )
-    return SwingSums(rate, even, odd, weight_error)
+    return SwingSums(rate, even, odd, w_error)
 
 
 def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle:

@@ -21,6 +21,7 @@ from atlas.errors import DomainError
 from atlas.lazy import cached_property
 from atlas.motions.nutation.cayley_klein import Evaluation, entries
 from atlas.motions.nutation.certified import Nutating
+from atlas.motions.nutation.certified_cayley_klein import turning_rate
 from atlas.motions.nutation.certified_general import GeneralMotion
 from atlas.motions.nutation.certified_top import TopMotion
 from atlas.motions.nutation.constants import FIRST_BITS, CayleyKlein
@@ -184,11 +185,7 @@ class SingleGeneral(SingleMotion):
         n1, n2, n3 = self.exact.turning_axis
         k, phi = self.exact.steady_rates()
         terms = ((n1, n2 * phi), (n2, n1 * phi), (n3, phi))
-        return [
-            i
-            for i, (component, opposite) in enumerate(terms)
-            if component * k == 0 and (opposite if i == 2 else opposite * k) == 0
-        ]
+        return [i for i, (a, b) in enumerate(terms) if a * k == 0 and (b if i == 2 else b * k) == 0]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
@@ -239,14 +236,10 @@ class SingleTop(SingleMotion):
 
             def fill(times: FloatArray, rows: FloatArray) -> None:
                 q = evaluation.components(times)
-                (w, x, z, y), (dw, dx, dz, dy) = q[:4], q[4:]
+                w, x, z, y = q[:4]
                 up, down = w * w + z * z, x * x + y * y
-                half = (up + down) / 2
-                turn = (
-                    (w * dx - x * dw - y * dz + z * dy) / half,
-                    (w * dy - y * dw - z * dx + x * dz) / half,
-                    (w * dz - z * dw - x * dy + y * dx) / half + kappa * (up - down) / (up + down),
-                )
+                turn = turning_rate((w, x, y, z), tuple(q[[4, 5, 7, 6]]))
+                turn[2] += kappa * (up - down) / (up + down)
                 np.matmul(np.array(turn).T, self.after, out=rows)
 
             return fill

@@ -170,10 +170,10 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
     gram = (zeta.conj().T @ np.linalg.solve(_riemann(vectors, basis).imag, zeta)).real
     rows = np.eye(2, dtype=int)
     for _ in range(MAX_REDUCTIONS):
-        (a_period, product), (_, second) = rows @ gram @ rows.T
-        if second < a_period:
+        (square, product), (_, second) = rows @ gram @ rows.T
+        if second < square:
             rows = rows[::-1]
-        elif n := round(float(product / a_period)):
+        elif n := round(float(product / square)):
             rows = np.array([rows[0], rows[1] - n * rows[0]])
         else:
             break

@@ -75,10 +75,10 @@ def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
                 _product(rows, back, j, k) * (A[k] - A[j])
                 + _product(rows, back, 3 + j, 3 + k) * (moments[k] - moments[j])
             )
-        for of_H in range(3, len(rows), 3):
+        for offset in range(3, len(rows), 3):
             for i in range(3):
                 j, k = (i + 1) % 3, (i + 2) % 3
-                new.append(_product(rows, back, of_H + j, k) * A[k] - _product(rows, back, of_H + k, j) * A[j])
+                new.append(_product(rows, back, offset + j, k) * A[k] - _product(rows, back, offset + k, j) * A[j])
         for row, x in zip(rows, new, strict=True):
             row.append(centre(x / (n + 1)))
     return rows

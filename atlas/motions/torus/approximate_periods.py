@@ -96,8 +96,8 @@ class Integrals:
     @property
     def P(self) -> fmpq_poly:
         """The cubic of the body's curve."""
-        start_places, second, third = (fmpq_poly([self.D / I, 1]) for I in self.moments)
-        return start_places * second * third
+        factor_1, factor_2, factor_3 = (fmpq_poly([self.D / I, 1]) for I in self.moments)
+        return factor_1 * factor_2 * factor_3
 
     @property
     def quartic(self) -> fmpq_poly:
@@ -213,11 +213,11 @@ class Curve:
 
     def intervals(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
-        start_places, stop_places = (
+        starts, stops = (
             np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._other_places(start, stop)
         )
-        is_near = _elliptic(start_places, stop_places).real < ELLIPSE_LOG
-        return _intervals(start_places[is_near], stop_places[is_near])
+        is_near = _elliptic(starts, stops).real < ELLIPSE_LOG
+        return _intervals(starts[is_near], stops[is_near])
 
     def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield places s on a path, u = start + (stop - start)(1 - cos s)/2, and the weights of a rule in s.
@@ -240,7 +240,7 @@ class Curve:
     def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
         """Return -2i times the integral of (D, z, v) du/eta along a path."""
         way, g = stop - start, acb_poly(self.g)
-        start_places, second, third, before = acb(0), acb(0), acb(0), None
+        sum_D, sum_z, sum_v, before = acb(0), acb(0), acb(0), None
         for s, weight in self.nodes(start, stop):
             sin, cos = s.sin_cos()
             z, v = self.at(start + way * (1 - cos) / 2)
@@ -251,11 +251,11 @@ class Curve:
             if before is not None and _distance(root - before) > _distance(root + before):
                 root = -root
             before, term = root, weight / root
-            start_places += term
-            second += z * term
-            third += v * term
+            sum_D += term
+            sum_z += z * term
+            sum_v += v * term
         factor = acb(0, -1) * way
-        return centre(start_places * factor * self.motion.D), centre(second * factor), centre(third * factor)
+        return centre(sum_D * factor * self.motion.D), centre(sum_z * factor), centre(sum_v * factor)
 
 
 def _check_sizes(polynomial: fmpq_poly) -> None:
@@ -272,17 +272,17 @@ def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
         return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
 
 
-def _intervals(start_places: Array, stop_places: Array) -> Iterator[tuple[arb, arb]]:
+def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
     """Yield parts of (0, 1), in order, whose ellipses leave places out, seen from 0, and from 1 backwards.
 
     NotCertifiedError where one is too near the path to be told from a place on it.
     """
-    if not start_places.size:
+    if not starts.size:
         yield arb(0), arb(1)
         return
-    for low, high in _halved(start_places):
+    for low, high in _halved(starts):
         yield arb(low), arb(high)
-    for low, high in reversed(list(_halved(stop_places))):
+    for low, high in reversed(list(_halved(stops))):
         yield arb(1 - high), arb(1 - low)
 
 

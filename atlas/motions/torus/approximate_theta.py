@@ -137,11 +137,11 @@ class ThetaMotion:
         them and the start is a fourth of that of a period.
         """
         target = np.array([complex_of(x) for x in self.at_start.components[:6]])
-        real, columns = (matrix_of(acb_mat(pair))[:, :2] for pair in (self.lattice.real, self.lattice.other_periods))
+        real, others_ = (matrix_of(acb_mat(pair))[:, :2] for pair in (self.lattice.real, self.lattice.other_periods))
         rough, quarters = Rough(self), np.array(list(product(range(4), repeat=2)))[:, None] / 4
         for count in GRIDS:
             steps = np.array(list(product(range(count), repeat=2))) / count
-            times = (steps @ real + quarters @ columns).reshape(-1, 2)
+            times = (steps @ real + quarters @ others_).reshape(-1, 2)
             distance = np.linalg.norm(rough.states(times) - target, axis=1)
             candidates = rough.times_near(times[np.argsort(distance)[:CANDIDATES]], target)
             if candidates is not None:

@@ -207,9 +207,11 @@ def inverse(w: Array) -> Array:
     """Return 1/w, rounded once: one step of Newton's method with the residual of 1, by halves of 26 digits."""
     places_near = w.conj() / (w.real * w.real + w.imag * w.imag)
     (a, a_low), (b, b_low) = _halves(w), _halves(places_near)
-    at_zero, second = a.real * b.real, -a.imag * b.imag
+    product_re, second = a.real * b.real, -a.imag * b.imag
     residual = np.empty_like(w)
-    residual.real = (1 - np.maximum(at_zero, second)) - np.minimum(at_zero, second)  # exact, as is the imaginary part
+    residual.real = (1 - np.maximum(product_re, second)) - np.minimum(
+        product_re, second
+    )  # exact, as is the imaginary part
     residual.imag = -(a.real * b.imag + a.imag * b.real)
     residual -= a * b_low + a_low * places_near
     return np.asarray(places_near + places_near * residual)

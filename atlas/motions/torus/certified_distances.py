@@ -99,9 +99,9 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
             if np.max(growth @ rates.sum(axis=0)) < WANTED_BOUND:
                 places = 2 * HALF_TURN * ((np.arange(divisions) + 0.5) / divisions - 0.5)
                 deviations = [_deviation(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
-                distance = WIDENING * (growth @ (np.max(deviations, axis=0) + rates.sum(axis=0) / divisions) + off)
-                if np.max(distance) < MAX_DISTANCE:
-                    return np.asarray(distance)
+                arc = WIDENING * (growth @ (np.max(deviations, axis=0) + rates.sum(axis=0) / divisions) + off)
+                if np.max(arc) < MAX_DISTANCE:
+                    return np.asarray(arc)
     raise NotCertifiedError(
         "not certified: the defects of the theta functions might grow too much over the motion's torus."
     )
@@ -113,15 +113,15 @@ def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Seque
     Raises NotCertifiedError where they go too far for a bound.
     """
     with workprec(BITS + SPARE_BITS):
-        distance, turn = np.zeros(3), 2 * arb.pi()
+        arc, turn = np.zeros(3), 2 * arb.pi()
         for p, q in zip(periods, rounded_periods, strict=True):
             turns = (p.angle - q.angle) / turn
-            distance += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
+            arc += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
     sizes = _sizes(theta)
-    growth = TURNS * _growth(theta, sizes, distance[0], distance[1])
+    growth = TURNS * _growth(theta, sizes, arc[0], arc[1])
     if not growth.sum() < MAX_DISTANCE:
         raise NotCertifiedError("not certified: the periods are not known well enough for long times.")
-    return np.asarray(WIDENING * (growth @ sizes + [0, 0, TURNS * distance[2] * sizes[2]]))
+    return np.asarray(WIDENING * (growth @ sizes + [0, 0, TURNS * arc[2] * sizes[2]]))
 
 
 class Cell:
@@ -135,11 +135,9 @@ class Cell:
         self.flows = [(centre(2 * inverse[0, k]), centre(inverse[1, k])) for k in range(2)]
         self.lines = [centre(theta.l[0] * inverse[0, k] + theta.l[1] * inverse[1, k]) for k in range(2)]
         self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
-        self.into_arguments: Array = (
-            np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
-        )
+        self.to_v: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
         self.Y = matrix_of(self.hat).imag
-        self.corners = self.into_arguments @ (HALF_TURN * np.array(list(product((-1, 1), repeat=2))).T)
+        self.corners = self.to_v @ (HALF_TURN * np.array(list(product((-1, 1), repeat=2))).T)
         self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
         self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT_LOG / np.pi)
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
@@ -157,7 +155,7 @@ class Cell:
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
         S, size, beyond = self._defects()
-        most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.into_arguments.imag).sum(axis=1)[:, None]
+        most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.to_v.imag).sum(axis=1)[:, None]
         top = most.max()
         if not np.isfinite(top):
             return np.full((2, 3), np.inf)
@@ -165,30 +163,23 @@ class Cell:
         faint = np.exp(most[~matters] - top).sum(axis=0) + np.exp(beyond - top)
         S, size = S[matters], np.exp(size[matters] - top)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
-        ways, twice = (
-            (self.places - self.middle) @ self.into_arguments,
-            ((S - 2 * self.middle) @ self.into_arguments).imag,
-        )
+        ways, twice = ((self.places - self.middle) @ self.to_v, ((S - 2 * self.middle) @ self.to_v).imag)
         weight = max(abs(complex_of(x)) for x in self.theta.denominator.weights)
         spare = weight * np.exp(self._highest(0.0) - top / 2) * _beyond(FAINT_LOG, np.pi / 4 * self.narrow)
         if max(2 * HALF_TURN * max(abs(ways).max(), abs(twice).max()), len(ways), len(S)) > ARGUMENT:
             return np.full((2, 3), np.inf)
-        half, largest_defect = HALF_TURN / CELLS_PER_PERIOD, np.zeros(6)
+        half, defect = HALF_TURN / CELLS_PER_PERIOD, np.zeros(6)
         line = np.arange(-CELLS_PER_PERIOD + 1, CELLS_PER_PERIOD, 2) * half
         x = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
         for _ in range(MAX_HALVINGS):
             terms = weights * np.exp(1j * x @ ways.T)
-            value, slopes, distance = (
-                abs(terms.sum(axis=1)),
-                abs(terms @ ways).sum(axis=1),
-                half * abs(ways).sum(axis=1),
-            )
-            below = value - half * slopes - abs(terms) @ (distance**2 / 2 * np.exp(distance) + FLOATS) - spare
+            value, slopes, arc = (abs(terms.sum(axis=1)), abs(terms @ ways).sum(axis=1), half * abs(ways).sum(axis=1))
+            below = value - half * slopes - abs(terms) @ (arc**2 / 2 * np.exp(arc) + FLOATS) - spare
             is_good = below > value / 2
             above = np.exp(-x[is_good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
-            largest_defect = np.maximum(largest_defect, (above / below[is_good, None] ** 2).max(axis=0, initial=0.0))
+            defect = np.maximum(defect, (above / below[is_good, None] ** 2).max(axis=0, initial=0.0))
             if is_good.all():
-                return np.asarray(WIDENING * largest_defect.reshape(2, 3) * [1, 1, self.largest_factor])
+                return np.asarray(WIDENING * defect.reshape(2, 3) * [1, 1, self.largest_factor])
             half /= 2
             x = np.concatenate([x[~is_good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
             if len(x) > MAX_SQUARES:
@@ -323,19 +314,19 @@ def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
     sides = corners[2] - corners[0], corners[1] - corners[0]
     lengths = [float(np.sqrt(side @ Y @ side)) for side in sides]
     steps = [int(np.ceil(min(length, 30.0))) + 1 for length in lengths]
-    distance = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
+    arc = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
     s, t = np.meshgrid(*(np.linspace(0, 1, count) for count in steps))
     points = corners[0] + s.reshape(-1, 1) * sides[0] + t.reshape(-1, 1) * sides[1]
-    return places_near(Y, points, (np.sqrt(most) + distance) ** 2 * (1 + 1e-9))
+    return places_near(Y, points, (np.sqrt(most) + arc) ** 2 * (1 + 1e-9))
 
 
-def _beyond(distance: float, narrow: float) -> float:
+def _beyond(arc: float, narrow: float) -> float:
     """Return a bound on the sum of exp(-q(n - p)) over whole n of the plane with q >= distance, for any p.
 
     With q(n) >= narrow n^2 it is exp(-9/10 distance) times the sum of exp(-q/10), a square of a sum over a line, which
     is below its largest term and the integral.
     """
-    return float(np.exp(-0.9 * distance) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
+    return float(np.exp(-0.9 * arc) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
 
 
 def _deviation(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:

@@ -95,21 +95,19 @@ class Torus:
 
     def periods(self, bits: int) -> tuple[Period, Period]:
         """Return two periods to `bits` binary digits; NotCertifiedError where none are found."""
-        bits = min(
-            (stored_bits for stored_bits in tuple(self._stored) if stored_bits >= bits), default=-(-bits // 32) * 32
-        )
+        bits = min((x for x in tuple(self._stored) if x >= bits), default=-(-bits // 32) * 32)
         if bits not in self._stored:
             failed_bits, reason = self._failure
             if bits <= failed_bits:  # a long way, which no fewer bits go
                 raise NotCertifiedError(reason)
             try:
-                of_H, of_F = (self._enclosed(start, bits) for start in self._approximate())
+                period_1, period_2 = (self._enclosed(start, bits) for start in self._approximate())
             except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
                 if bits >= PERIOD_BITS:
                     self._failure = bits, str(why)
                     raise
-                of_H, of_F = self.periods(PERIOD_BITS)
-            self._stored[bits] = of_H, of_F
+                period_1, period_2 = self.periods(PERIOD_BITS)
+            self._stored[bits] = period_1, period_2
         return self._stored[bits]
 
     @cached_property
@@ -139,8 +137,8 @@ class Torus:
         rates = np.array([[(w.conj() @ x @ w).imag / (w.conj() @ w).real for x in (H, F)] for w in waves])
         if abs(np.linalg.det(rates / size)) < MIN_DETERMINANT:
             return None
-        of_H, of_F = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
-        return [tuple(of_H), tuple(of_F)]
+        period_1, period_2 = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
+        return [tuple(period_1), tuple(period_2)]
 
     def _approximate(self) -> list[tuple[fmpq, fmpq]]:
         if self._starts is None and self.pushed is not None:
@@ -209,8 +207,8 @@ class Torus:
     def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
         with workprec(bits + 2 * GUARD_BITS):
             arrival = self.flow.go(*r, bits + GUARD_BITS)
-            of_H = self._newton(arrival, self.W, self.K, chosen)
-            reach = 4 * max((abs(x).upper() for x in of_H), key=float)
+            step_1 = self._newton(arrival, self.W, self.K, chosen)
+            reach = 4 * max((abs(x).upper() for x in step_1), key=float)
             box = arb(0, reach)
             X, Y = self.fields(arrival.W, arrival.K)
             y = [*arrival.W, *arrival.K]
@@ -245,10 +243,10 @@ class Torus:
 
 def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
     """Return f1, f2 of M and K, and f3 about a field of length b, of which the angles of the periods are part."""
-    (of_H, of_F), turn = periods, 2 * arb.pi()
-    area = of_H.H * of_F.F - of_H.F * of_F.H
-    line = of_F.F / area, -of_H.F / area
-    return [turn * line[0], turn * line[1], of_H.angle * line[0] + of_F.angle * line[1] - b]
+    (period_1, period_2), turn = periods, 2 * arb.pi()
+    area = period_1.H * period_2.F - period_1.F * period_2.H
+    line = period_2.F / area, -period_1.F / area
+    return [turn * line[0], turn * line[1], period_1.angle * line[0] + period_2.angle * line[1] - b]
 
 
 def rotated(q: list[arb], V: list[arb]) -> list[arb]:

@@ -222,11 +222,11 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
         by_scale = np.linalg.solve(reals(periods).T, reals(rows).T).T
         if not abs(by_scale - np.rint(by_scale)).max() < INTEGER_TOLERANCE:
             raise _other_form()
-        row_here, second = (
+        period_1, period_2 = (
             [sum((round(n) * period[k] for n, period in zip(row, periods, strict=True)), acb(0)) for k in range(3)]
             for row in by_scale.tolist()
         )
-        return row_here, second
+        return period_1, period_2
 
     return Lattice(next_to(like.real), next_to(like.other_periods), next_to(like.a), next_to(like.b))
 

@@ -475,28 +475,6 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return np.asarray(self._of_each(lambda single: single.theta.riemann_matrix))
 
-    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
-        """Angular velocity Omega(t) along the axes of the body.
-
-        Parameters
-        ----------
-        t : array_like
-            Times, as for `rotation`.
-
-        Returns
-        -------
-        ndarray, shape (..., 3)
-            Components of Omega, in rad/time.
-
-        Raises
-        ------
-        AtlasError
-            For a time that is not finite.
-        NotCertifiedError
-            Where no proof is found.
-        """
-        return super().angular_velocity(t)
-
     def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = R^T B' in the body, eq. (32).
 

@@ -10,6 +10,7 @@ from atlas.arithmetic.certified_digits import numbers
 from atlas.arithmetic.certified_inputs import rational
 from atlas.arithmetic.inputs import FloatArray, real
 from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.phase import MAX_PHASE
 from atlas.arithmetic.quaternions import of_matrix, product
 from atlas.arithmetic.rotation import target
 from atlas.arithmetic.words import floats
@@ -19,9 +20,6 @@ from atlas.motions.torus.certified import STATE_CACHE_SIZE, AsymmetricMotion
 
 FIRST_BITS = 80
 """Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
-
-MAX_PHASE = 2.0**50
-"""Largest phase: that of the last time that a float tells from its neighbours."""
 
 MAX_RADIUS = 2.0**-58
 """Radius of a ball that is rounded, beside 1 or beside the largest rate."""

@@ -69,11 +69,11 @@ def quotients(
 class Rounding:
     """Inputs of the error bounds: forms of N, D, K and W, b = |B'|, and the largest rate.
 
-    Their places are `into_arguments` @ half phases, and N turns by the angle `turning` @ half phases.
+    Their places are `to_v` @ half phases, and N turns by the angle `turning` @ half phases.
     """
 
     sums: Sums
-    into_arguments: Array
+    to_v: Array
     turning: Array
     b: float
     size: float
@@ -86,7 +86,7 @@ class Rounding:
         half = np.pi * HALF_TURN / CELLS_PER_PHASE
         line = np.linspace(half - np.pi * HALF_TURN, np.pi * HALF_TURN - half, CELLS_PER_PHASE)
         cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-        if not self.sums.reach * abs(self.into_arguments.imag).sum(axis=1).max() * np.pi * HALF_TURN < MAX_POWER_LOG:
+        if not self.sums.reach * abs(self.to_v.imag).sum(axis=1).max() * np.pi * HALF_TURN < MAX_POWER_LOG:
             return float("inf")
         enough, largest = enough * 2.0**53, 0.0
         for cut in range(MAX_CUTS + 1):
@@ -105,9 +105,7 @@ class Rounding:
         """Return bounds on errors in cells of phases about some (2, m), in units of 2^-53."""
         P, Q = self._places(np.zeros(2))
         table = abs(self.sums.table[D])
-        P_waves, Q_waves = (
-            np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into_arguments @ cells).imag, strict=True)
-        )
+        P_waves, Q_waves = (np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.to_v @ cells).imag, strict=True))
         size, *middle = _summed(np.array([table, table * P[:, None], table * Q]), P_waves, Q_waves)
         peaks, errors = np.round(np.array(middle) / size), np.empty(cells.shape[1])
         block = max(UNTHREADED // (4 * table.size), 1)
@@ -126,14 +124,14 @@ class Rounding:
         """Return the bounds in cells where terms near p are largest."""
         P, Q = self._places(p)
         count = np.array([P[:, None] + 0 * Q, 0 * P[:, None] + Q])
-        ways = sum(abs(np.einsum("k,kpq->pq", way, count)) for way in self.into_arguments.T)
+        ways = sum(abs(np.einsum("k,kpq->pq", way, count)) for way in self.to_v.T)
         table = self.sums.table
         forms = np.concatenate([table, table[7:] - table[4:7]])  # N, D, K, W and Omega
-        middle = [np.exp(1j * np.outer(n, y)) for n, y in zip((P, Q), self.into_arguments @ cells, strict=True)]
+        middle = [np.exp(1j * np.outer(n, y)) for n, y in zip((P, Q), self.to_v @ cells, strict=True)]
         rows = [forms, *(forms * n for n in count)]
         value, *slopes = _summed(np.concatenate(rows), *middle).reshape(3, len(forms), -1)
         corners = (cells[:, :, None] + half * CORNERS[:, None]).reshape(2, -1)
-        sizes = [np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into_arguments @ corners).imag, strict=True)]
+        sizes = [np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.to_v @ corners).imag, strict=True)]
         rows = [abs(table) * self.sums.steps, *(abs(forms) * x for x in (ways**2, *(ways * abs(count))))]
         turn_factor = np.exp(-(self.turning @ corners).imag)
         summed = _summed(np.concatenate(rows), *sizes)
@@ -141,11 +139,11 @@ class Rounding:
         error, bends, *mixed = np.split(
             summed.reshape(len(summed), -1, 4).max(axis=-1), len(table) + len(forms) * np.arange(3)
         )
-        y, G, least, varying = quotients(value, slopes, bends, self.into_arguments, half)
+        y, G, least, varying = quotients(value, slopes, bends, self.to_v, half)
         size = abs(y)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             shifts = np.zeros(size.shape)
-            for g, slope, mix, x, off in zip(G, slopes, mixed, self.into_arguments, EXPONENTIALS, strict=True):
+            for g, slope, mix, x, off in zip(G, slopes, mixed, self.to_v, EXPONENTIALS, strict=True):
                 change = abs(g) + half * (mix + size * mix[D]) + varying * (abs(slope[D]) + half * mix[D])
                 shifts += (off + PHASE * abs(x).sum()) * change / least
             shifts[:3] *= turn_factor.reshape(-1, 4).max(axis=-1)
