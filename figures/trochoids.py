@@ -70,7 +70,8 @@ def scene(
     )
     return Scene(
         caption=(
-            rf"Dashed: the line of the drift. The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
+            r"The line of the drift is dashed. "
+            rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
             rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "
             r"along $[\mathbf{E},\mathbf{B}]$. The drift is "
             rf"$v{tex_equals(v)}$, the rate of the turn $\omega{tex_equals(omega)}$, the radius of its circle $a$. "

@@ -289,7 +289,7 @@ def test_the_separatrix_follows_the_equations_of_motion() -> None:
 def test_critical_values_are_extrema_of_the_effective_potential() -> None:
     """At a drawn point (p, h) the potential has an extremum with the value h, within 1e-6 of a dense sample."""
     nu = np.linspace(-0.9999, 0.9999, 200_001)
-    for panel, I in zip(panels("energy_momentum"), (0.5, 1.5), strict=True):
+    for panel, I in zip(panels("energy_momentum"), (0.5, 0.5, 1.5), strict=True):
         for line in layers(panel, Curve, "main") + layers(panel, Curve, "unstable_line"):
             for p, h in line.points[len(line.points) // 4 :: max(1, len(line.points) // 3)]:
                 V = potential(I, 1.0, 0.25, p, nu)

@@ -76,14 +76,20 @@ def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
 
 
 def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_does() -> None:
-    """Its components are those in the title of the panel, within 1e-12, and its ends are points of the lattice."""
+    """Its components are those in the title of the panel, within 1e-12, and its ends are points of the lattice.
+
+    The arrows g1 and g2 lead from one such point by one turn about the field and one about the axis.
+    """
     maps, lattices = (made("monodromy", points=32).panels[k : k + 3] for k in (0, 3))
     for panel, step in zip(lattices, ((-1, 1), (-1, 1), (-2, 0)), strict=True):
-        (arrow,), (track,) = layers(panel, Arrow), layers(panel, Curve, "trajectory")
+        (arrow,), (track,) = layers(panel, Arrow, "component"), layers(panel, Curve, "trajectory")
         assert arrow.tip - arrow.tail == pytest.approx(step, abs=1e-12)
         assert track.points[[0, -1]] == pytest.approx(np.array([arrow.tail, arrow.tip]), abs=1e-12)
         grid = layers(panel, Points, "sample")[0].points
         assert min(np.hypot(*(grid - arrow.tip).T)) <= 1e-12
+        basis = layers(panel, Arrow, "basis")
+        assert [one.tip - one.tail for one in basis] == [pytest.approx(row, abs=1e-12) for row in np.eye(2)]
+        assert max(min(np.hypot(*(grid - end).T)) for one in basis for end in (one.tail, one.tip)) <= 1e-12
     for panel in maps:
         (loop,), (spin,) = layers(panel, Curve, "trajectory"), layers(panel, Points, "unstable_point")
         assert inside(loop.points, *spin.points[0])
@@ -123,6 +129,6 @@ def test_a_spin_beyond_the_reach_is_neither_drawn_nor_named() -> None:
     """With M3 = 2 both spins have |p| = 2, beyond 1.6; M3 = 0.5 shows both."""
     for M3, count in ((2.0, 0), (0.5, 2)):
         scene = made("energy_momentum", ratios=(0.5,), M3=M3, linear=(0.5,))
-        (panel,) = scene.panels
+        panel = scene.panels[0]
         assert len(layers(panel, Points)) == count
         assert ("spins" in scene.caption) == any("spin" in one.text for one in layers(panel, Label)) == bool(count)
