@@ -117,6 +117,7 @@ UNTIED = {
         f"AsymmetricMotion.{name}": "compared with the certified motion and with laws, in test_clebsch_theta"
         for name in ("accuracy", "agreement", "frequencies", "on_torus", "riemann_matrix")
     },
+    "AsymmetricMotion.follow": "fills the cache of states, whose values are read by rotation",
     **{f"{name}Motion.{what}": AXES for name in ("Elliptic", "General", "Top") for what in ("places", "turning_axis")},
     **dict.fromkeys(
         ("EllipticMotion.cancelled", "GeneralMotion.cancelled", "TopMotion.cancelled"), "a count of digits"
