@@ -3,8 +3,15 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from atlas.arithmetic.numbers import pi_like
 from atlas.errors import AtlasError
+
+
+def _pi_like(length: Any) -> Any:
+    """Return pi as a number of the kind of a length; the names of shapes are listed without these numbers."""
+    from atlas.arithmetic.numbers import pi_like
+
+    return pi_like(length)
+
 
 SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[Any, Any]]]] = {
     "ring": (("mass", "radius"), lambda m, R2: (m * R2 / 2, m * R2)),
@@ -19,9 +26,9 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[Any, Any]]]] = {
 """Dimensions and moments (I2, I3) of shapes by name, of the mass and the squares of the lengths."""
 
 VOLUMES: Mapping[str, Callable[..., Any]] = {
-    "solid_cylinder": lambda R, h: pi_like(R) * (R * R * h),
-    "sphere": lambda R: 4 * pi_like(R) * (R * R * R) / 3,
-    "spheroid": lambda a, c: 4 * pi_like(a) * (a * a * c) / 3,
+    "solid_cylinder": lambda R, h: _pi_like(R) * (R * R * h),
+    "sphere": lambda R: 4 * _pi_like(R) * (R * R * R) / 3,
+    "spheroid": lambda a, c: 4 * _pi_like(a) * (a * a * c) / 3,
 }
 """Volumes of the solid shapes by name, of their lengths."""
 

@@ -283,6 +283,11 @@ class Motion(Shown, Generic[Single]):
         -------
         ndarray, shape (..., 3)
             Components of Omega, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For times that `rotation` refuses.
         """
         Omega, p = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), self._placement
         return Omega if p is None else p.started(p.vectors(Omega), p.omega, 1, t)

@@ -226,7 +226,7 @@ def test_a_command_loads_what_it_lists(room: Room, case: Case) -> None:
 def test_a_figure_from_the_store_loads_nothing_that_draws(room: Room) -> None:
     """Asked for again, also in another format that is there, a figure is taken as it is."""
     room.run("figure lssc --format svg pdf --out twice", 0)
-    assert room.run("figure lssc --format svg --out twice", 0) == {"numpy", "multiprocessing"}
+    assert room.run("figure lssc --format svg --out twice", 0) == {"numpy", "flint", "multiprocessing"}
 
 
 @pytest.mark.slow

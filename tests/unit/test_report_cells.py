@@ -313,7 +313,15 @@ def test_no_table_is_left_out() -> None:
         "report_keys",
     }  # test_guide, test_targets, test_report_tables
     tested |= {"charges", "fits", "companions", "diamagnetism", "sizes", "radiation"}
-    elsewhere = {"tops", "monodromy", "coats", "swings", "properties", "closed"}  # test_report_tables, test_page
+    elsewhere = {
+        "tops",
+        "monodromy",
+        "coats",
+        "swings",
+        "properties",
+        "closed",
+        "critical",
+    }  # test_report_tables, test_page
     elsewhere |= {"elliptic", "periods", "asymmetric"}  # test_three_moments
     elsewhere |= {"levitated", "lines", "inferred", "beyond_larmor"}  # test_laboratory
     assert set(TABLES) - words == tested | elsewhere
