@@ -216,12 +216,13 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", [name for name, swept in FAMILIES.items() if swept.family.at_once > 1])
 def test_rows_leave_no_garbage(name: str) -> None:
-    """What a part needed is free as soon as it is done: a collector of garbage, slow beside Dask, is not waited for."""
-    swept = FAMILIES[name]
+    """What many rows needed is free as soon as they are done: a collector of garbage, slow beside Dask, has no work."""
+    swept, count = FAMILIES[name], 16
     needed = [p for p in swept.family.parameters if p.needed]
-    given = {key: [value] * 2 for p in needed for key, value in zip(p.names, p.default, strict=True)}
-    given |= {"t": [1.0, 2.0]} if "t" in swept.optional else {}
-    given |= {"B3": [1.0, 2.0]} if name == "particle" else {}
+    given = {key: [value] * count for p in needed for key, value in zip(p.names, p.default, strict=True)}
+    rising = np.linspace(1.0, 2.0, count).tolist()
+    given |= {"t": rising} if "t" in swept.optional else {}
+    given |= {"B3": rising} if name == "particle" else {}
     atlas.sweep(name, given, swept.quantities, listed=True)  # what is loaded with the first row is no garbage of rows
     gc.collect()
     gc.freeze()
