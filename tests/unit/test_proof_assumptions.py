@@ -1,5 +1,6 @@
 r"""What an entry assumes is held against the model of its trial: a changed definition or domain is noticed."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -11,8 +12,26 @@ from atlas.trial.proofs import trial as trials
 from atlas.trial.proofs.assumed import formulas, held
 from atlas.trial.proofs.run import trial
 
-ANY = (r"\text{const}", r"\omega_0 = 0")
-"""In formulas whose letters are independent in the model: the claim is tried for all their values."""
+ANY = (r"\text{const}", r"\omega_0 = 0", "I_1 = I_2 = I_3")
+"""In formulas whose letters are independent in the model, tried for all their values, or are all equal."""
+
+
+OPPOSITE = {"<": ">", ">": "<", r"\le": r"\ge", r"\ge": r"\le", r"\ne": "=", "differs from": "is", "differ from": "is"}
+DOMAIN = re.compile(r"<|>|\\(?:le|ge|ne)\b|differs? from")
+TRUE_OUTSIDE = {
+    *(("text-ball-parallel", clause) for clause in (r"$m_3>-\alpha I_0$ (the paper does not except the rest)",)),
+    *((name, f"$B'_{n} > 0$") for name in ("text-beta", "theorem-stability", "theorem-stable-short") for n in (2, 3)),
+    *((name, r"$\omega_2$ differs from 0") for name in ("(65)", "(78)", "(80)")),
+    *((name, "$I$ differs from 1") for name in ("text-momentum-moves", "theorem-closed")),
+    ("theorem-closed", "$k$ differs from 0"),
+    ("theorem-points", "$B'_2$ differs from 0"),
+    *(
+        (name, rf"$I_{i}\ne I_{j}$")
+        for name in ("theorem-involution", "theorem-critical")
+        for i, j in ("12", "13", "23")
+    ),
+}
+"""Domains outside which the line that is tried is true as well: what the entry says besides needs them."""
 
 
 @pytest.mark.parametrize(
@@ -26,6 +45,13 @@ ANY = (r"\text{const}", r"\omega_0 = 0")
         ("(42)", "differs from 0", "is 0"),
         ("(55)", r"$1 < I \le 2$", r"$0 < I \le 2$"),
         ("(57)", "$0 < I < 1$", "$0 < I < 2$"),
+        ("(64)", r"differs from 0", "is 0"),
+        ("(72)", "differs from", "is"),
+        ("theorem-nutation", "$w$ differs from 0", "$w$ is 0"),
+        ("theorem-identifiable", "(y_1,y_2,y_3)", "(y_1,y_3,y_2)"),
+        ("theorem-unidentified", "J_2(J_1+J_3)", "J_2(J_1-J_3)"),
+        ("theorem-every-top", r"J\boldsymbol{\Omega} + k", r"J\boldsymbol{\Omega} - k"),
+        ("text-mass-matrix", "$I_1 = I_2$", "$I_1 = I_3$"),
         ("(53)", r"B'_3/(I B'_2)", r"B'_2/(I B'_3)"),
         ("theorem-every-top", "A_0 + k_3^2/I - k_2^2", "A_0 - k_3^2/I + k_2^2"),
         ("theorem-elliptic", "I_1 I_2 I_3$", "I_1 + I_2 + I_3$"),
@@ -54,6 +80,20 @@ def test_a_definition_that_is_changed_does_not_hold(name: str) -> None:
             for other, what in changes(formula, most=3, seed=name):
                 again = held([f"${other}$"], case.signs, models, case.apart)
                 assert again.broken or not again.kept, (formula, what)
+
+
+@pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if DOMAIN.search(str(entry.assumptions))])
+def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each domain that is read, turned round, leaves the entry undecided, but where the claim is true there, too."""
+    entry, left = EQUATIONS[name], trial(name).assumed.left
+    clauses = [clause for words in entry.assumptions for clause, formula in formulas(words) if formula]
+    for clause in clauses:
+        if clause in left or not DOMAIN.search(clause) or (name, clause) in TRUE_OUTSIDE:
+            continue
+        other = replace(entry, assumptions=(DOMAIN.sub(lambda mark: OPPOSITE[mark[0]], clause),))
+        monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: other})
+        case = trial(name)
+        assert case.assumed.broken or case.of_printed().decision == "undecided", clause
 
 
 def test_what_is_not_read_is_on_record() -> None:

@@ -2,7 +2,7 @@ r"""The ledger: the equations of the paper, the claims that it makes in words, a
 
 The paper: A. A. Deriglazov, *Rotation matrix of a charged symmetrical body: one-parameter family of solutions in
 elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file of TOML holds one topic, in the paper's
-order: a table for each entry. What is true of an entry is decided in `atlas.trial.proofs`.
+order: a table for each entry. `atlas.trial.proofs` decides whether an entry is true.
 
 The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` or closes the environment takes a number
 unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
@@ -53,7 +53,7 @@ def _joined(text: str) -> str:
 _PLACED = tuple(_entries())
 _TOPICS = {entry.name: stem for stem, entry in _PLACED}
 EQUATIONS: Mapping[str, Equation] = MappingProxyType({entry.name: entry for _, entry in _PLACED})
-"""The entries by name: "(72)" for what has a number in print."""
+"""The entries by name: "(72)" for an equation with a number in print."""
 
 _ALIASES = {
     alias: tuple(entry for entry in EQUATIONS.values() if entry.alias == alias)

@@ -16,5 +16,5 @@ def cited(text: str) -> list[str]:
 
 
 def marked(text: str, known: Container[str]) -> str:
-    """Put the sign of a citation before each known name that a caption cites: what @ marks in a report is a link."""
+    """Put the sign of a citation before each known name that a caption cites: a name behind @ is a link in a report."""
     return _CITED.sub(lambda match: f"@{match[1]}" if match[1] in known else match[0], text)

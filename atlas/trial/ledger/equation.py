@@ -8,7 +8,7 @@ Section = Literal["II", "III", "IV", "V", "VII", "Atlas"]
 
 ASSUMPTIONS = {
     "symmetric": r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-    "field": r"$\mathbf{B}' = (0, B'_2, B'_3)$, $B'_2 > 0$, $B'_3 > 0$",
+    "field": r"$\mathbf{B}' = (0, B'_2, B'_3)^T$, $B'_2 > 0$, $B'_3 > 0$",
     "off the lines": r"$\omega_2$ differs from $-B'_2$",
 }
 """Assumptions of entries in several files, by the words that stand for them there."""
@@ -21,21 +21,21 @@ def slug(name: str) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Equation:
-    r"""An equation: what it is called, what it says, and what it takes for granted.
+    r"""An equation: its name, its formula and its assumptions.
 
     name         the number that it has in print, "(72)"; one without, such as a claim made in words, has a name
                  `text-...` of our own, a theorem that the paper doesn't have `theorem-...`: the key in its file
-    says         what it says, in one line
+    says         its statement in words, in one line
     tex          the formula as printed, slips included, in modern TeX
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
-    assumptions  what must hold for it, each in a few words; in its file also the name of one of `ASSUMPTIONS` or of the
+    assumptions  its conditions, each in a few words; in its file also the name of one of `ASSUMPTIONS` or of the
                  table `assumptions` there
     quote        the words of the paper that make the claim, where it has no formula for it
-    kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours);
+    kind         definition, derivation step (follows from earlier equations), claim (a result), theorem (ours);
                  where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
                  claim
-    section      II to V, VII (the appendix, numbered as a section), or Atlas for what the paper doesn't have: that of
-                 its file, as `atlas.trial.ledger` has it
+    section      II to V, VII (the appendix, numbered as a section), or Atlas for a theorem beyond the
+                 paper: that of its file, as `atlas.trial.ledger` has it
     """
 
     name: str

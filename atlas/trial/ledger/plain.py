@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 _CITATION = re.compile(r"(?<!\w)@(?=[\w(])")
 _MISSING = {"ne": "≠", "bot": "⊥", "iff": " ⇔ ", "implies": " ⇒ ", "det": "det", "operatorname": "%s", "mathbf": "%s"}
-"""What pylatexenc has no text for, and upright bold letters, which it would write with letters few fonts have."""
+"""Commands without a text in pylatexenc, and upright bold letters, for which it takes letters that few fonts have."""
 
 
 def plain(markdown: str) -> str:
@@ -28,7 +28,7 @@ def words(markdown: str) -> str:
 
 
 def printable(text: str) -> str:
-    """Return a text without what a terminal would obey."""
+    """Return a text without control characters."""
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 

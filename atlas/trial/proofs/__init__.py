@@ -4,9 +4,9 @@
     proofs.verify(["(72)"])       try entries of the ledger now, all if none is named
     proofs.recorded.load()        the recorded verdicts, without SymPy
 
-`notation` reads a printed formula, `model` says what stands before it, `decide` decides, `trial` joins the three; one
-file holds the trials of one topic, under the name that it has in the ledger. What needs SymPy is loaded when it
-is used.
+`notation` reads a printed formula, `model` gives values to its letters, `decide` decides, `trial` joins the three; one
+file holds the trials of one topic, under the name that it has in the ledger. Modules with SymPy are loaded when one is
+used.
 """
 
 from importlib import import_module
@@ -21,7 +21,7 @@ _LAZY = {"verify": "run", "try_one": "run", "script_of": "script", "sides_of": "
 
 
 def __getattr__(name: str) -> Any:
-    """Load what needs SymPy when it is first used."""
+    """Load a module that needs SymPy when it is first used."""
     if name not in _LAZY:
         raise AttributeError(f"module 'atlas.trial.proofs' has no attribute {name!r}")
     return getattr(import_module(f"atlas.trial.proofs.{_LAZY[name]}"), name)

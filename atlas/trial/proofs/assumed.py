@@ -19,18 +19,22 @@ from atlas.trial.proofs.model import Model
 from atlas.trial.proofs.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
 
 POINTS, NEAR = 6000, 0.05
-"""Points of a model, and how near one of them must come to an end of a domain, beside 1 and what is compared."""
+"""Points of a model, and how near one of them must come to an end of a domain, beside 1 and the sizes compared."""
 
 _CLAUSE = re.compile(r"\$([^$]+)\$(?: (differs? from|is) (0|\d|\$[^$]+\$))?(?: \([^)]*\))?")
 
 
 @dataclass(frozen=True)
 class Read:
-    """What became of the assumptions of an entry: read and so in the models, read and not so, and not read."""
+    """Assumptions of an entry: true in the models, false there, not read; and (model, symbol, value) of special cases.
+
+    A special case is an equation for a symbol that is free in the model, so that the claim must have a value there.
+    """
 
     kept: tuple[str, ...]
     broken: tuple[str, ...]
     left: tuple[str, ...]
+    special: tuple[tuple[int, Any, Any], ...] = ()
 
 
 def formulas(words: str) -> Iterator[tuple[str, str]]:
@@ -48,6 +52,7 @@ def formulas(words: str) -> Iterator[tuple[str, str]]:
 def held(assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[Model], apart: Sequence[str]) -> Read:
     """Hold models against assumptions, but for the clauses `apart`, whose letters mean something else."""
     kept, broken, left = list[str](), list[str](), list[str]()
+    special = list[tuple[int, Any, Any]]()
     domains: dict[int, list[tuple[str, Any, Any]]] = {}
     for clause, formula in (pair for words in assumptions for pair in formulas(words)):
         read = "" if clause in apart else formula
@@ -56,12 +61,20 @@ def held(assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[
             left.append(clause)
         for number, relation in relations:
             if relation.sign == "=":
-                (kept if _holds(relation, models[number]) else broken).append(relation.text)
+                bindings = resolved(models[number].bindings)
+                free = not _vanish(relation, bindings)
+                (broken if free and not _independent(relation, models[number], bindings) else kept).append(
+                    relation.text
+                )
+                special += [(number, relation.left[0], relation.right[0])] * free
+            elif relation.sign == "!=":
+                (broken if _vanish(relation, resolved(models[number].bindings)) else kept).append(relation.text)
             else:
                 domains.setdefault(number, []).extend(_sides(relation, models[number]))
     for text, distance in _nearest(domains, models).items():
         (kept if distance < NEAR else broken).append(text)
-    return Read(*(tuple(dict.fromkeys(texts)) for texts in (kept, broken, left)))
+    kept, broken, left = (list(dict.fromkeys(texts)) for texts in (kept, broken, left))
+    return Read(tuple(kept), tuple(broken), tuple(left), tuple(special))
 
 
 def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence[Model]) -> dict[str, float]:
@@ -74,33 +87,35 @@ def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence
 
 
 def _relations(formula: str, signs: Mapping[str, str], model: Model) -> list[Relation]:
-    """Return the relations of a formula in a model; none where it is not read, has letters unknown there, or denies."""
-    known = {*model.letters} | {str(s) for v in model.letters.values() for s in getattr(v, "free_symbols", ())}
+    """Return the relations of a formula in a model; none where it is not read or has letters unknown there."""
+    symbols = {str(s): s for v in model.letters.values() for s in getattr(v, "free_symbols", ())}
+    letters = symbols | model.letters
     try:
         line = tex.line(formula, signs) if formula else ""
-        trees = [tree for tree in parse(line) if set(letters_of(tree)) <= known] if line else []
-        found = Reader(model.letters, model.ranges).relations(write(trees)) if trees else []
-        return [relation for relation in found if relation.sign != "!="]
+        trees = [tree for tree in parse(line) if set(letters_of(tree)) <= {*letters}] if line else []
+        return Reader(letters, model.ranges).relations(write(trees)) if trees else []
     except (tex.UnreadableError, NoMeaningError, TypeError, KeyError, AttributeError, IndexError, SyntaxError):
         return []
 
 
-def _holds(relation: Relation, model: Model) -> bool:
-    """Whether an equation holds in a model, or its letters are independent there."""
-    where = resolved(model.where)
+def _independent(relation: Relation, model: Model, bindings: dict[Any, Any]) -> bool:
+    """Whether the letters of an equation are different free symbols of a model."""
     values = [model.letters.get(name, sympy.Symbol(name, real=True)) for name in relation.letters]
-    single = "(" not in relation.text and all(isinstance(x, sympy.Symbol) and x not in where for x in values)
+    single = "(" not in relation.text and all(isinstance(x, sympy.Symbol) and x not in bindings for x in values)
+    return single and len(set(values)) == len(values)
+
+
+def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
+    """Whether both sides of a relation are identical in free parameters."""
     pairs = zip(relation.left, relation.right, strict=True)
-    return (single and len(set(values)) == len(values)) or all(
-        vanishes(sympy.sympify(a) - sympy.sympify(b), where) for a, b in pairs
-    )
+    return all(vanishes(sympy.sympify(a) - sympy.sympify(b), bindings) for a, b in pairs)
 
 
 def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
-    """Yield what must be positive, and the size of what is compared, in free parameters."""
-    where, sense = resolved(model.where), 1 if relation.sign in {">", ">="} else -1
+    """Yield text, a difference that must be positive, and the size of its terms, in free parameters."""
+    bindings, sense = resolved(model.bindings), 1 if relation.sign in {">", ">="} else -1
     for a, b in zip(map(sympy.sympify, relation.left), map(sympy.sympify, relation.right), strict=True):
-        yield relation.text, (sense * (a - b)).xreplace(where), (1 + abs(a) + abs(b)).xreplace(where)
+        yield relation.text, (sense * (a - b)).xreplace(bindings), (1 + abs(a) + abs(b)).xreplace(bindings)
 
 
 def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple[str, float]]:

@@ -38,7 +38,7 @@ def kinematic_model() -> Model:
     families = zip((1, 2, 3), masses, places, strict=True)
     letters |= {"mass": dict(enumerate(masses, 1)), "x": {n: R * place for n, _, place in families}}
     letters |= {"g": {n: g[n - 1, n - 1] for n in (1, 2, 3)}, "column": {n: R.col(n - 1) for n in (1, 2, 3)}}
-    return Model(letters, ROTATION, dict(zip(R, dR, strict=True)), ranges={"N": (1, 2, 3)})
+    return Model(letters, ROTATION, dict(zip(R, dR, strict=True)), ranges={"N": (1, 2, 3)}, laws="R by (12)")
 
 
 def uniform_ball_model() -> Model:
@@ -60,16 +60,17 @@ def ball_model() -> Model:
     rate = general.euler(tensor, tensor / 2, R.T * Bf) / I0
     columns = {n + 1: R.col(n) for n in range(3)}
     letters = {"R": R, "column": columns, "Bf": Bf, "mu": mu, "c": c, "I0": I0, "Omega": Omega, "m": I0 * R * Omega}
+    letters |= {f"I{n + 1}": tensor[n, n] for n in range(3)}
     flow = dict(zip([*R, *Omega], [*(R * hat(Omega)), *rate], strict=True))
-    return Model(letters, ROTATION, flow)
+    return Model(letters, ROTATION, flow, laws="R by (12), Omega by (16)")
 
 
 def larmor_model() -> Model:
     """B = (0, 0, b), alpha t as an angle."""
     b = sympy.Symbol("b", positive=True)
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
-    where = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
-    model = Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)})
+    bindings = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
+    model = Model(letters, bindings, LARMOR, START, {alpha * t: (ca, sa)})
     model.letters["about_B"] = model.about(E3)
     return model
 
@@ -83,10 +84,10 @@ def larmor_frequency_model() -> Model:
     return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "Bf": field})
 
 
-def _motion(spin: Value, where: list[tuple[Value, Value]]) -> Model:
+def _motion(spin: Value, bindings: list[tuple[Value, Value]]) -> Model:
     letters = {"alpha": alpha, "gamma": gamma, "t": t, "k2": k2, "k3": k3, "I0": I0, "m": spin, "m2": m2, "m3": m3}
     phases = {alpha * t: (ca, sa), gamma * t: (cg, sg)}
-    model = Model(letters, where, {**LARMOR, **TURNING}, START, phases)
+    model = Model(letters, bindings, {**LARMOR, **TURNING}, START, phases)
     model.letters |= {"about_B": model.about(E3), "about_k": model.about(sympy.Matrix([0, k2, k3]))}
     return model
 
@@ -107,26 +108,26 @@ def start_model() -> Model:
 
 def constants_model() -> tuple[Model, Model]:
     """All initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and the point s = 0."""
-    known = {"alpha": alpha, "I0": I0}
-    anywhere = {**known, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
-    rest = {**known, "m2": sympy.Integer(0), "m3": -alpha * I0}
-    return Model(anywhere, domains=UPRIGHT), Model(rest, domains=UPRIGHT)
+    vocabulary = {"alpha": alpha, "I0": I0}
+    anywhere = {**vocabulary, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
+    remainder = {**vocabulary, "m2": sympy.Integer(0), "m3": -alpha * I0}
+    return Model(anywhere, domains=UPRIGHT), Model(remainder, domains=UPRIGHT)
 
 
 def true_constants_model() -> tuple[Model, Model]:
     """Model the same with k and gamma solved from the motion at t = 0; where gamma = 0, k is any unit vector."""
-    anywhere, rest = constants_model()
+    anywhere, remainder = constants_model()
     axis = {"k2": -turn(h)[1], "k3": -turn(h)[0], "gamma": size / I0}
     return (
         Model({**anywhere.letters, **axis}),
-        Model({**rest.letters, "k2": turn(h)[1], "k3": turn(h)[0], "gamma": sympy.Integer(0)}),
+        Model({**remainder.letters, "k2": turn(h)[1], "k3": turn(h)[0], "gamma": sympy.Integer(0)}),
     )
 
 
 def parallel_model(sign: int = 1) -> Model:
     """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of (29)."""
-    known = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
-    letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **known}
+    vocabulary = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
+    letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **vocabulary}
     return Model(letters, domains=UPRIGHT)
 
 
@@ -138,7 +139,7 @@ def parallel_motion_model() -> Model:
     return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)})
 
 
-def _turned(line: str) -> str:
+def _with_rotation(line: str) -> str:
     """Add to m = M m0 that the matrix M is the turn by -alpha t about the field: its first column meets a zero."""
     product = parse(line)[0].comparators[0]
     return f"{line}; {ast.unparse(product.left) if isinstance(product, ast.BinOp) else product} = about_B(-alpha*t)"
@@ -149,11 +150,11 @@ LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 def round_model() -> Model:
     """Masses on the principal axes with equal moments; omega = R Omega."""
-    whole = kinematic_model()
+    basis = kinematic_model()
     moment = sympy.Symbol("G", positive=True)
     masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", real=True)
-    where = [*ROTATION, *((mass, moment / place**2) for mass, place in zip(masses, places, strict=True))]
-    return Model({**whole.letters, "I0": 2 * moment}, where)
+    bindings = [*ROTATION, *((mass, moment / place**2) for mass, place in zip(masses, places, strict=True))]
+    return Model({**basis.letters, "I0": 2 * moment}, bindings)
 
 
 def body_flow_model() -> Model:
@@ -161,7 +162,7 @@ def body_flow_model() -> Model:
     K = vector("K")
     flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
     letters = {"Omega": Omega, "K": K, "R": R, "Bf": 2 * c / mu * R * K, "mu": mu, "c": c}
-    return Model(letters, ROTATION, flow)
+    return Model(letters, ROTATION, flow, laws="Omega by (21), K by (35)")
 
 
 def any_momentum_model() -> Model:
@@ -170,7 +171,7 @@ def any_momentum_model() -> Model:
     spin = R.T * m / I0
     letters = {"Omega": spin, "m": m, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
     flow = dict(zip([*R, *m], [*(R * hat(spin)), *rate], strict=True))
-    return Model(letters, ROTATION, flow)
+    return Model(letters, ROTATION, flow, laws="R by (12), m any")
 
 
 def along_model() -> Model:
@@ -240,7 +241,7 @@ TRIALS = {
         corrected_tex=r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
         r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}",
         grade="wording",
-        note=r"It is so at each instant, but $R^T \mathbf{B}$ moves as well. What stands still in the body is "
+        note=r"It is so at each instant, but $R^T \mathbf{B}$ moves as well. At rest in the body is "
         r"$\boldsymbol{\Omega} + \mathbf{K}$, and the components turn about that with the frequency $\gamma$ of "
         "@(29), not with Larmor's.",
     ),
@@ -275,7 +276,7 @@ TRIALS = {
         ),
     ),
     "(26)": Trial(
-        form=_turned,
+        form=_with_rotation,
         model=larmor_model,
         follows=r"@(25) by substitution, $\alpha$ of @(27)",
         defines=("m",),

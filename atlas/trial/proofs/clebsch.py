@@ -33,12 +33,12 @@ def tensor_model() -> Model:
     letters = {"J": J, "Omega": Omega, "K": K, "W": Omega + K, "M": J * (Omega + K)}
     letters |= {"inv": lambda tensor: tensor.adjugate() / determinant(tensor)}
     letters["H"] = dot(Omega + K, J * (Omega + K)) / 2 + dot(K, J * K) / 2
-    return Model(letters, flow=dict(zip([*Omega, *K], [*spin, *field], strict=True)))
+    return Model(letters, flow=dict(zip([*Omega, *K], [*spin, *field], strict=True)), laws="Omega by (16), K by (35)")
 
 
 def frame_model() -> Model:
     """Model R with any spin, and turns about B' = b (0, sin, cos) of any inclination."""
-    R, where = rotation_symbols()
+    R, bindings = rotation_symbols()
     b, slope = sympy.Symbol("b", positive=True), sympy.Symbol("p", real=True)
     c, s, q, t = sympy.symbols("c1 s1 q t", real=True)
     cosine, sine = turn(slope)
@@ -46,20 +46,22 @@ def frame_model() -> Model:
     flow = {c: -b * s, s: b * c} | dict(zip(R, R * hat(Omega), strict=True))
     letters = {"R": R, "Omega": Omega, "Bp": b * axis, "K": R.T * (b * axis), "b": b, "t": t}
     start = {c: 1, s: 0} | dict(zip(R, sympy.eye(3), strict=True))
-    model = Model(letters, [*where, (c, turn(q)[0]), (s, turn(q)[1])], flow, start, {b * t: (c, s)})
+    model = Model(
+        letters, [*bindings, (c, turn(q)[0]), (s, turn(q)[1])], flow, start, {b * t: (c, s)}, laws="R by (12)"
+    )
     model.letters["about_B"] = model.about(axis)
     return model
 
 
 def reversed_model() -> Model:
     """Model the state at -t of a motion by (12), (16) and (35): its rates are minus those of the equations."""
-    whole, frame = tensor_model(), frame_model()
-    back = {symbol: -whole.flow[symbol] for symbol in (*Omega, *K)}
+    basis, frame = tensor_model(), frame_model()
+    back = {symbol: -basis.flow[symbol] for symbol in (*Omega, *K)}
     R = frame.letters["R"]
-    where = [*frame.where, *zip(K, frame.letters["K"], strict=True)]
+    bindings = [*frame.bindings, *zip(K, frame.letters["K"], strict=True)]
     flow = {**frame.flow, **back, **dict(zip(R, -R * hat(Omega), strict=True))}
-    letters = {**frame.letters, **whole.letters, "g": MASS}
-    return Model(letters, where, flow, frame.start, frame.phases)
+    letters = {**frame.letters, **basis.letters, "g": MASS}
+    return Model(letters, bindings, flow, frame.start, frame.phases, laws="minus those of (12), (16) and (35)")
 
 
 def poisson_model() -> Model:
@@ -74,12 +76,12 @@ def poisson_model() -> Model:
         (fM, fK), (gM, gK) = ((partial(each, M), partial(each, K)) for each in (f, g))
         return -dot(M, cross(fM, gM)) - dot(K, cross(fM, gK) + cross(fK, gM))
 
-    letters = {"M": M, "K": K, "J": AXES, "H": H, "br": bracket}
+    letters = {"M": M, "K": K, "J": AXES, "H": H, "Omega": spin, "br": bracket}
     letters["F"] = dot(M, M) - determinant(AXES) * dot(K, AXES.inv() * K)
     letters["rank"] = _rank
     field = cross(K, spin)
     flow = dict(zip([*M, *K], [*(torque + AXES * field), *field], strict=True))
-    return Model(letters, flow=flow)
+    return Model(letters, flow=flow, laws="M by (16) and (35), K by (35)")
 
 
 def _rank(*functions: Value) -> int:
@@ -90,15 +92,15 @@ def _rank(*functions: Value) -> int:
 
 def symmetric_model() -> Model:
     """Model the symmetric body, with c3 and c5 as they are at any state."""
-    whole = state_model()
-    tensor = sympy.diag(whole.letters["I2"], whole.letters["I2"], whole.letters["I3"])
-    W = whole.letters["Omega"] + whole.letters["K"]
-    letters = {**whole.letters, "J": tensor, "M": tensor * W, "M3": (tensor * W)[2]}
-    letters["H"] = dot(W, tensor * W) / 2 + dot(whole.letters["K"], tensor * whole.letters["K"]) / 2
+    basis = state_model()
+    tensor = sympy.diag(basis.letters["I2"], basis.letters["I2"], basis.letters["I3"])
+    W = basis.letters["Omega"] + basis.letters["K"]
+    letters = {**basis.letters, "J": tensor, "M": tensor * W, "M3": (tensor * W)[2]}
+    letters["H"] = dot(W, tensor * W) / 2 + dot(basis.letters["K"], tensor * basis.letters["K"]) / 2
     letters["F"] = dot(tensor * W, tensor * W) - determinant(tensor) * dot(
-        whole.letters["K"], tensor.inv() * whole.letters["K"]
+        basis.letters["K"], tensor.inv() * basis.letters["K"]
     )
-    return Model(letters, flow=whole.flow)
+    return Model(letters, flow=basis.flow, laws=basis.laws)
 
 
 TRIALS = {

@@ -39,7 +39,7 @@ _SIMPLE: dict[str, tuple[Fraction | int, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What the trial of one line found."""
+    """Decision on one line, its method and a counterexample."""
 
     decision: Decision
     method: str = ""
@@ -58,7 +58,7 @@ def decide(
     """Try a line in a model, or in each of several cases.
 
     defines      names on the left of `=` that the line defines: they are taken from it, not checked against the model
-    solves       a second line that must hold with what the first one defines
+    solves       a second line that must hold with the definitions of the first one
     sample_only  look for a counterexample only, and say `supported` if there is none
     shrink       make the counterexample as simple as possible
     """
@@ -66,10 +66,10 @@ def decide(
     methods: list[str] = []
     for model in models:
         try:
-            relations, letters, where = understood(line, model, tuple(defines), solves)
+            relations, letters, bindings = understood(line, model, tuple(defines), solves)
         except NoMeaningError as reason:
             return Outcome("refuted", "indices", reason.example)
-        here = replace(model, letters=letters, where=where)
+        here = replace(model, letters=letters, bindings=bindings)
         trees = parse(f"{line}; {solves}" if solves else line)
         example = _counterexample(
             relations, here, tuple(name for tree in trees for name in letters_of(tree)), shrink=shrink
@@ -94,7 +94,7 @@ def decide(
 def understood(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
-    """Return the relations to be checked, and the model's letters and `where` with what the line defines."""
+    """Return the relations to be checked, and letters and `bindings` of the model with the definitions of the line."""
     try:
         return _understand(line, model, defines, solves)
     except NoMeaningError:
@@ -106,7 +106,7 @@ def understood(
 def _understand(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
-    letters, where = dict(model.letters), list(model.where)
+    letters, bindings = dict(model.letters), list(model.bindings)
     kept, already = [], set[str]()
     for tree in parse(line):
         letters |= _function(tree, defines, Reader(letters, model.ranges))
@@ -117,12 +117,12 @@ def _understand(
             already.add(name)
             tree.left, tree.ops = tree.comparators.pop(0), tree.ops[1:]
             value = Reader(letters, model.ranges).value(tree.left, {})
-            where, letters[name] = _meant(name, value, letters) + where, value
+            bindings, letters[name] = _meant(name, value, letters) + bindings, value
         if tree.comparators:
             kept.append(tree)
     reader = Reader(letters, model.ranges)
     relations = reader.relations(write(kept)) if kept else []
-    new = [entry for place, entry in enumerate(where) if entry[0] not in {symbol for symbol, _ in where[:place]}]
+    new = [entry for place, entry in enumerate(bindings) if entry[0] not in {symbol for symbol, _ in bindings[:place]}]
     return relations + (reader.relations(solves) if solves else []), letters, new
 
 
@@ -138,12 +138,12 @@ def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
 
 
 def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
-    """Return what the symbols of a letter are that a line defines, so that it may stand before its definition."""
-    known = letters.get(name, sympy.Symbol(name, real=True))
-    if isinstance(known, sympy.MatrixBase):
-        pairs = list(zip(known, value, strict=True))
+    """Return pairs (symbol, value) for a letter that a line defines, so that it may stand before its definition."""
+    vocabulary = letters.get(name, sympy.Symbol(name, real=True))
+    if isinstance(vocabulary, sympy.MatrixBase):
+        pairs = list(zip(vocabulary, value, strict=True))
     else:
-        pairs = [(known, value)] if isinstance(value, sympy.Expr) else []
+        pairs = [(vocabulary, value)] if isinstance(value, sympy.Expr) else []
     return pairs if all(isinstance(symbol, sympy.Symbol) for symbol, _ in pairs) else []
 
 
@@ -165,10 +165,10 @@ def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> di
 
 
 def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> str:
-    """Say which letters of a line have no meaning in the model, and what the line says twice; empty if all is well."""
-    known = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.where}
-    known |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
-    strange = {name for tree in trees for name in letters_of(tree)} - known
+    """Say which letters of a line have no meaning in the model, and which statements stand twice; empty if none."""
+    vocabulary = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.bindings}
+    vocabulary |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
+    strange = {name for tree in trees for name in letters_of(tree)} - vocabulary
     if strange:
         return f"unreadable: {', '.join(sorted(strange))} means nothing here"
     calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)]
@@ -182,14 +182,14 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
 def _empty(tree: ast.Compare, model: Model) -> str:
     """Say why a bracket or a derivative that is zero says less than it seems to; empty if it does not.
 
-    What is zero for every index is so for each one, and letters that are independent have no derivatives.
+    A component that is zero for every index is zero for each one, and letters that are independent have no derivatives.
     """
     if not is_zero(tree.comparators[-1]) or not isinstance(tree.ops[-1], ast.Eq):
         return ""
     if isinstance(tree.left, ast.Call) and _name(tree.left) == "d2":
         rate = ast.Compare(ast.Call(ast.Name("d"), tree.left.args, []), [ast.Eq()], [ast.Constant(0)])
         if all(_prove(relation, model) for relation in Reader(model.letters, model.ranges).relations(write([rate]))):
-            return f"{ast.unparse(tree.left)} is the rate of what is zero itself"
+            return f"{ast.unparse(tree.left)} is the rate of zero"
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _name(node) in {"br", "partial"}]
     for call in calls:
         if any(isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant) for node in ast.walk(call)):
@@ -208,7 +208,7 @@ def _name(call: ast.Call) -> str:
 
 
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
-    """Say what is wrong with a line that checks nothing, or defines a letter on which nothing that is checked depends.
+    """Return the fault of a line that checks nothing, or defines a letter on which no checked statement depends.
 
     Such a line would hold whatever stands on its right: it is not a claim. Empty if all is well.
     """
@@ -216,8 +216,8 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
         return "nothing in it is checked"
     named = {name for relation in relations for name in relation.letters}
     values = [side for relation in relations for side in (*relation.left, *relation.right)]
-    all_reached = reached(values, [*model.where, *model.flow.items()])
-    named |= {str(symbol) for symbol, _ in model.where if symbol in all_reached}
+    all_reached = reached(values, [*model.bindings, *model.flow.items()])
+    named |= {str(symbol) for symbol, _ in model.bindings if symbol in all_reached}
     for tree in reversed(parse(line)):  # a letter may be used in the definition of another one
         name = getattr(tree.left, "id", None)
         if name in defines and name not in named:
@@ -228,7 +228,7 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
 
 
 def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> set[Value]:
-    """Return the symbols on which values depend, also through rules that say what a symbol is, or its rate."""
+    """Return the symbols on which values depend, also through rules (symbol, value or rate)."""
     symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     while True:
         more = symbols | {s for symbol, value in rules if symbol in symbols for s in sympy.sympify(value).free_symbols}
@@ -243,13 +243,13 @@ def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) 
     values += [
         model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
     ]
-    return sorted(reached(values, model.where) - {symbol for symbol, _ in model.where}, key=str)
+    return sorted(reached(values, model.bindings) - {symbol for symbol, _ in model.bindings}, key=str)
 
 
 def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
-    """Add what the symbols of `where` are at a point; each may use any other that doesn't depend on it."""
+    """Add the values of the symbols of `bindings` at a point; each may use any other that does not depend on it."""
     point = dict(values)
-    for symbol, value in ordered(model.where):
+    for symbol, value in ordered(model.bindings):
         value_there = sympy.sympify(value).xreplace(point)
         if not value_there.free_symbols:
             point[symbol] = value_there
@@ -295,22 +295,22 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
     names  the letters to be shown, where they have a value at that point
     """
     valued = [False] * len(relations)
-    free: dict[Value, Value] = {}
-    for free in points(parameters(relations, model, names), model):
-        values = completed(free, model)
+    assignment: dict[Value, Value] = {}
+    for assignment in points(parameters(relations, model, names), model):
+        values = completed(assignment, model)
         for number, relation in enumerate(relations):
             for entry in range(len(relation.left)):
                 broken = breaks(relation, entry, values)
                 valued[number] |= broken is not None
                 if broken:
                     if shrink:
-                        values = simplest(relation, entry, free, model)
+                        values = simplest(relation, entry, assignment, model)
                     return _describe(relation, entry, model, names, values)
     for number, relation in enumerate(relations):
         if not valued[number] and relation.left:
-            ones = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in free}
-            shown = _describe(relation, 0, model, names, completed(ones, model))
-            return {**shown, "left": "no value: 0/0", "right": "no value: 0/0"}
+            ones = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in assignment}
+            described = _describe(relation, 0, model, names, completed(ones, model))
+            return {**described, "left": "no value: 0/0", "right": "no value: 0/0"}
     return {}
 
 
@@ -322,15 +322,15 @@ def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool |
     return _violated(relation.sign, difference)
 
 
-def simplest(relation: Relation, entry: int, free: dict[Value, Value], model: Model) -> dict[Value, Value]:
+def simplest(relation: Relation, entry: int, assignment: dict[Value, Value], model: Model) -> dict[Value, Value]:
     """Replace the parameters of a counterexample one by one by 0, 1, 2, as far as it stays one."""
-    for symbol in free:
+    for symbol in assignment:
         for value in _SIMPLE[_domain(symbol, model)]:
-            simpler = {**free, symbol: sympy.Rational(value)}
+            simpler = {**assignment, symbol: sympy.Rational(value)}
             if breaks(relation, entry, completed(simpler, model)):
-                free = simpler
+                assignment = simpler
                 break
-    return completed(free, model)
+    return completed(assignment, model)
 
 
 def _describe(
@@ -343,8 +343,10 @@ def _describe(
         if isinstance(value, dict):
             plain = any(isinstance(key, int) for key in value)
             family = {key: _show(v, values) for key, v in value.items() if isinstance(key, int) or not plain}
-            not_zero = {key: shown for key, shown in family.items() if shown.strip("[]0, ")}
-            texts |= {f"{name}[{str(key).strip('()').replace(' ', '')}]": shown for key, shown in not_zero.items()}
+            not_zero = {key: described for key, described in family.items() if described.strip("[]0, ")}
+            texts |= {
+                f"{name}[{str(key).strip('()').replace(' ', '')}]": described for key, described in not_zero.items()
+            }
             if len(not_zero) < len(family):
                 texts[f"any other {name}"] = "0"
         elif isinstance(value, sympy.MatrixBase | sympy.Expr) and value.free_symbols <= set(values):
@@ -372,13 +374,13 @@ def _show(value: Value, values: dict[Value, Value]) -> str:
 def _prove(relation: Relation, model: Model) -> str:
     """Prove a relation and return how; empty if it can't."""
     how = "identity"
-    where = resolved(model.where)
+    bindings = resolved(model.bindings)
     for left, right in zip(relation.left, relation.right, strict=True):
         difference = sympy.sympify(left) - sympy.sympify(right)
         if relation.sign == "=":
-            how = "polynomial identity" if vanishes(difference, where) else ""
+            how = "polynomial identity" if vanishes(difference, bindings) else ""
         else:
-            value = difference.xreplace(where)
+            value = difference.xreplace(bindings)
             signs = {">": [value], ">=": [value], "<": [-value], "<=": [-value], "!=": [value, -value]}[relation.sign]
             strict = relation.sign not in {"<=", ">="}
             how = "one sign throughout" if any(positive(sign, strict=strict) for sign in signs) else ""

@@ -36,7 +36,7 @@ K_OF_OMEGA2 = (k, omega2 / hB2)
 ON_HYPERBOLA = [(omega3, constant_omega3().subs(omega1, 0))]
 PHI = (phi, omega3 - B3 / B2 * omega2)
 CONSTANTS = {"hB2": hB2, "hB3": hB3, "B2": B2, "B3": B3, "k": k, "phi": phi, "t": t, "k0": k0, "c": c}
-CONSTANTS |= {"amp": amplitude, "I": I, "I2": I2, "omega2": omega2, "omega3": omega3}
+CONSTANTS |= {"amp": amplitude, "I": I, "I2": I2, "omega2": omega2, "omega3": omega3, "Bp": sympy.Matrix([0, B2, B3])}
 SPIN = sympy.Matrix([omega2 * sf, omega2 * cf, omega3])
 TENSOR, MASS = I2 * sympy.diag(1, 1, I), I2 * sympy.diag(I, I, 2 - I) / 2
 DOMAINS = {"u": "unit"}
@@ -57,9 +57,9 @@ PROPER = sympy.Matrix([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
 
 
 def _model(
-    letters: dict[str, Value], where: list[tuple[Value, Value]], flow: dict[Value, Value] | None = None
+    letters: dict[str, Value], bindings: list[tuple[Value, Value]], flow: dict[Value, Value] | None = None
 ) -> Model:
-    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS)
+    return Model({**CONSTANTS, **letters}, bindings, flow or FLOW, START, PHASES, DOMAINS)
 
 
 def velocity_model() -> Model:
@@ -76,7 +76,7 @@ def row_model() -> Model:
 
 
 def integral_model() -> Model:
-    """Any row that obeys (75) with Omega of (73); c is what (76) says at that state."""
+    """Any row that obeys (75) with Omega of (73); c by (76) at that state."""
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
     letters = {"Omega": SPIN, "gamma": gamma}
     letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
@@ -100,9 +100,10 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
     """Return A row by (78) and (80)."""
     third = size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
     rate = -k * size * (sk * phase[0] + ck * phase[1])
-    rest = constant - hB3 * omega2 / hB2 * third
+    remainder = constant - hB3 * omega2 / hB2 * third
     return (
-        sympy.Matrix([SPIN[0] * rest + SPIN[1] * rate, SPIN[1] * rest - SPIN[0] * rate, omega2**2 * third]) / omega2**2
+        sympy.Matrix([SPIN[0] * remainder + SPIN[1] * rate, SPIN[1] * remainder - SPIN[0] * rate, omega2**2 * third])
+        / omega2**2
     )
 
 
@@ -135,16 +136,16 @@ def matrix_model() -> Model:
 
 def steady_momentum_model() -> list[Model]:
     """Model the same for a ball, and at rest."""
-    whole = matrix_model()
-    known = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
-    return [replace(whole, where=[*whole.where, pair]) for pair in known]
+    basis = matrix_model()
+    vocabulary = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
+    return [replace(basis, bindings=[*basis.bindings, pair]) for pair in vocabulary]
 
 
 def resting_row_model() -> Model:
     """Model A row of the matrix of a body at rest."""
-    whole = row_model()
-    rest = dict.fromkeys(whole.letters["Omega"], sympy.Integer(0))
-    return Model({f"dgamma{n}": whole.letters[f"dgamma{n}"].xreplace(rest) for n in (1, 2, 3)})
+    basis = row_model()
+    remainder = dict.fromkeys(basis.letters["Omega"], sympy.Integer(0))
+    return Model({f"dgamma{n}": basis.letters[f"dgamma{n}"].xreplace(remainder) for n in (1, 2, 3)})
 
 
 def frequencies_model() -> Model:
@@ -162,8 +163,8 @@ def free_model() -> Model:
     body = sympy.diag(I2, I2, I3)
     letters = {"Omega": spin, "R": precession() * PROPER, "J": body, "I3": I3, "kB": k, "Bp": sympy.Matrix([0, B2, B3])}
     letters["Omega0"] = spin.subs(START)
-    where = [K_OF_OMEGA2, *ANGLES, *FIELD]
-    return _model(letters, where)
+    bindings = [K_OF_OMEGA2, *ANGLES, *FIELD]
+    return _model(letters, bindings)
 
 
 def free_frequency_model() -> list[Model]:
@@ -194,10 +195,10 @@ def free_body_model() -> Model:
     a, m = vector("a"), vector("m")
     I3 = sympy.Symbol("I3", positive=True)
     omega = m / I2 + (1 / I3 - 1 / I2) * a.dot(m) * a
-    where = list(zip(a, direction(), strict=True))
+    bindings = list(zip(a, direction(), strict=True))
     return Model(
         {"a": a, "m": m, "omega": omega, "I2": I2, "I3": I3, "B": hat},
-        where,
+        bindings,
         dict(zip(a, cross(omega, a), strict=True)),
     )
 
@@ -212,10 +213,10 @@ def free_proper_model() -> Model:
 
 
 def _rows(line: str) -> str:
-    """Return what the constants c, b, k0 of three rows say of them: row(c, b, k0) is the row at t = 0."""
+    """Return the statement row(c, b, k0) = row at t = 0 for the constants c, b, k0 of each of three rows."""
     letters, values = zip(*((sides(row)[0], sides(row)[1:]) for row in line.split("; ")), strict=True)
     if letters != ("c", "amp", "k0") * 3:
-        raise UnreadableError("three rows of the constants c, b, k0 are not what stands here")
+        raise UnreadableError("here must stand three rows of the constants c, b, k0")
     first = [value[0] for value in values]
     rows = [f"row({', '.join(first[3 * n : 3 * n + 3])}) = {[int(n == m) for m in range(3)]}" for n in range(3)]
     return "; ".join(rows + [" = ".join(value) for value in values if len(value) > 1])
@@ -385,7 +386,7 @@ TRIALS = {
     ),
     "text-free-proper": Trial(
         model=free_proper_model,
-        follows=r"@text-free-general: what is left of $\Omega_3$ when the precession is taken away",
+        follows=r"@text-free-general: $\Omega_3$ less the share of the precession",
         false=Falsehood(
             "A body longer than a ball turns back about its axis", "= (I2 - I3)/(I2*I3)*m3", "= (I3 - I2)/(I2*I3)*m3"
         ),

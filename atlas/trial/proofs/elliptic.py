@@ -93,12 +93,31 @@ def free_model() -> Model:
     return Model(letters, flow=dict(zip(K, cross(K, spin), strict=True)))
 
 
+def system_model() -> Model:
+    """Model any state of a body with principal moments, its rates, and any moments x_i and products y_i K."""
+    x, y, Omega = (sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("x", "y", "Omega"))
+    g, field = AXES.trace() * ONE - 2 * AXES, cross(K, Omega)
+    rates = AXES.inv() * (cross(AXES * Omega, Omega) - cross(g * K, Omega))
+    letters = {f"I{n}": moment for n, moment in enumerate(MOMENTS, 1)} | {"x": x, "y": y, "K": K, "Omega": Omega}
+    letters |= {"X": sympy.diag(*x), "Y": sympy.diag(*y), "one": ONE}
+    return Model(letters, flow=dict(zip([*Omega, *K], [*rates, *field], strict=True)), laws="Omega by (16), K by (35)")
+
+
+def unidentified_model() -> Model:
+    """Model any field K that turns as the angular momentum s K of a free body with the moments J_i."""
+    moments = first, second, third = sympy.symbols("J1:4", positive=True)
+    names = ("s", "alpha", "beta", "gamma")
+    letters = {name: sympy.Symbol(name, real=True) for name in names} | {"K": K, "J": sympy.diag(*moments), "one": ONE}
+    letters["A"] = sympy.diag(first * (second + third), second * (first + third), third * (first + second))
+    return Model(letters, flow=dict(zip(K, cross(K, letters["s"] * letters["J"].inv() * K), strict=True)))
+
+
 def bodies_model(sign: int = 1) -> Model:
     """Model I_i = J_i (J_j + J_k + s), each J_i the sum of two moments of mass, with an s of one sign."""
     (first, second, third), s = sympy.symbols("g1:4", positive=True), sympy.Symbol("s", positive=True)
     moments = second + third, first + third, first + second
-    whole = sum(moments)
-    return Model({f"I{n}": J * (whole - J + sign * s * whole) for n, J in enumerate(moments, 1)})
+    basis = sum(moments)
+    return Model({f"I{n}": J * (basis - J + sign * s * basis) for n, J in enumerate(moments, 1)})
 
 
 def linear_model() -> Model:
@@ -118,6 +137,17 @@ def linear_model() -> Model:
     return Model(letters)
 
 
+_SYSTEM = {r"(\operatorname{tr}Y-2Y)": "(tr(Y)*one - 2*Y)", "J^{-1}": "inv(J)"}
+
+
+def _component(i: int, j: int, k: int) -> str:
+    """Return the line of component i of theorem-identifiable, whose first one has i, j, k = 1, 2, 3."""
+    share, half = f"x{i}/I{i}*(I{j} - I{k})", f"(y{i} - x{i})"
+    field = f"({share} - y{j} + y{k} + {half})*K{j}*Omega{k} + ({share} - y{j} + y{k} - {half})*K{k}*Omega{j}"
+    left = "(X*d(Omega) - cross(X*Omega,Omega) + cross((tr(Y)*one - 2*Y)*K,Omega))"
+    return f"{left}[{i}] = ({share} - x{j} + x{k})*Omega{j}*Omega{k} + {field}"
+
+
 _SPLITTING = read("theorem-splitting", SIGNS | {r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"})
 _C = sides(_SPLITTING.split("; ")[3])[1]
 
@@ -134,8 +164,8 @@ TRIALS = {
         defines=("Omega", "E", "P"),
         solves="d(K) = cross(K,Omega); J*d(Omega) - cross(J*Omega,Omega) + 2*cross(g*K,Omega)"
         " = (1 - v^2/P)*cross(J*K,K)",
-        note=r"What is left of @(16) vanishes for $v^2=P$, and from a start there is but one solution. For another $v$ "
-        r"it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
+        note=r"The remainder of @(16) vanishes for $v^2=P$, and from a start there is but one solution. For another "
+        r"$v$ it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
         false=Falsehood("The moments add, with no $z$", "z + D/I[1]", "D/I[1]"),
     ),
     "theorem-free-body": Trial(
@@ -150,7 +180,7 @@ TRIALS = {
             ),
         ),
         note=r"For $s>0$ the $I_i$ are moments of a body, as the $J_i$ are. For $s<0$ they have one sign if "
-        r"$-\min(J_j+J_k)<s$, where $\lvert s\rvert(J_j+J_k-J_i)\le2J_jJ_k$ for each $i$ is what a body asks, and if "
+        r"$-\min(J_j+J_k)<s$, where a body needs $\lvert s\rvert(J_j+J_k-J_i)\le2J_jJ_k$ for each $i$, and if "
         r"$s<-\max(J_j+J_k)$, where $\ge$ is. An elliptic motion whose $E_i-1$ have one sign has the constants "
         "$1/(E_i-1)$ of a free body, which need not be moments of one.",
         false=Falsehood(
@@ -158,6 +188,42 @@ TRIALS = {
             "I2 + I3 - I1 > 0",
             "I2 + I3 - I1 > 0",
             lambda: bodies_model(-1),
+        ),
+    ),
+    "theorem-identifiable": Trial(
+        model=system_model,
+        follows="@(16) and @(35) by substitution",
+        signs=_SYSTEM | {"N": "N[]"},
+        defines=("N",),
+        also=(
+            _component(2, 3, 1),
+            _component(3, 1, 2),
+            "(I2 - I3)*(I3 - I1) + I1*I2 = I3*(I1 + I2 - I3)",
+            "-(I2 - I3)*I2 - I1*I2 = -I2*(I1 + I2 - I3)",
+            "(I2 - I3)*I3 - I1*I3 = -I3*(I1 + I3 - I2)",
+        ),
+        note=r"The other components follow by permutation, the first of the further lines. If for each $i$ the "
+        r"functions $\Omega_j\Omega_k$, $K_j\Omega_k$, $K_k\Omega_j$ of time are independent, all brackets vanish: "
+        "$y_i=x_i$ and $x_1(I_2-I_3)=I_1(x_2-x_3)$ with its permutations. The last lines are minors of this system "
+        "for the $x_i$; two of the sums $I_j+I_k-I_i$ are never zero together, so that its rank is two, and $x_i=I_i$ "
+        r"but for a factor. Proved is this, and that the motions of @theorem-unidentified are exceptions. That plane "
+        "motions with $K_3=0$, spins and motions without a field are the only others is computed, on random motions, "
+        "and not proved.",
+        false=Falsehood(
+            "The moments drop out of the coefficient of $\\Omega_2\\Omega_3$", "- x[2] + x[3]", "- I2 + I3"
+        ),
+    ),
+    "theorem-unidentified": Trial(
+        model=unidentified_model,
+        follows="@(16) and @(35) by substitution",
+        signs=_SYSTEM,
+        defines=("Omega", "X", "Y"),
+        note=r"A body asks $Y=\varrho X$: then $\beta=\varrho\alpha$ and $\gamma=\alpha s/\varrho$, so that the "
+        r"moments are $A+(s/\varrho)J$ in the field $\varrho\mathbf{K}$, one for each $\varrho$, as in "
+        "@theorem-free-body. The elliptic motions, and with $J_1=J_2$ the elementary ones, are of this form "
+        "with numbers $J_i$ of any sign.",
+        false=Falsehood(
+            "The products are those of the true body alone", "X = alpha*A + gamma*J", "X = alpha*A + beta*J"
         ),
     ),
     "theorem-splitting": Trial(
@@ -221,7 +287,7 @@ TRIALS = {
         r"$(\mathbf{M},\mathbf{K})=0$. With one component $K_i$ that is not 0, an $M_j$ that is not 0 asks "
         r"$v=x_j=0$, then $M_i=0$, and $(\mathbf{M},\mathbf{K})=0$ again: else it is a spin. Without $dH$ the "
         r"first of the further lines leave $\mathbf{M}=-v\mathbf{K}$ with one component. This argument in words "
-        "joins the lines, which are what is tried.",
+        "joins the lines; only these are tried.",
         false=Falsehood("The multiplier of $\\mathbf{K}^2$ is free on the family", "(w - z^2 - z*e2)", "w"),
     ),
     "theorem-bifurcation": Trial(

@@ -48,26 +48,26 @@ def _antisymmetric(S: Value) -> Value:
 def multiplier_model() -> Model:
     """(10) with any matrix A, and Lam, the multipliers that it needs: (10) holds if and only if Lam is symmetric.
 
-    R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is what the symmetry of Lam makes of I w.
+    R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is I w by the symmetry of Lam.
     """
     A, w = matrix("A"), vector("w")
     Lam = -(hat(Omega) ** 2 + hat(w) + R.T * A) * g
     skew = _antisymmetric(Lam)
     slope = skew.jacobian(w)
-    rest = skew.xreplace(dict.fromkeys(w, 0))
-    solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * rest
+    remainder = skew.xreplace(dict.fromkeys(w, 0))
+    solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * remainder
     letters = {"A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved}
     return Model({**COMMON, **letters, "ddR": R * (hat(Omega) ** 2 + hat(w))}, ROTATION)
 
 
 def mirrored_model() -> Model:
     """Model the same for minus a rotation: every orthogonal matrix of the determinant -1."""
-    whole = multiplier_model()
+    basis = multiplier_model()
     minus = {entry: -entry for entry in R}
     letters = {
-        name: value.xreplace(minus) for name, value in whole.letters.items() if isinstance(value, sympy.MatrixBase)
+        name: value.xreplace(minus) for name, value in basis.letters.items() if isinstance(value, sympy.MatrixBase)
     }
-    return Model({**whole.letters, **letters}, ROTATION)
+    return Model({**basis.letters, **letters}, ROTATION)
 
 
 def magnetic_model() -> Model:
@@ -114,7 +114,7 @@ def poisson_model() -> Model:
 def matrix_flow_model() -> Model:
     """Any matrix that obeys (12)."""
     free = matrix("R")
-    return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)))
+    return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)), laws="R by (12)")
 
 
 def diagonal_model() -> Model:
@@ -161,11 +161,11 @@ def grioli_model() -> Model:
 
 
 def algebraic_model() -> Model:
-    """Principal axes, any matrix A; IdOmega is what (11) makes of the rate of Omega."""
-    whole = multiplier_model()
+    """Principal axes, any matrix A; IdOmega is I times the rate of Omega by (11)."""
+    basis = multiplier_model()
     swap = {g[i, j]: 0 for i in range(3) for j in range(3) if i != j}
-    letters = {**whole.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
-    return Model({**letters, "IdOmega": whole.letters["IdOmega"].xreplace(swap)}, ROTATION)
+    letters = {**basis.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
+    return Model({**letters, "IdOmega": basis.letters["IdOmega"].xreplace(swap)}, ROTATION)
 
 
 def moments_model() -> list[Model]:
@@ -180,10 +180,10 @@ def moments_model() -> list[Model]:
 
 
 def covariance_model(sign: int = 1) -> Model:
-    """Model another rotation S of the laboratory, or minus one: what vectors and tensors of Section II are there."""
-    symbols, where = rotation_symbols("S")
+    """Model another rotation S of the laboratory, or minus one, and the vectors and tensors of Section II in it."""
+    symbols, bindings = rotation_symbols("S")
     letters = {"S": sign * symbols, "I": symmetric("I"), "g": symmetric("g"), "K": vector("K")}
-    return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, where)
+    return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, bindings)
 
 
 def flight_model() -> Model:
@@ -287,14 +287,14 @@ TRIALS = {
     "text-orthogonal": Trial(
         model=matrix_flow_model,
         follows="@(12) for any matrix $R$",
-        false=Falsehood("$R^T R$ stays what it is as well, for any matrix $R(0)$", "R*T(R)", "T(R)*R"),
+        false=Falsehood("$R^T R$ is constant as well, for any matrix $R(0)$", "R*T(R)", "T(R)*R"),
     ),
     "text-covariance": Trial(
         defines=("Ip", "gp", "Omegap", "Kp"),
         also=("hat(S*Omega) = S*hat(Omega)*T(S)",),
         model=covariance_model,
         follows="the right side of @(16) and that of @(12), for any rotation $S$",
-        note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
+        note="The rates go over into one another, and $R = 1$ at the start is the same in both.",
         false=Falsehood("The system is covariant under reflections as well", model=lambda: covariance_model(-1)),
     ),
     "text-force-matrix": Trial(
@@ -336,7 +336,7 @@ TRIALS = {
         signs={"I'": "I", "g'": "g", r"I'\dot{\boldsymbol{\Omega}}": "IdOmega"},
         model=grioli_model,
         follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
-        note="What is tried is the form. That Grioli deduced these equations is history, and not tried.",
+        note="Only the form is tried. That Grioli deduced these equations is history, and not tried.",
         false=Falsehood(
             "The torque holds the third column of $R$", "cross(g*G3, Omega)", "cross(g*[R[1,3], R[2,3], R[3,3]], Omega)"
         ),

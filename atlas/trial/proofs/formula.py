@@ -14,7 +14,7 @@ from atlas.trial.proofs.run import trial
 
 
 def value(name: str, side: str, /, **letters: Any) -> Any:
-    """Evaluate what an equation says that one of its sides is, in the form that has been proved.
+    """Evaluate one side of an equation, in the form that has been proved.
 
     side     a letter, or a whole side as the trial writes it: "omega3", "d(Omega1)", "0"
     letters  the values of the letters on the other side: numbers (floats are taken as exact), sequences as vectors and
@@ -27,26 +27,26 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
     one, or has one or two free indices. AtlasError if the equation has no such side or lacks a value.
     """
     case = trial(equation(name).name)
-    known = {**COMMON, **{name: _exact(number) for name, number in letters.items()}}
+    vocabulary = {**COMMON, **{name: _exact(number) for name, number in letters.items()}}
     wanted = ast.dump(parse(f"{side} = 0")[0].left)
-    lacking: list[str] = []
+    unknown_letters: list[str] = []
     for tree in [tree for piece in (*case.corrected_parts, *case.parts) for tree in parse(piece.line)]:
         sides = [tree.left, *tree.comparators]
         if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or wanted not in map(ast.dump, sides):
             continue
         for other in reversed([other for other in sides if ast.dump(other) != wanted]):
-            missing = sorted({*letters_of(other), *_functions(other)} - set(known))
-            if not missing:
-                return _components(Reader(known), other)
-            lacking = lacking or missing
-    if lacking:
-        raise AtlasError(f"{name} needs the value of {', '.join(lacking)} too")
-    raise AtlasError(f"{name} does not say what {side!r} is; it reads {case.corrected or case.printed}")
+            absent_letter = sorted({*letters_of(other), *_functions(other)} - set(vocabulary))
+            if not absent_letter:
+                return _components(Reader(vocabulary), other)
+            unknown_letters = unknown_letters or absent_letter
+    if unknown_letters:
+        raise AtlasError(f"{name} needs the value of {', '.join(unknown_letters)} too")
+    raise AtlasError(f"{name} has no side {side!r}; its form is {case.corrected or case.printed}")
 
 
 def _components(reader: Reader, side: ast.expr) -> Any:
     """Evaluate a side for all values of its free indices."""
-    free = sorted(reader.free(side))
+    free = sorted(reader.free_indices(side))
     if not free:
         return reader.value(side, {})
     entries = [

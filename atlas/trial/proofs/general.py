@@ -32,15 +32,15 @@ G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
 
 def top_model() -> Model:
     """Model any state of the symmetric body in units of I2, K = b times a unit vector in stereographic coordinates."""
-    whole = symmetric_model()
-    K = sympy.Matrix([whole.letters[f"K{n}"] for n in (1, 2, 3)])
-    where = list(zip(K, b * direction(), strict=True))
-    I2, M, energy = (whole.letters[name] for name in ("I2", "M", "H"))
-    turn = (whole.letters["Omega1"] * K[0] + whole.letters["Omega2"] * K[1]) / b / (1 - nu**2)
-    letters = {**whole.letters, "b": b, "nu": nu, "M3": M[2] / I2, "p": dot(M, K) / (I2 * b), "H": energy / I2}
-    letters |= {"psi1": turn, "chi1": whole.letters["Omega3"] - nu * turn}
-    flow = {**whole.flow, nu: whole.flow[K[2]] / b}
-    return Model(letters, [*where, (nu, K[2] / b)], flow)
+    basis = symmetric_model()
+    K = sympy.Matrix([basis.letters[f"K{n}"] for n in (1, 2, 3)])
+    bindings = list(zip(K, b * direction(), strict=True))
+    I2, M, energy = (basis.letters[name] for name in ("I2", "M", "H"))
+    turn = (basis.letters["Omega1"] * K[0] + basis.letters["Omega2"] * K[1]) / b / (1 - nu**2)
+    letters = {**basis.letters, "b": b, "nu": nu, "M3": M[2] / I2, "p": dot(M, K) / (I2 * b), "H": energy / I2}
+    letters |= {"psi1": turn, "chi1": basis.letters["Omega3"] - nu * turn}
+    flow = {**basis.flow, nu: basis.flow[K[2]] / b}
+    return Model(letters, [*bindings, (nu, K[2] / b)], flow, laws=basis.laws)
 
 
 def letters_model() -> Model:
@@ -58,8 +58,8 @@ def weierstrass_model() -> Model:
     a = sympy.symbols("a0:4", real=True)
     last = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
     letters = {f"a{n}": value for n, value in enumerate((*a, last))} | {"e": e, "P": P, "P1": P1}
-    whole = a[0] * u**4 + 4 * a[1] * u**3 + 6 * a[2] * u**2 + 4 * a[3] * u + last
-    return Model({**letters, **functions("Q", whole, u)}, flow={P: P1})
+    basis = a[0] * u**4 + 4 * a[1] * u**3 + 6 * a[2] * u**2 + 4 * a[3] * u + last
+    return Model({**letters, **functions("Q", basis, u)}, flow={P: P1})
 
 
 def curve_model() -> Model:
@@ -67,18 +67,20 @@ def curve_model() -> Model:
     w, a, eta = sympy.symbols("w a eta", real=True)
     letters = {"nu": nu, "p": p, "M3": M3, "I": I, "b": b, "A": A, "a": a, "eta": eta}
     letters |= {"H": (g + M3**2 / I + b**2) / 2, "C": (g + M3**2) / 4}
-    where = [(A, (I - 1) * b**2), (g, (w**2 + (p - M3 * nu) ** 2) / (1 - nu**2) + A * nu**2)]
+    bindings = [(A, (I - 1) * b**2), (g, (w**2 + (p - M3 * nu) ** 2) / (1 - nu**2) + A * nu**2)]
     turn = (p - M3 * nu) / (1 - nu**2)
     flow = {nu: w, w: QUARTIC.diff(nu) / 2}
     flow |= {a: a / 2 * (w / (1 + nu) + sympy.I * ((1 - nu) * turn + M3))}
     flow |= {eta: eta / 2 * (-w / (1 - nu) + sympy.I * ((1 + nu) * turn - M3))}
-    return Model(letters, where, flow)
+    return Model(letters, bindings, flow)
 
 
 def residue_model() -> list[Model]:
     """Model the place nu = -1, with a rate of nu of either sign, and the logarithmic rate of xi there."""
     w, cases = sympy.Symbol("w", real=True), []
-    rate = (w + sympy.I * (p - M3 * nu)) / 2  # times 1/(1 + nu): what is not finite there, by theorem-cayley-klein
+    rate = (
+        w + sympy.I * (p - M3 * nu)
+    ) / 2  # times 1/(1 + nu): the part that is not finite there, by theorem-cayley-klein
     for sign in (1, -1):
         letters = {"nu": sympy.Integer(-1), "w": w, "p": p, "M3": M3, "sign": sympy.Integer(sign)}
         letters |= {"residue": (rate / w).subs(nu, -1), **functions("q", QUARTIC, nu)}
@@ -97,15 +99,15 @@ def sigma_model() -> Model:
     zt, zminus, z0, logarithm = sympy.symbols("zt z_minus z0 zeta_z", real=True)
     Z, Y = bend / 24 - slope / 4 / (1 + e), -(p + M3) * slope / 4 / (1 + e) ** 2
     W, w0 = bend / 24, sympy.Symbol("w0", real=True)
-    known = {zminus: (logarithm, Z, sympy.I * Y), z0: (zt, W, w0)}
+    vocabulary = {zminus: (logarithm, Z, sympy.I * Y), z0: (zt, W, w0)}
     factors: dict[Value, Value] = {}
 
     def zeta(at: Value) -> Value:
         """Return zeta of a place, or of t and a place."""
         if at.coeff(t) == -1:
             return -zeta(-at)
-        place = next((symbol for symbol in known if at.has(symbol)), t)
-        value, height, rate = known[place]
+        place = next((symbol for symbol in vocabulary if at.has(symbol)), t)
+        value, height, rate = vocabulary[place]
         sign = at.coeff(place)
         if sign**2 != 1 or at not in {sign * place, t + sign * place}:
             raise ValueError(f"the addition theorem does not give zeta of {at}")
@@ -165,8 +167,8 @@ TRIALS = {
         signs={r"\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}": "residue", r"\dot\nu": "w"},
         follows="@theorem-top, and @theorem-cayley-klein in Larmor's frame",
         defines=("w",),
-        note=r"The logarithmic rate of $\xi$ is $[\dot\nu + i(p - M_3\nu)]/(2\dot\nu(t - z))$ there, but for what is "
-        r"finite; at $\nu = 1$ that of $\eta$ is so with the opposite sign of $M_3$.",
+        note=r"The logarithmic rate of $\xi$ is $[\dot\nu + i(p - M_3\nu)]/(2\dot\nu(t - z))$ there, but for finite "
+        r"terms; at $\nu = 1$ that of $\eta$ is so with the opposite sign of $M_3$.",
         false=Falsehood(r"The rate of $\nu$ is real there", "= -(p + sign*M3)^2", "= (p + sign*M3)^2"),
     ),
     "theorem-sigma": Trial(

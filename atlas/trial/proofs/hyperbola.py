@@ -32,7 +32,7 @@ SIGNS = (
 )
 kappa, p, s = sympy.symbols("kappa p s", real=True)
 _STATE = {"Omega1": Omega1, "Omega2": Omega2, "K1": K1, "K2": K2, "I": ratio, "B2": B2, "B3": B3}
-_STATE |= {"omega1": omega1, "omega2": omega2, "omega3": omega3}
+_STATE |= {"omega1": omega1, "omega2": omega2, "omega3": omega3, "Bp": sympy.Matrix([0, B2, B3])}
 
 
 def _rates() -> tuple[Value, Value]:
@@ -56,20 +56,20 @@ def proportional_model() -> Model:
     flow = {Omega1: dOmega[0], Omega2: dOmega[1], K1: dK[0], K2: dK[1]}
     start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
     line = (sympy.Symbol("along1", real=True), sympy.Symbol("along2", real=True))
-    where = [
+    bindings = [
         (factor, size * way)
         for parts, size in (((Omega1, Omega2), s), ((K1, K2), kappa))
         for factor, way in zip(parts, line, strict=True)
     ]
-    return Model(_STATE, where, flow, start)
+    return Model(_STATE, bindings, flow, start, laws="Omega by (34), K by (35)")
 
 
 def circle_model() -> Model:
     """Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in (61)."""
     cosine, sine = turn(p)
-    where = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
-    where += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
-    return Model(_STATE, where)
+    bindings = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
+    bindings += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
+    return Model(_STATE, bindings)
 
 
 def precession_model() -> Model:
@@ -86,8 +86,8 @@ def agreement_model() -> Model:
     """Model the omega3 for which both frequencies agree: the condition is linear in it."""
     letters = precession_model().letters
     condition = sympy.Poly(sympy.numer(sympy.together((letters["phip"] - letters["phi"]).subs(I3, I * I2))), omega3)
-    slope, rest = condition.all_coeffs()
-    return Model(LETTERS, [(omega3, sympy.cancel(-rest / slope))])
+    slope, remainder = condition.all_coeffs()
+    return Model(LETTERS, [(omega3, sympy.cancel(-remainder / slope))])
 
 
 def motion_model() -> tuple[Model, Model]:
@@ -108,32 +108,32 @@ def both_conditions_model() -> tuple[Model, Model]:
 
 def degenerate_model() -> list[Model]:
     """Model the two lines of the hyperbola for I = 1; sign tells them apart."""
-    whole = canonical_model("one", plane=True)
+    basis = canonical_model("one", plane=True)
     root = sympy.Symbol("root", positive=True)
     slope = sd / cd  # a2/a3 of this line, since a2^2/a3^2 = (1 + sin(beta))/(1 - sin(beta)) = tan(beta/2 + pi/4)^2
 
     def square_root(value: Value) -> Value:
-        """Return the root of 2 sin(beta)/(1 + sin(beta)) as a letter, and that of what is slope^2 times as much."""
+        """Return the root of 2 sin(beta)/(1 + sin(beta)) as a letter, and the root of slope^2 times this number."""
         for factor in (sympy.Integer(1), slope):
-            quotient = value / (factor**2 * whole.letters["a3"])
+            quotient = value / (factor**2 * basis.letters["a3"])
             if sympy.cancel(quotient.subs({cd: turn(tangent)[0], sd: turn(tangent)[1]})) == 1:
                 return factor * root
         return sympy.sqrt(value)
 
     lines = []
     for sign, entry in ((1, (omega2, -B2)), (-1, (omega3, constant_omega3()))):
-        where = [entry, *(pair for pair in whole.where if pair[0] not in {omega2, omega3})]
-        where.append((root, sympy.sqrt(whole.letters["a3"])))
-        letters = {**whole.letters, "sign": sympy.Integer(sign), "sqrt": square_root}
-        lines.append(Model(letters, where, phases=whole.phases, domains=whole.domains))
+        bindings = [entry, *(pair for pair in basis.bindings if pair[0] not in {omega2, omega3})]
+        bindings.append((root, sympy.sqrt(basis.letters["a3"])))
+        letters = {**basis.letters, "sign": sympy.Integer(sign), "sqrt": square_root}
+        lines.append(Model(letters, bindings, phases=basis.phases, domains=basis.domains))
     return lines
 
 
 def frequency_model() -> Model:
     """Phi' of (63) at omega1 = 0, on the hyperbola."""
     phi = precession_model().letters["phip"].subs(I3, I * I2)
-    where = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
-    return Model({**LETTERS, "phi": phi}, where)
+    bindings = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
+    return Model({**LETTERS, "phi": phi}, bindings)
 
 
 _EQUATION_67, _EQUATION_71 = read("(67)", SIGNS), read("(71)", SIGNS)
@@ -255,7 +255,7 @@ TRIALS = {
         slip="(52)",
         note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "
         "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "
-        "is missing. What the lines call condition is the left side of @(50).",
+        "is missing. The letter condition of the lines is the left side of @(50).",
     ),
     "(72)": Trial(model=frequency_model, follows="@(63) on the hyperbola @(71)"),
 }

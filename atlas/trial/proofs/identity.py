@@ -12,11 +12,11 @@ from sympy.polys.rings import ring
 Value = Any
 
 
-def ordered(where: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
+def ordered(bindings: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
     """Sort definitions so that each comes after those that it uses."""
-    left, result = list(where), list[tuple[Value, Value]]()
+    left, result = list(bindings), list[tuple[Value, Value]]()
     done: set[Value] = set()
-    names = {symbol for symbol, _ in where}
+    names = {symbol for symbol, _ in bindings}
     while left:
         for entry in left:
             if not (sympy.sympify(entry[1]).free_symbols & names) - done - {entry[0]}:
@@ -27,24 +27,24 @@ def ordered(where: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
     return result
 
 
-def resolved(where: list[tuple[Value, Value]]) -> dict[Value, Value]:
-    """Return what each symbol of `where` is in free parameters alone."""
+def resolved(bindings: list[tuple[Value, Value]]) -> dict[Value, Value]:
+    """Return the value of each symbol of `bindings` in free parameters alone."""
     values: dict[Value, Value] = {}
-    for symbol, value in ordered(where):
+    for symbol, value in ordered(bindings):
         values[symbol] = sympy.cancel(sympy.sympify(value).xreplace(values))
     return values
 
 
-def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool:
+def vanishes(difference: Value, bindings: dict[Value, Value] | None = None) -> bool:
     """Whether a rational function is zero identically: the numerator, as a polynomial in free parameters, is nothing.
 
     A symbol that is N/n in free parameters becomes N times a symbol for 1/n; at the end each power of that is cleared
     by the power of n that is missing. So no fraction is ever expanded.
     """
     numerator = sympy.numer(sympy.together(difference))
-    if where and vanishes(numerator):
+    if bindings and vanishes(numerator):
         return True
-    used = {symbol: value for symbol, value in (where or {}).items() if numerator.has(symbol)}
+    used = {symbol: value for symbol, value in (bindings or {}).items() if numerator.has(symbol)}
     inverses: dict[Value, Value] = {}
     swap = {}
     for symbol, value in used.items():

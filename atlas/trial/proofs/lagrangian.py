@@ -120,26 +120,26 @@ def relative_model(*, equal: bool = True) -> Model:
     x, dx = _about(y), _about(dy)
     swap = {old: new for N in ALL for old, new in zip([*y[N], *dy[N]], [*(y0 + x[N]), *(v0 + dx[N])], strict=True)}
     relative_forces = {N: force.xreplace(swap) for N, force in forces(equal=equal).items()}
-    whole = sum(relative_forces.values(), sympy.zeros(3, 1))
-    a0 = mu * E + mu / c * cross(v0, Bf) if equal else whole / mass
-    # what keeps the sum of m_N x_N zero in (5): the sum of its equations, in which the other multipliers cancel
+    basis = sum(relative_forces.values(), sympy.zeros(3, 1))
+    a0 = mu * E + mu / c * cross(v0, Bf) if equal else basis / mass
+    # the multiplier of (5) that keeps the sum of m_N x_N zero: in the sum of its equations the others cancel
     push = mu * mass * E + mu / c * cross(sum((m[N] * dx[N] for N in ALL), sympy.zeros(3, 1)), Bf)
     letters = {"ddx": _components({N: relative_forces[N] / m[N] - a0 for N in ALL}), "x": _components(x), "dx": dx}
-    letters |= {"y0": y0, "dy0": v0, "ddy0": whole / mass}
-    letters["lami"] = {i + 1: sympy.cancel(component / mass) for i, component in enumerate(whole - mass * a0 - push)}
+    letters |= {"y0": y0, "dy0": v0, "ddy0": basis / mass}
+    letters["lami"] = {i + 1: sympy.cancel(component / mass) for i, component in enumerate(basis - mass * a0 - push)}
     return Model({**COMMON, **letters}, ranges=RANGES)
 
 
 def _about(places: dict[int, Value]) -> dict[int, Value]:
     """Return places about the centre of mass: those of all particles but the last are free."""
-    rest = -sum((m[N] * places[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
-    return {**places, ALL[-1]: rest}
+    remainder = -sum((m[N] * places[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
+    return {**places, ALL[-1]: remainder}
 
 
 def free_model(*, equal: bool = True) -> Model:
     """Model the same with N for the particles whose places and velocities are letters."""
-    whole = relative_model(equal=equal)
-    return replace(whole, ranges={**RANGES, "N": ALL[:-1]})
+    basis = relative_model(equal=equal)
+    return replace(basis, ranges={**RANGES, "N": ALL[:-1]})
 
 
 def _push(x: dict[int, Value]) -> dict[int, Value]:

@@ -1,4 +1,4 @@
-"""What stands before a claim: the letters it may use, what they are, and what they may be."""
+"""Model of a trial: the letters of a claim with their values, rates, starts and domains."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ class _Indexed:
 
 
 def certain(fact: Any) -> None:
-    """Stop if what a model builds on isn't so."""
+    """Raise ArithmeticError unless a premise of a model holds."""
     if not fact:
         raise ArithmeticError("a model builds on something that isn't so")
 
@@ -117,7 +117,7 @@ def rotation(name: str = "q") -> Value:
 
 
 def rotation_symbols(name: str = "R") -> tuple[Value, list[tuple[Value, Value]]]:
-    """Return a matrix of nine symbols, and what they are if it is a rotation."""
+    """Return a matrix of nine symbols, and the pairs (symbol, value) that make a rotation of the matrix."""
     symbols = matrix(name)
     return symbols, list(zip(symbols, rotation(), strict=True))
 
@@ -143,42 +143,44 @@ def functions(name: str, value: Value, variable: Value) -> dict[str, Callable[[V
 
 @dataclass
 class Model:
-    """What stands before a claim.
+    """Letters of a claim, and the symbols in them.
 
-    letters  what each name of the printed line stands for: expressions, vectors and matrices in symbols, or functions;
+    letters  value of each name of the printed line: expressions, vectors and matrices in symbols, or functions;
              of a vector K its components K1, K2, K3 too, unless these are something else
-    where    what those symbols are in free parameters, in order: each may use the ones before it and the free ones
+    bindings pairs (symbol, value in free parameters): a value may contain other symbols of the list
     flow     rates in time of the symbols that move; `d` and `d2` of a line follow from it
     start    values at t = 0 of the symbols that move; `at0` of a line follows from it
     phases   angles whose cosine and sine are symbols: angle -> (cosine, sine)
     domains  where the free parameters may lie: a key of `decide.DOMAINS`; real if not said
     ranges   the values of indices that count particles
+    laws     equations from which the rates are taken, by number; a script prints them beside the rates
     """
 
     letters: dict[str, Value]
-    where: list[tuple[Value, Value]] = field(default_factory=list)
+    bindings: list[tuple[Value, Value]] = field(default_factory=list)
     flow: Mapping[Value, Value] = field(default_factory=dict)
     start: Mapping[Value, Value] = field(default_factory=dict)
     phases: Mapping[Value, tuple[Value, Value]] = field(default_factory=dict)
     domains: Mapping[str, str] = field(default_factory=dict)
     ranges: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    laws: str = ""
 
     def __post_init__(self) -> None:
         """Add the letters that every formula may use."""
         vectors = [(name, value) for name, value in self.letters.items() if getattr(value, "shape", ()) == (3, 1)]
-        own: dict[str, Value] = {}
+        operators: dict[str, Value] = {}
         if self.flow:
             time = self.letters.get("t")
             self.flow = {time: sympy.Integer(1), **self.flow} if isinstance(time, sympy.Symbol) else self.flow
-            own |= {"d": entrywise(self.rate), "d2": entrywise(lambda x: self.rate(self.rate(x)))}
+            operators |= {"d": entrywise(self.rate), "d2": entrywise(lambda x: self.rate(self.rate(x)))}
         if self.start:
-            own["at0"] = entrywise(lambda x: x.subs(dict(self.start), simultaneous=True))
+            operators["at0"] = entrywise(lambda x: x.subs(dict(self.start), simultaneous=True))
         if self.phases:
-            own["cos"] = entrywise(lambda angle: self._turned(angle)[0])
-            own["sin"] = entrywise(lambda angle: self._turned(angle)[1])
-            own["tan"] = entrywise(lambda angle: self._turned(angle)[1] / self._turned(angle)[0])
+            operators["cos"] = entrywise(lambda angle: self._cosine_sine(angle)[0])
+            operators["sin"] = entrywise(lambda angle: self._cosine_sine(angle)[1])
+            operators["tan"] = entrywise(lambda angle: self._cosine_sine(angle)[1] / self._cosine_sine(angle)[0])
         components = {f"{name}{n}": value[n - 1] for name, value in vectors for n in (1, 2, 3)}
-        self.letters = {**COMMON, **components, **self.letters, **own}
+        self.letters = {**COMMON, **components, **self.letters, **operators}
 
     def rate(self, value: Value) -> Value:
         """Rate in time along the flow."""
@@ -186,20 +188,20 @@ class Model:
 
     def about(self, axis: Value) -> Callable[[Value], Value]:
         """Return the rotation about a unit vector as a function of the angle."""
-        return lambda angle: rodrigues(axis, *self._turned(angle))
+        return lambda angle: rodrigues(axis, *self._cosine_sine(angle))
 
-    def _turned(self, angle: Value) -> tuple[Value, Value]:
+    def _cosine_sine(self, angle: Value) -> tuple[Value, Value]:
         """Cosine and sine of a whole combination of the phases and of pi, as polynomials in their cosines and sines."""
         c, s = sympy.Integer(1), sympy.Integer(0)
-        whole = any(sympy.cancel(angle / phase).is_Integer for phase in self.phases)
-        for term in [angle] if whole else sympy.Add.make_args(sympy.expand(angle)):
+        basis = any(sympy.cancel(angle / phase).is_Integer for phase in self.phases)
+        for term in [angle] if basis else sympy.Add.make_args(sympy.expand(angle)):
             for phase, (cosine, sine) in self.phases.items():
                 times = sympy.cancel(term / phase)
                 if times.is_Integer:
                     power = sympy.expand((cosine + sympy.I * sine * sympy.sign(times)) ** abs(int(times)))
-                    parts = power.subs(sympy.I, 0), sympy.expand((power - power.subs(sympy.I, 0)) / sympy.I)
+                    pair = power.subs(sympy.I, 0), sympy.expand((power - power.subs(sympy.I, 0)) / sympy.I)
                     break
             else:
-                parts = sympy.cos(term), sympy.sin(term)
-            c, s = c * parts[0] - s * parts[1], s * parts[0] + c * parts[1]
+                pair = sympy.cos(term), sympy.sin(term)
+            c, s = c * pair[0] - s * pair[1], s * pair[0] + c * pair[1]
         return c, s

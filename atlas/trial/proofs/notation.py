@@ -5,7 +5,7 @@ A line is one or more relations, separated by `;`:
     phi = omega3 - B3/B2*omega2 = B3*omega2*(1 - I)*(omega2 + 2*B2)/(I*B2*(omega2 + B2))
     d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]
 
-`^` is a power; `cross`, `dot`, `d` (rate in time), `d2`, `T` (transpose), `sqrt`, `sin`, ... are what the model says
+`^` is a power; `cross`, `dot`, `d` (rate in time), `d2`, `T` (transpose), `sqrt`, `sin`, ... are functions of the model
 they are. Indices stand in square brackets; one that occurs twice in a product, or once in it but not on the left, is
 summed.
 """
@@ -76,7 +76,7 @@ def sides(line: str) -> list[str]:
 
 
 def conserved(line: str) -> str:
-    """Return what a = c = b says of a conserved quantity: a = c, its rate is zero, and at t = 0 it is b."""
+    """Return three statements for a = c = b of a conserved quantity: a = c, a rate of zero, and b at t = 0."""
     lines: list[str] = []
     for tree in equations(line):
         sides = [ast.unparse(side) for side in (tree.left, *tree.comparators)]
@@ -122,16 +122,16 @@ class Reader:
         relations = []
         for tree in parse(line):
             sides = [tree.left, *tree.comparators]
-            free = sorted(self.free(tree.left) | (names(tree.left) & set(self.ranges)))
+            free_indices = sorted(self.free_indices(tree.left) | (names(tree.left) & set(self.ranges)))
             for side in sides[1:]:
-                if not is_zero(side) and self.free(side) != self.free(tree.left):
+                if not is_zero(side) and self.free_indices(side) != self.free_indices(tree.left):
                     raise NoMeaningError(
                         f"the indices of {ast.unparse(tree.left)} and {ast.unparse(side)} do not balance"
                     )
             for left, operator, right in zip(sides, tree.ops, sides[1:], strict=False):
                 sign = _SIGNS[type(operator)]
                 tree_here = ast.Compare(left, [operator], [right])
-                values = [(self.value(left, bound), self.value(right, bound)) for bound in self._all(free)]
+                values = [(self.value(left, bound), self.value(right, bound)) for bound in self._all(free_indices)]
                 pairs = [pair for value in values for pair in _entries(*value)]
                 relations.append(
                     Relation(
@@ -144,33 +144,33 @@ class Reader:
                 )
         return relations
 
-    def free(self, node: ast.expr) -> set[str]:
+    def free_indices(self, node: ast.expr) -> set[str]:
         """Return the free indices of a formula, particles apart; NoMeaningError if terms of a sum differ."""
         if is_sum(node):
-            left, right = self.free(node.left), self.free(node.right)
+            left, right = self.free_indices(node.left), self.free_indices(node.right)
             if left != right and not is_zero(node.left) and not is_zero(node.right):
                 raise self._imbalance(node.left, node.right)
             return left
         if isinstance(node, ast.UnaryOp):
-            return self.free(node.operand)
-        parts = [factor for factor, _ in factors(node)]
-        if len(parts) == 1:
+            return self.free_indices(node.operand)
+        operands = [factor for factor, _ in factors(node)]
+        if len(operands) == 1:
             if isinstance(node, ast.Call):
-                return set().union(*(self.free(argument) for argument in node.args))
+                return set().union(*(self.free_indices(argument) for argument in node.args))
             if isinstance(node, ast.Subscript):
                 inner = [name.id for name in ast.walk(node.slice) if isinstance(name, ast.Name)]
-                return {name for name in inner if inner.count(name) == 1} - set(self.ranges) | self.free(node.value)
+                return {name for name in inner if inner.count(name) == 1} - set(self.ranges) | self.free_indices(
+                    node.value
+                )
             return set()
-        every = [name for part in parts for name in self.free(part)]
+        every = [name for part in operands for name in self.free_indices(part)]
         return {name for name in every if every.count(name) == 1}
 
     def _imbalance(self, *sides: ast.expr) -> NoMeaningError:
         says = []
         for side in sides:
-            free = sorted(self.free(side))
-            says.append(
-                f"{ast.unparse(side)} has {'the free index ' + ' and '.join(free) if free else 'no free index'}"
-            )
+            indices = " and ".join(sorted(self.free_indices(side)))
+            says.append(f"{ast.unparse(side)} has {'the' if indices else 'no'} free index {indices}".rstrip())
         return NoMeaningError("the indices do not balance", *says)
 
     def value(self, node: ast.expr, bound: Mapping[str, int]) -> Value:
@@ -185,14 +185,14 @@ class Reader:
             return left + right if isinstance(node.op, ast.Add) else left - right
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             return -self.value(node.operand, bound)
-        parts = list(factors(node))
-        here = self.summed(parts, names(node) - set(bound))
-        terms = list(self._products(parts, here, dict(bound), sympy.Integer(1)))
+        operands = list(factors(node))
+        here = self.summed(operands, names(node) - set(bound))
+        terms = list(self._products(operands, here, dict(bound), sympy.Integer(1)))
         return sum(terms[1:], terms[0]) if terms else sympy.Integer(0)
 
-    def summed(self, parts: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
+    def summed(self, operands: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
         """Return the indices over which a product of these factors is summed as a whole."""
-        holders = {name: [factor for factor, _ in parts if name in names(factor)] for name in indices}
+        holders = {name: [factor for factor, _ in operands if name in names(factor)] for name in indices}
         return {name for name, held in holders.items() if len(held) > 1 or not is_sum(held[0])}
 
     def _all(self, indices: list[str]) -> Iterator[dict[str, int]]:
@@ -200,20 +200,20 @@ class Reader:
             yield dict(zip(indices, choice, strict=True))
 
     def _products(
-        self, parts: list[tuple[ast.expr, bool]], sums: set[str], bound: dict[str, int], so_far: Value
+        self, operands: list[tuple[ast.expr, bool]], sums: set[str], bound: dict[str, int], so_far: Value
     ) -> Iterator[Value]:
-        """Yield the terms of a sum over indices, factor by factor: what begins with a zero factor is never built."""
-        if not parts:
+        """Yield the terms of a sum over indices, factor by factor: products with a first factor zero are skipped."""
+        if not operands:
             yield so_far
             return
-        (factor, divides), rest = parts[0], parts[1:]
+        (factor, divides), remainder = operands[0], operands[1:]
         new = sorted(names(factor) & sums)
         for more in self._all(new):
             here = {**bound, **more}
             value = self._factor(factor, here)
             if new and value == 0 and not divides:
                 continue
-            yield from self._products(rest, sums - set(new), here, so_far / value if divides else so_far * value)
+            yield from self._products(remainder, sums - set(new), here, so_far / value if divides else so_far * value)
 
     def _factor(  # noqa: PLR0911  one return for each kind of factor
         self, node: ast.expr, bound: Mapping[str, int]
@@ -245,14 +245,14 @@ class Reader:
         return self.letters["inv"](base) if power == -1 else base**power
 
     def _entry(self, node: ast.Subscript, bound: Mapping[str, int]) -> Value:
-        """Return what brackets choose; those of a matrix count from one."""
+        """Return the entry of a vector, matrix or table at indices; those of a matrix count from one."""
         base = self._factor(node.value, bound)
         strange = isinstance(node.slice, ast.Name) and node.slice.id not in self.ranges
         if strange and isinstance(base, dict) and any(isinstance(key, int) and key > 3 for key in base):
             raise NoMeaningError(f"{ast.unparse(node)} has an index that does not count these")
-        where = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        bindings = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
         first = isinstance(base, sympy.MatrixBase)
-        entry = tuple(int(self._factor(index, bound)) - first for index in where)
+        entry = tuple(int(self._factor(index, bound)) - first for index in bindings)
         return base[entry if len(entry) > 1 else entry[0]]
 
 

@@ -72,7 +72,7 @@ def potentials_model() -> Model:
 
 
 def velocity_model() -> Model:
-    """Model A particle whose velocity is what the line says."""
+    """Model a particle with the velocity of the line."""
     C = vector("C")
     letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
     flow = {t: sympy.Integer(1), **dict(zip(y, v, strict=True))}
@@ -91,18 +91,19 @@ def _split() -> dict[str, Value]:
     flat = sympy.diag(1, 1, 0)
     up = sympy.diag(0, 0, 1)
     rate = mu * (ACROSS + PARALLEL) * t + mu / c * cross(place, ALONG_Z) + C
-    parts = {"Cpar": up * C, "Cperp": flat * C, "ypar": up * place, "yperp": flat * place, "y": place}
-    parts |= {"dypar": up * rate, "dyperp": flat * rate, "Epar": PARALLEL, "Eperp": ACROSS, "Bf": ALONG_Z}
-    parts["ypar0"] = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])
-    return {**parts, "mu": mu, "c": c, "t": t, "b": b, "E2": E2}
+    components = {"Cpar": up * C, "Cperp": flat * C, "ypar": up * place, "yperp": flat * place, "y": place}
+    components |= {"dypar": up * rate, "dyperp": flat * rate, "Epar": PARALLEL, "Eperp": ACROSS, "Bf": ALONG_Z}
+    components |= {"E": PARALLEL + ACROSS, "E3": E3}
+    components["ypar0"] = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])
+    return {**components, "mu": mu, "c": c, "t": t, "b": b, "E2": E2}
 
 
 def split_model() -> Model:
     """(90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
-    parts = _split()
-    flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
-    start = {t: sympy.Integer(0), parts["y"][2]: parts["ypar0"][2]}
-    return Model(parts, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
+    components = _split()
+    flow = dict(zip(components["y"], components["dypar"] + components["dyperp"], strict=True))
+    start = {t: sympy.Integer(0), components["y"][2]: components["ypar0"][2]}
+    return Model(components, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
 
 
 def parallel_model() -> Model:
@@ -114,9 +115,9 @@ def parallel_model() -> Model:
 
 def fall_along_model() -> Model:
     """(93)."""
-    parts = _split()
-    ypar = parts["ypar0"] + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
-    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)})
+    components = _split()
+    ypar = components["ypar0"] + components["Cpar"] * t + mu * PARALLEL * t**2 / 2
+    return Model({**components, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
 def helix_model() -> Model:
@@ -139,22 +140,22 @@ def along_field_model() -> list[Model]:
 
 def shifted_model() -> Model:
     """Model the shifted variables y1 and y2 of the part across B, with the rates that (92) gives them."""
-    parts = _split()
+    components = _split()
     drift = c * cross(ACROSS, ALONG_Z) / b**2
-    second = (c * cross(parts["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
-    y1 = parts["yperp"]
-    rate1 = mu / c * cross(y1 + drift * t, ALONG_Z) + parts["Cperp"] + mu * ACROSS * t - drift
+    second = (c * cross(components["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
+    y1 = components["yperp"]
+    rate1 = mu / c * cross(y1 + drift * t, ALONG_Z) + components["Cperp"] + mu * ACROSS * t - drift
     y2 = sympy.diag(1, 1, 0) * vector("z")
-    rate2 = rate1.xreplace(dict(zip(parts["y"], y2 + second, strict=True)))
+    rate2 = rate1.xreplace(dict(zip(components["y"], y2 + second, strict=True)))
     flow = dict(zip([*y1[:2], *y2[:2]], [*rate1[:2], *rate2[:2]], strict=True))
-    letters = {name: value for name, value in parts.items() if name not in {"y", "yperp"}}
+    letters = {name: value for name, value in components.items() if name not in {"y", "yperp"}}
     return Model({**letters, "y1": y1, "y2": y2}, flow=flow)
 
 
 def charges_model(choice: str = "any") -> list[Model]:
     """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
 
-    choice: what C_perp is: any vector across B, or what the text chooses for (99) or for (100).
+    choice: C_perp, any vector across B, or the choice of the text for (99) or for (100).
     """
     cases = []
     for sign in (1, -1):
@@ -166,10 +167,10 @@ def charges_model(choice: str = "any") -> list[Model]:
         chosen = {"any": letters["Cperp"], "origin": drift, "trochoid": drift - sign * strength * E2 / omega * e1}
         letters["Cperp"] = chosen[choice]
         letters |= {"O": sign * strength * E2 / omega * t * e1, "P": a * (e1 * sw + e2 * cw)}
-        where = [(omega, strength * b / c), *angles]
+        bindings = [(omega, strength * b / c), *angles]
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
-        cases.append(Model(letters, where, flow, start, phases))
+        cases.append(Model(letters, bindings, flow, start, phases))
     return cases
 
 
@@ -177,19 +178,19 @@ def drift_model() -> list[Model]:
     """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
     cases = []
     for case in charges_model():
-        rest = sympy.symbols("rest1:3", real=True)
-        velocity = sympy.Matrix([*rest, 0])
+        remainder = sympy.symbols("rest1:3", real=True)
+        velocity = sympy.Matrix([*remainder, 0])
         rate = case.letters["mu"] * (case.letters["Eperp"] + cross(velocity, case.letters["Bf"]) / case.letters["c"])
-        solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
-        letters = {**case.letters, "drift": velocity.subs(solved), "E": ACROSS + PARALLEL}
-        cases.append(Model(letters, case.where))
+        solved = sympy.solve(list(rate[:2]), remainder, dict=True)[0]
+        letters = {**case.letters, "drift": velocity.subs(solved)}
+        cases.append(Model(letters, case.bindings))
     return cases
 
 
 def signed_model(choice: str = "any") -> list[Model]:
     """Model the same with a frequency that has the sign of the charge."""
     first, second = charges_model(choice)
-    return [first, replace(second, where=[(omega, -strength * b / c), *second.where[1:]])]
+    return [first, replace(second, bindings=[(omega, -strength * b / c), *second.bindings[1:]])]
 
 
 def _general(model: Model, **letters: Value) -> Value:
@@ -218,10 +219,10 @@ def trajectory_model(*, signed: bool = True) -> list[Model]:
     """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
-        letters = {**model.letters, "E": PARALLEL + ACROSS}
+        letters = dict(model.letters)
         letters |= {"ypar": evaluated("(93)", SIGNS, letters), "yperp": evaluated("(99)", SIGNS, letters)}
-        where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
-        cases.append(replace(model, letters=letters, where=where))
+        bindings = model.bindings if signed else [*model.bindings, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
+        cases.append(replace(model, letters=letters, bindings=bindings))
     return cases
 
 
@@ -241,12 +242,12 @@ def rolling_model() -> list[Model]:
         mu_ = model.letters["mu"]
         place = {"x": mu_ * E2 / omega * t + a * sw, "y": mu_ * E2 / omega**2 + a * cw}
         letters = {**model.letters, **place, "r": mu_ * E2 / omega**2}
-        cases.append(Model(letters, model.where, phases=model.phases))
+        cases.append(Model(letters, model.bindings, phases=model.phases))
     return cases
 
 
 TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
-"""What the place of a charged particle obeys, (89)."""
+"""Equation for the place of a charged particle, (89)."""
 
 TRIALS = {
     "(89)": Trial(signs=_LAGRANGIAN, model=lagrangian_model, follows="the variation of the Lagrangian @(104)"),
@@ -339,7 +340,7 @@ TRIALS = {
         follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
         r"\mathbf{E}_\bot \omega_0/\omega$",
         note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
-        false=Falsehood(r"$\mathbf{C}_\bot$ stays what it is", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
+        false=Falsehood(r"$\mathbf{C}_\bot$ does not change", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
     ),
     "text-first-two-terms": Trial(
         arrows={1: None},
@@ -379,8 +380,8 @@ TRIALS = {
         follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
         corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
         slip="(100)",
-        note=r"An acceleration is taken from a velocity. What is meant is $\mathbf{C}_\bot = 0$: the acceleration over "
-        r"$\omega$ is the drift, and nothing is left.",
+        note=r"An acceleration is taken from a velocity. The choice meant is $\mathbf{C}_\bot = 0$: the acceleration "
+        r"over $\omega$ is the drift, and nothing is left.",
     ),
     "(100)": Trial(
         model=lambda: charges_model("trochoid"),

@@ -12,9 +12,10 @@ from atlas.trial.proofs.trial import Falsehood, Part, Trial, mended, read
 
 Omega, K = vector("Omega"), vector("K")
 I2, I3 = sympy.symbols("I2 I3", positive=True)
+I1 = I2  # the symmetric body
 B2, B3 = sympy.symbols("B2 B3", positive=True)
 omega1, omega2, omega3 = omega = vector("omega")
-tensor, mass = sympy.diag(I2, I2, I3), sympy.diag(I3, I3, 2 * I2 - I3) / 2
+tensor, mass = sympy.diag(I1, I2, I3), sympy.diag(I3, I3, 2 * I2 - I3) / 2
 ratio = I3 / I2
 
 SIGNS = {r"B'_2": "B2", r"B'_3": "B3", "E'": "E", r"{\mathbf{B}'}^2": "Bsquare", r"\mathbb{I}": "I"}
@@ -30,7 +31,7 @@ START = dict(zip([*Omega, *K], [*omega, 0, B2, B3], strict=True))
 
 
 def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
-    """E', c3, c5 at a point: twice the energy over I2, and what (40) and (41) conserve."""
+    """E', c3, c5 at a point: twice the energy over I2, and the conserved quantities of (40) and (41)."""
     c3 = field[2] + spin[2]
     return {
         "E": spin[0] ** 2 + spin[1] ** 2 + scale * spin[2] ** 2,
@@ -52,10 +53,10 @@ def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Va
 
 @cache
 def state_model() -> Model:
-    """Any state Omega, K of the system (34), (35) in vectors; E' and c3, c5 as what they are at that state."""
+    """Any state Omega, K of the system (34), (35) in vectors; with E', c3 and c5 as functions of the state."""
     energy = (tensor * Omega).dot(Omega) / 2
     letters = {"omega": omega, "Omega": Omega, "K": K, "B2": B2, "B3": B3, "I": ratio, **integrals(Omega, K, ratio)}
-    letters |= {"E": 2 * energy / I2, "energy": energy, "I2": I2, "I3": I3, "Bsquare": dot(K, K)}
+    letters |= {"E": 2 * energy / I2, "energy": energy, "I1": I1, "I2": I2, "I3": I3, "Bsquare": dot(K, K)}
     letters |= cubic({name: letters[name] for name in ("E", "c3", "c5")}, dot(K, K), ratio)
     P = letters["c5"] + Omega[2] ** 2 - (2 - ratio) * letters["c3"] * Omega[2]
     N = letters["E"] - ratio * Omega[2] ** 2
@@ -64,52 +65,73 @@ def state_model() -> Model:
     letters["rank"] = lambda functions: (
         functions.jacobian([*Omega, *K]).subs({s: n for n, s in enumerate([*Omega, *K], 1)}).rank()
     )
-    return Model(letters, flow=FLOW, start=START)
+    return Model(letters, flow=FLOW, start=START, laws="Omega by (34), K by (35)")
 
 
 def launch_model() -> Model:
     """Model the same at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
-    return replace(state_model(), where=[(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)])
+    return replace(state_model(), bindings=[(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)])
 
 
 def field_model() -> Model:
     """(16) and (12) with K = mu/(2c) R^T B and a symmetric body."""
-    (R, where), B = rotation_symbols(), vector("B")
+    (R, bindings), B = rotation_symbols(), vector("B")
     mu, c = general.mu, general.c
-    seen = mu / (2 * c) * R.T * B
+    field_in_body = mu / (2 * c) * R.T * B
     rate = cross(tensor * Omega, Omega) - mu / c * cross(mass * R.T * B, Omega)
-    letters = {"I": tensor, "g": mass, "Omega": Omega, "IdOmega": rate, "K": seen, "R": R, "Bf": B, "mu": mu, "c": c}
+    letters = {
+        "I": tensor,
+        "I1": I1,
+        "I2": I2,
+        "g": mass,
+        "Omega": Omega,
+        "IdOmega": rate,
+        "K": field_in_body,
+        "R": R,
+        "Bf": B,
+        "mu": mu,
+        "c": c,
+    }
     letters |= {"dK": mu / (2 * c) * (R * hat(Omega)).T * B, "Bp": mu / (2 * c) * B}
     for n in range(3):
         letters[f"K{n + 1}"] = sum((letters["Bp"][i] * R[i, n] for i in range(3)), sympy.Integer(0))
-    return Model(letters, where)
+    return Model(letters, bindings)
 
 
 def frame_model() -> Model:
     """B' = (0, B'2, B'3), K = R^T B' with B = 2c/mu B', and R = 1 at t = 0."""
     mu, c = general.mu, general.c
     field = sympy.Matrix([0, 2 * c * B2 / mu, 2 * c * B3 / mu])
-    (R, where), w = rotation_symbols(), vector("w")
-    seen = sympy.Matrix(
+    (R, bindings), w = rotation_symbols(), vector("w")
+    field_in_body = sympy.Matrix(
         [sum((mu / (2 * c) * field[i] * R[i, n] for i in range(3)), sympy.Integer(0)) for n in range(3)]
     )
-    letters = {"Bf": field, "Bp": sympy.Matrix([0, B2, B3]), "K": seen, "R": R, "mu": mu, "c": c, "B2": B2, "B3": B3}
-    return Model({**letters, "omega": w, "Omega": R.T * w}, where, start=dict(zip(R, sympy.eye(3), strict=True)))
+    letters = {
+        "Bf": field,
+        "Bp": sympy.Matrix([0, B2, B3]),
+        "K": field_in_body,
+        "R": R,
+        "mu": mu,
+        "c": c,
+        "B2": B2,
+        "B3": B3,
+    }
+    return Model({**letters, "omega": w, "Omega": R.T * w}, bindings, start=dict(zip(R, sympy.eye(3), strict=True)))
 
 
 def symmetric_body_model() -> Model:
     """I1 = I2 and I = tr(g) - g."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
-    return Model({"g": sympy.diag(g1, g1, g3), "I2": g1 + g3, "I3": 2 * g1})
+    return Model({"g": sympy.diag(g1, g1, g3), "I1": g1 + g3, "I2": g1 + g3, "I3": 2 * g1})
 
 
 def passing_model() -> Model:
     """Model the same with a root rho of either sign, whose rate is -I u w/rho; f is its logarithm."""
-    whole = quadrature_model()
-    rho, u, I, E = sympy.Symbol("rho", real=True), *(whole.letters[name] for name in ("u", "I", "E"))
-    where = [(E, rho**2 + I * u**2), *whole.where[1:]]
-    flow = {**whole.flow, rho: -I * u * whole.flow[u] / rho}
-    return replace(whole, letters={**whole.letters, "rho": rho, "f": sympy.log(rho)}, where=where, flow=flow)
+    basis = quadrature_model()
+    rho, u, I, E = sympy.Symbol("rho", real=True), *(basis.letters[name] for name in ("u", "I", "E"))
+    bindings = [(E, rho**2 + I * u**2), *basis.bindings[1:]]
+    flow = {**basis.flow, rho: -I * u * basis.flow[u] / rho}
+    return replace(basis, letters={**basis.letters, "rho": rho, "f": sympy.log(rho)}, bindings=bindings, flow=flow)
 
 
 def quadrature_model() -> Model:
@@ -119,10 +141,10 @@ def quadrature_model() -> Model:
     c1, s1, c2, s2, p, q = sympy.symbols("c1 s1 c2 s2 p q", real=True)
     letters = {"u": u, "E": E, "I": I, "phi": phi, "Phi": Phi, "phi0": phi0, "f0": f0}
     letters["f"] = sympy.log(E - I * u**2) / 2
-    where = [(E, n**2 + I * u**2), (c1, turn(p)[0]), (s1, turn(p)[1]), (c2, turn(q)[0]), (s2, turn(q)[1])]
+    bindings = [(E, n**2 + I * u**2), (c1, turn(p)[0]), (s1, turn(p)[1]), (c2, turn(q)[0]), (s2, turn(q)[1])]
     flow = {u: w, c1: -phi * s1, s1: phi * c1}
     letters["sqrt"] = sympy.sqrt
-    return Model(letters, where, flow, phases={Phi: (c1, s1), phi0: (c2, s2)})
+    return Model(letters, bindings, flow, phases={Phi: (c1, s1), phi0: (c2, s2)})
 
 
 def free_constant_model(*, fixed: bool = False) -> list[Model]:
@@ -156,9 +178,9 @@ def degree_model() -> list[Model]:
     for scale in (1 + more, 1 / (1 + more), sympy.Integer(1)):
         field = sympy.Matrix([0, B2, B3])
         a = cubic(integrals(omega, field, scale), dot(field, field), scale)
-        whole = sympy.Poly(a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3, u)
-        degrees = {"leading": whole.coeff_monomial(u**3), "square": whole.coeff_monomial(u**2)}
-        cases.append(Model({**degrees, "slope": whole.coeff_monomial(u), "I": scale}))
+        basis = sympy.Poly(a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3, u)
+        degrees = {"leading": basis.coeff_monomial(u**3), "square": basis.coeff_monomial(u**2)}
+        cases.append(Model({**degrees, "slope": basis.coeff_monomial(u), "I": scale}))
     return cases
 
 

@@ -56,13 +56,13 @@ class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
 class Line:
     """One line in one case.
 
-    used     the letters of the model that stand in what was written
+    used     the letters of the model in the written text
     symbols  the symbols in it
     """
 
     def __init__(self, line: str, model: Model, defines: tuple[str, ...], solves: str) -> None:
-        self.relations, letters, where = understood(line, model, defines, solves)
-        self.model = replace(model, letters=letters, where=where)
+        self.relations, letters, bindings = understood(line, model, defines, solves)
+        self.model = replace(model, letters=letters, bindings=bindings)
         self.reader = Reader(letters, model.ranges)
         self.trees = [*parse(line), *(parse(solves) if solves else [])]
         self.definitions = {
@@ -74,14 +74,16 @@ class Line:
         self.symbols: list[Value] = []
         self.identifiers: dict[Value, str] = {}
         self.printer = _Printer(self.identifier)
-        self.own = {name for tree in self.trees for name in letters_of(tree)}
-        self.own = _TAKEN | {name for name in self.own if not isinstance(letters.get(name), sympy.Symbol)}
+        self.occupied_names = {name for tree in self.trees for name in letters_of(tree)}
+        self.occupied_names = _TAKEN | {
+            name for name in self.occupied_names if not isinstance(letters.get(name), sympy.Symbol)
+        }
 
     def identifier(self, symbol: Value) -> str:
         """Return the identifier of a symbol: its name, with a stroke behind it where a letter has that name."""
         if symbol not in self.identifiers:
             name = re.sub(r"\W", "_", symbol.name)
-            while name in self.own or name in self.identifiers.values():
+            while name in self.occupied_names or name in self.identifiers.values():
                 name += "_"
             self.identifiers[symbol] = name
         return self.identifiers[symbol]
@@ -106,12 +108,12 @@ class Line:
         return points(parameters(self.relations, self.model, every), self.model)
 
     def needed(self) -> set[Value]:
-        """Return the symbols on which what was written depends, also through `where` and the rates."""
+        """Return the symbols on which the written text depends, also through `bindings` and the rates."""
         values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
-        return reached(values, [*self.model.where, *self.model.flow.items()])
+        return reached(values, [*self.model.bindings, *self.model.flow.items()])
 
     def assumptions(self) -> dict[str, str]:
-        """Return the identifiers of the symbols, each with what is assumed of it as arguments of `symbols`."""
+        """Return the identifiers of the symbols, each with its assumptions as arguments of `symbols`."""
         for value in self.used.values():
             if isinstance(value, sympy.Symbol):
                 self.plain(value)
@@ -127,7 +129,7 @@ class Line:
         return not (isinstance(value, sympy.Symbol) and self.identifier(value) == name)
 
     def definition(self, name: str) -> str:
-        """Return what a letter is defined to be, as it is read or, with a function of the model's own, evaluated."""
+        """Return the definition of a letter, as it is read or, with a function of the model's own, evaluated."""
         try:
             text = self.code(self.definitions[name], ())
             return f"Integer({text})" if text.isdigit() else text
@@ -147,7 +149,7 @@ class Line:
         """Return the free indices of a relation with their numbers; none where its components are written out."""
         tree = parse(relation.text)[0]
         ranges = self.reader.ranges
-        free = sorted(self.reader.free(tree.left) | (names(tree.left) & set(ranges)))
+        free = sorted(self.reader.free_indices(tree.left) | (names(tree.left) & set(ranges)))
         try:
             for side in (tree.left, tree.comparators[0]):
                 self.code(side, tuple(free))
@@ -187,9 +189,9 @@ class Line:
             return ast.BinOp(self.formula(node.left, bound), node.op, self.formula(node.right, bound))
         if isinstance(node, ast.UnaryOp):
             return ast.UnaryOp(node.op, self.formula(node.operand, bound))
-        parts = list(factors(node))
-        sums = sorted(self.reader.summed(parts, names(node) - set(bound)))
-        (first, _), *others = [(self.factor(part, (*bound, *sums)), divides) for part, divides in parts]
+        operands = list(factors(node))
+        sums = sorted(self.reader.summed(operands, names(node) - set(bound)))
+        (first, _), *others = [(self.factor(part, (*bound, *sums)), divides) for part, divides in operands]
         for factor, divides in others:
             if divides and not {*_words(first), *_words(factor)}:
                 first = ast.Call(ast.Name("Rational"), [first, factor], [])
@@ -218,10 +220,10 @@ class Line:
                 return self.name(node, bound)
             case ast.Subscript():
                 indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
-                whole = getattr(node.value, "id", "")
-                if whole in {"eps", "delta"}:
-                    return ast.Call(ast.Name(_CALLED[whole]), list(indices), [])
-                first = not isinstance(self.model.letters.get(whole), dict)
+                basis = getattr(node.value, "id", "")
+                if basis in {"eps", "delta"}:
+                    return ast.Call(ast.Name(_CALLED[basis]), list(indices), [])
+                first = not isinstance(self.model.letters.get(basis), dict)
                 places = [_less(index) if first else index for index in indices]
                 return ast.Subscript(
                     self.factor(node.value, bound), places[0] if len(places) == 1 else ast.Tuple(places)
@@ -255,9 +257,11 @@ class Line:
         return node
 
     def call(self, node: ast.Call, name: str, bound: tuple[str, ...]) -> ast.expr:
-        """Return a call of a function: SymPy's own, a rate, or what the model's own function gives."""
-        known = {*_METHODS, *_CALLED, "T", "norm", "d", "d2", "at0"}
-        if name not in known or (self.model.letters[name] is not COMMON.get(name) and name not in {"d", "d2", "at0"}):
+        """Return a call of a function: SymPy's own, a rate, or the value of a function of the model."""
+        vocabulary = {*_METHODS, *_CALLED, "T", "norm", "d", "d2", "at0"}
+        if name not in vocabulary or (
+            self.model.letters[name] is not COMMON.get(name) and name not in {"d", "d2", "at0"}
+        ):
             if names(node) & set(bound):
                 raise _NoFormulaError
             return _tree(f"({self.plain(self.reader.value(node, {}))})")

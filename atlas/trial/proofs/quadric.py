@@ -22,7 +22,15 @@ SIGNS |= {f"C_{n}^2": f"C{n}s" for n in (1, 2, 3)} | {r"\omega_3(\omega_2)": "om
 SIGNS |= {r"\omega_2\in\mathbb{R}\setminus\{-B'_2\}": "", r"\omega_1\in\mathbb{R}": ""}
 SIGNS |= {r"\omega_3(\omega_1,\omega_2)": "omega3", r"\text{if}\quad\omega_2\ne-B'_2": ""}
 
-LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B2, "B3": B3}
+LETTERS = {
+    "omega1": omega1,
+    "omega2": omega2,
+    "omega3": omega3,
+    "I": I,
+    "B2": B2,
+    "B3": B3,
+    "Bp": sympy.Matrix([0, B2, B3]),
+}
 
 
 def at_start(u: Value) -> Value:
@@ -36,8 +44,8 @@ def at_start(u: Value) -> Value:
 def constant_omega3() -> Value:
     """Return the omega3 for which Omega3 = omega3 makes the cubic vanish: the condition is linear in it."""
     condition = sympy.Poly(sympy.expand(at_start(omega3)), omega3)
-    slope, rest = condition.all_coeffs()
-    return sympy.factor(-rest / slope)
+    slope, remainder = condition.all_coeffs()
+    return sympy.factor(-remainder / slope)
 
 
 def condition_model() -> tuple[Model, Model]:
@@ -58,9 +66,9 @@ def lost_lines_model() -> list[Model]:
     root = sympy.Symbol("s", positive=True)
     cases = []
     for sign in (1, -1):
-        where = [(omega2, -B2), (omega1, sign * root * B2)]
+        bindings = [(omega2, -B2), (omega1, sign * root * B2)]
         letters = {**LETTERS, "sign": sympy.Integer(sign), "I": 1 - root**2}
-        cases.append(Model(letters, where, domains={"s": "unit"}))
+        cases.append(Model(letters, bindings, domains={"s": "unit"}))
     return cases
 
 
@@ -79,7 +87,7 @@ PHASES = {delta: (cd, sd)}
 
 
 def coordinates_model() -> Model:
-    """Model the quadratic form of (51), and what its canonical form must be."""
+    """Model the quadratic form of (51), and the canonical form from its eigenvalues."""
     form = omega1**2 + (omega2 + B2) ** 2 - I * B2 / B3 * (omega2 + B2) * (omega3 + B3)
     length = omega1**2 + (omega2 + B2) ** 2 + (omega3 + B3) ** 2
     sine = -(cd**2 - sd**2)
@@ -114,8 +122,8 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
     scale = {"any": [], "one": [(I, sympy.Integer(1))], "above": [(I, 1 + excess)], "below": [(I, 1 / (1 + excess))]}[
         ratio
     ]
-    where = [(omega3, constant_omega3()), *_angles(), *scale, *([(omega1, sympy.Integer(0))] if plane else [])]
-    return Model(letters, where, phases=PHASES, domains={"p": "oblique"})
+    bindings = [(omega3, constant_omega3()), *_angles(), *scale, *([(omega1, sympy.Integer(0))] if plane else [])]
+    return Model(letters, bindings, phases=PHASES, domains={"p": "oblique"})
 
 
 def axes_model(above: bool, sheets: int) -> Model:
@@ -232,7 +240,7 @@ TRIALS = {
         grade="missing case",
         note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @(50): for $I \le 1$ the "
         r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
-        "1$ nothing is missing. What the lines call condition is the left side of @(50).",
+        "1$ nothing is missing. The letter condition of the lines is the left side of @(50).",
     ),
     "(53)": Trial(
         model=coordinates_model,

@@ -32,7 +32,7 @@ def _normal(stem: str) -> str:
 
 @cache
 def _reach(stem: str) -> frozenset[str]:
-    """Return the files of this folder that a topic imports, itself among them, but for what only records a result."""
+    """Return the files of this folder that a topic imports, its own included, but not `verdict`."""
     text = _normal(stem)
     direct = set(re.findall(r"^from atlas\.trial\.proofs\.(\w+) import", text, re.MULTILINE))
     for names in re.findall(r"^from atlas\.trial\.proofs import (.+)$", text, re.MULTILINE):
@@ -42,15 +42,15 @@ def _reach(stem: str) -> frozenset[str]:
 
 @cache
 def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
-    parts = [_normal(name) for name in sorted(_reach(stem) | set(machinery))]
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+    texts = [_normal(name) for name in sorted(_reach(stem) | set(machinery))]
+    return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:16]
 
 
 def source(name: str) -> str:
     """Return the fingerprint of the proof of an entry of the ledger."""
     entry = equation(name)
-    parts = (_fingerprint(topic(name), MACHINERY), entry.tex, entry.says, entry.quote, *entry.assumptions)
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+    texts = (_fingerprint(topic(name), MACHINERY), entry.tex, entry.says, entry.quote, *entry.assumptions)
+    return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:16]
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:

@@ -34,9 +34,9 @@ class OverTimeError(Exception):
 
 @contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Stop what runs inside after that many seconds of the processor; only the main thread, where there are signals.
+    """Raise OverTimeError in the block after that many seconds of processor time; only in the main thread.
 
-    So a verdict does not depend on what else the machine does.
+    So a verdict does not depend on other programs of the machine.
     """
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         yield
@@ -56,7 +56,7 @@ def limit(seconds: float) -> Iterator[None]:
 
 @cache
 def trials(stem: str) -> dict[str, Trial]:
-    """Return the trials of one topic by name; what its `SIGNS` say holds for all of them."""
+    """Return the trials of one topic by name; its `SIGNS` hold for all of them."""
     module = import_module(f"atlas.trial.proofs.{stem}")
     signs: dict[str, str] = getattr(module, "SIGNS", {})
     return {name: replace(trial, name=name, signs={**signs, **trial.signs}) for name, trial in module.TRIALS.items()}
@@ -118,7 +118,7 @@ def _lines(parts: Iterable[Part]) -> str:
 
 
 def within_time(run: Callable[[], Outcome]) -> Outcome:
-    """Return what a trial finds, undecided if it takes longer than `LIMIT`."""
+    """Return the outcome of a trial, undecided if it takes longer than `LIMIT`."""
     try:
         with limit(LIMIT):
             return run()
@@ -142,8 +142,8 @@ def verify(
     meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
     wanted = [name for name in EQUATIONS if name in meant]
     keys = {name: digest("verdict", FIELDS, name, recorded.source(name)) for name in wanted} if store else {}
-    known = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
-    verdicts = {name: Verdict(**json.loads(entry)) for name, entry in known.items()}
+    vocabulary = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
+    verdicts = {name: Verdict(**json.loads(entry)) for name, entry in vocabulary.items()}
     missing = [name for name in wanted if name not in verdicts]
     for done, (name, result) in enumerate(_each(missing, jobs), len(verdicts) + 1):
         verdicts[name] = result

@@ -1,8 +1,8 @@
 """A proof as a script of plain SymPy that runs without atlas, and its two sides as polynomials.
 
-A script declares symbols, says what the letters of a line stand for and what the symbols are in free parameters, and
-expands the numerator of the difference of both sides, or puts in the exact point that refutes the line. What it prints
-last says what is proved or refuted; where that is not so it ends with 1.
+A script declares symbols, gives the letters of a line and the symbols their values in free parameters, and
+expands the numerator of the difference of both sides, or puts in the exact point that refutes the line. Its
+last line of output names what is proved or refuted; if a check fails the exit status is 1.
 """
 
 import re
@@ -39,7 +39,7 @@ _RATE = "def d(x): return sum((diff(x, s) * rate for s, rate in flow.items()), 0
 _START = "def at0(x): return x.subs(start, simultaneous=True)"
 _FORMS = "{}", "factor(together({}))", "(expand(numer(together({0}))) / expand(denom(together({0}))))"
 
-Rows = tuple[dict[str, str], list[str]]  # what is declared, with its assumptions, and what follows
+Rows = tuple[dict[str, str], list[str]]  # symbols with their assumptions, and the rows after them
 
 
 def script_of(verdict: Verdict) -> str:
@@ -67,12 +67,12 @@ def script_of(verdict: Verdict) -> str:
 
 
 def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
-    """Yield the rows of all blocks, but for what is known already; symbols are declared before they are used."""
-    symbols, known = dict[str, str](), dict[str, str]()
+    """Yield the rows of all blocks, without repetitions; symbols are declared before they are used."""
+    symbols, vocabulary, comment = dict[str, str](), dict[str, str](), ""
     supposed = [any(row.startswith("where = ") for row in rows) for _, rows in blocks]
     for (declared, rows), own in zip(blocks, supposed, strict=True):
         fresh = {name: assumed for name, assumed in declared.items() if symbols.get(name) != assumed}
-        known = {} if fresh.keys() & symbols.keys() else known
+        vocabulary = {} if fresh.keys() & symbols.keys() else vocabulary
         for assumed in dict.fromkeys(fresh.values()):
             every = " ".join(name for name in fresh if fresh[name] == assumed)
             for some in textwrap.wrap(every, _WIDTH // 2 - 16):
@@ -80,16 +80,20 @@ def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
         symbols |= fresh
         for row in [*["where = []"] * (any(supposed) and not own), *rows]:
             name = re.match(r"(?:def )?(\w+)(?= = |\(x\))", row)
-            if name and known.get(name[1]) == row and name[1] != "where":
+            if row.startswith("# "):
+                comment = row
                 continue
-            yield row
-            if name:  # what is made of it must be said anew
-                known = {each: text for each, text in known.items() if not re.search(rf"\b{name[1]}\b", text)}
-                known[name[1]] = row
+            repeated = name and vocabulary.get(name[1]) == row and name[1] != "where"
+            if not repeated:
+                yield from filter(None, (comment, row))
+            comment = ""
+            if name and not repeated:  # rows that use the name are written again
+                vocabulary = {each: text for each, text in vocabulary.items() if not re.search(rf"\b{name[1]}\b", text)}
+                vocabulary[name[1]] = row
 
 
 def sides_of(name: str) -> list[str]:
-    """Return what both sides of each line of a true form are in free parameters, or what has its sign.
+    """Return both sides of each line of a true form in free parameters, or their difference with its sign.
 
     None if that takes too long.
     """
@@ -104,18 +108,18 @@ def sides_of(name: str) -> list[str]:
 
 
 def _sides(relation: Relation, line: Line) -> str:
-    """Return what the sides of a relation are, of several components of the first that is not 0."""
-    where, printer = resolved(line.model.where), line.printer
+    """Return the sides of a relation as text; of several components, the first that is not 0."""
+    bindings, printer = resolved(line.model.bindings), line.printer
     pairs = [(sympy.sympify(a), sympy.sympify(b)) for a, b in zip(relation.left, relation.right, strict=True)]
     if relation.sign != "=":
-        value = sympy.factor(sympy.together((pairs[0][0] - pairs[0][1]).xreplace(where)))
+        value = sympy.factor(sympy.together((pairs[0][0] - pairs[0][1]).xreplace(bindings)))
         return f"{relation.text}: left - right = {_short(value, printer)}"
-    values = (sympy.cancel(left.xreplace(where)) for left, _ in pairs)
+    values = (sympy.cancel(left.xreplace(bindings)) for left, _ in pairs)
     entry, value = next(((n, value) for n, value in enumerate(values, 1) if value != 0), (1, sympy.Integer(0)))
     component = f", component {entry} of {len(pairs)}" if len(pairs) > 1 else ""
     if value != 0:
         return f"{relation.text}: each side{component} is {_short(value, printer)}"
-    used = {symbol: meant for symbol, meant in where.items() if any(left.has(symbol) for left, _ in pairs)}
+    used = {symbol: meant for symbol, meant in bindings.items() if any(left.has(symbol) for left, _ in pairs)}
     meant = "; ".join(f"{printer.doprint(symbol)} = {_short(value, printer)}" for symbol, value in used.items())
     return f"{relation.text}: the left side becomes 0" + (f" with {meant}" if meant else "")
 
@@ -137,13 +141,13 @@ def _lines(parts: Sequence[Part]) -> list[Line]:
 
 def _proved(line: Line) -> Rows:
     """Return the rows that prove a line in one case."""
-    where, rows = resolved(line.model.where), list[str]()
+    bindings, rows = resolved(line.model.bindings), list[str]()
     for relation in line.relations:
         indent = ""
         for index, numbers in line.loops(relation):
             rows.append(f"{indent}for {index} in {numbers}:")
             indent += "    "
-        value = sympy.sympify(relation.left[0] - relation.right[0]).xreplace(where)
+        value = sympy.sympify(relation.left[0] - relation.right[0]).xreplace(bindings)
         turned = relation.sign in {"<", "<="} or (relation.sign == "!=" and not positive(value, strict=True))
         difference = line.difference(relation, turned=turned)
         if relation.sign == "=":
@@ -160,12 +164,12 @@ def _proved(line: Line) -> Rows:
 def _refuted(parts: Sequence[Part]) -> Rows:
     """Return the rows that put in the point which breaks a line."""
     for line in _lines(parts):
-        for free in line.points():
-            values = completed(free, line.model)
+        for assignment in line.points():
+            values = completed(assignment, line.model)
             for relation in line.relations:
                 for entry in range(len(relation.left)):
                     if breaks(relation, entry, values):
-                        return _broken(line, relation, entry, simplest(relation, entry, free, line.model))
+                        return _broken(line, relation, entry, simplest(relation, entry, assignment, line.model))
     raise ValueError("there is no counterexample")
 
 
@@ -195,28 +199,31 @@ def _broken(line: Line, relation: Relation, entry: int, values: dict[Value, Valu
 
 
 def _stated(line: Line, rows: Sequence[str]) -> Rows:
-    """Return the rows with what stands before the rows: symbols, letters, rates, definitions, and what symbols are."""
+    """Return the rows with their premises: symbols, letters, rates, definitions, and values of symbols."""
     definitions = [f"{name} = {line.definition(name)}" for name in line.in_order()]
     text = "\n".join([*definitions, *rows])
     letters = [f"{name} = {line.plain(value)}" for name, value in line.used.items() if line.is_said(name, value)]
     needed = line.needed()
     if re.search(r"\bd\(", text):
+        letters += [f"# the rates in flow: {line.model.laws}"] * bool(line.model.laws)
         letters += [f"flow = {line.table({s: v for s, v in line.model.flow.items() if s in needed})}", _RATE]
     if "at0(" in text:
         letters += [f"start = {line.table({s: v for s, v in line.model.start.items() if s in needed})}", _START]
-    where = [] if "point = " in text else [pair for pair in reversed(ordered(line.model.where)) if pair[0] in needed]
-    turned, where = _rotation(line, where)
-    pairs = ", ".join(f"({line.plain(symbol)}, {line.plain(value)})" for symbol, value in where)
-    letters += [f"where = [{pairs}]"] * bool(where or turned) + turned
-    rows = rows if where or turned else [row.replace(_WHERE, "") for row in rows]
+    bindings = (
+        [] if "point = " in text else [pair for pair in reversed(ordered(line.model.bindings)) if pair[0] in needed]
+    )
+    turned, bindings = _rotation(line, bindings)
+    pairs = ", ".join(f"({line.plain(symbol)}, {line.plain(value)})" for symbol, value in bindings)
+    letters += [f"where = [{pairs}]"] * bool(bindings or turned) + turned
+    rows = rows if bindings or turned else [row.replace(_WHERE, "") for row in rows]
     return line.assumptions(), [*letters, *definitions, *rows]
 
 
-def _rotation(line: Line, where: list[tuple[Value, Value]]) -> tuple[list[str], list[tuple[Value, Value]]]:
-    """Return the rows that say by Cayley's formula what nine symbols are, if they are a rotation, and what is left."""
-    turned = [(symbol, value) for symbol, value in where if value in set(rotation())]
+def _rotation(line: Line, bindings: list[tuple[Value, Value]]) -> tuple[list[str], list[tuple[Value, Value]]]:
+    """Return the rows that make a rotation of nine symbols by Cayley's formula, and the other substitutions."""
+    turned = [(symbol, value) for symbol, value in bindings if value in set(rotation())]
     if len(turned) < 9:
-        return [], where
+        return [], bindings
     turned.sort(key=lambda pair: str(pair[0]))
     symbols = ", ".join(line.plain(symbol) for symbol, _ in turned)
     line.symbols += [symbol for symbol in sympy.symbols("q1:4", real=True) if symbol not in line.symbols]
@@ -224,7 +231,7 @@ def _rotation(line: Line, where: list[tuple[Value, Value]]) -> tuple[list[str], 
         f"C = Matrix([{', '.join(line.plain(q) for q in sympy.symbols('q1:4', real=True))}]).hat()",
         f"where += zip([{symbols}], ((eye(3) + C) * (eye(3) - C).inv()).applyfunc(cancel))",
     ]
-    return rows, [pair for pair in where if pair not in turned]
+    return rows, [pair for pair in bindings if pair not in turned]
 
 
 def _wrapped(row: str) -> str:

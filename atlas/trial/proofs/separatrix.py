@@ -28,10 +28,12 @@ T, C = sympy.symbols("T C", real=True)
 def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]:
     """Return M3, p and the quartic q of a steady precession with this rate w at nu0, by theorem-steady."""
     momentum = double * (rate**2 + leading) / rate
-    along = rate * (1 - double**2) + double * momentum
-    rest = leading * double**2 + rate**2 * (1 - double**2)
-    whole = QUARTIC.xreplace({general.p: along, general.M3: momentum, general.A: leading, general.g: rest})
-    return {"M3": momentum, "p": along, "G": rest, **functions("q", whole, nu)}
+    momentum_along_field = rate * (1 - double**2) + double * momentum
+    remainder = leading * double**2 + rate**2 * (1 - double**2)
+    basis = QUARTIC.xreplace(
+        {general.p: momentum_along_field, general.M3: momentum, general.A: leading, general.g: remainder}
+    )
+    return {"M3": momentum, "p": momentum_along_field, "G": remainder, **functions("q", basis, nu)}
 
 
 def any_model() -> Model:
@@ -71,7 +73,7 @@ def range_model() -> Model:
 
 
 def _spinors(model: Model) -> Model:
-    """Add what a pair of complex numbers says: nu, and the rates of their two arguments."""
+    """Add functions of a pair of complex numbers: nu, and the rates of their two arguments."""
 
     def size(value: Value) -> Value:
         return sympy.expand(value * value.xreplace({sympy.I: -sympy.I}))
@@ -103,18 +105,18 @@ def family_model() -> Model:
     letters |= {"nu": nu, "M3": M3, "p": p, "c3": c3, "c": c, "C": C, "S": T * C, "lam_minus": (c3 - M3 - b) / 2}
     letters["lam_minus"] += (p + M3) / (1 + nu0) / 2
     letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - nu0)) / 2
-    rest = A * nu0**2 + w**2 * (1 - nu0**2)
-    letters |= functions("q", QUARTIC.xreplace({general.g: rest, general.A: A, general.p: p, general.M3: M3}), nu)
+    remainder = A * nu0**2 + w**2 * (1 - nu0**2)
+    letters |= functions("q", QUARTIC.xreplace({general.g: remainder, general.A: A, general.p: p, general.M3: M3}), nu)
     letters["cosh"] = lambda argument: C if argument == sympy.sqrt(c) * t / 2 else sympy.cosh(argument)
     letters["sinh"] = lambda argument: (
         sympy.sqrt(c) * T * C if argument == sympy.sqrt(c) * t / 2 else sympy.sinh(argument)
     )
     rates = steady(w, leading, double)
-    where = [(ck, turn(x)[0]), (sk, turn(x)[1]), (cd, turn(y)[0]), (sd, turn(y)[1]), (e, turning), (nu0, double)]
-    where += [(A, leading), (M3, rates["M3"]), (p, rates["p"]), (c3, rates["M3"] / I)]
-    where += [(c, leading * (double - turning) * (3 * double + turning))]
+    bindings = [(ck, turn(x)[0]), (sk, turn(x)[1]), (cd, turn(y)[0]), (sd, turn(y)[1]), (e, turning), (nu0, double)]
+    bindings += [(A, leading), (M3, rates["M3"]), (p, rates["p"]), (c3, rates["M3"] / I)]
+    bindings += [(c, leading * (double - turning) * (3 * double + turning))]
     flow = {T: (1 - c * T**2) / 2, C: c * T * C / 2, t: sympy.Integer(1)}
-    return _spinors(Model(letters, where, flow, phases={kappa: (ck, sk), delta: (cd, sd)}))
+    return _spinors(Model(letters, bindings, flow, phases={kappa: (ck, sk), delta: (cd, sd)}))
 
 
 def double_model() -> Model:
@@ -123,24 +125,24 @@ def double_model() -> Model:
     letters = {"nu0": nu0, "e": nu0 + y, "A": A, "c": c, "S": S, "C": C, "d": -(c + A * y**2) / y}
     shift = nu - nu0
     letters |= functions("q", shift**2 * (c - (c + A * y**2) / y * shift + A * shift**2), nu)
-    return Model(letters, [(c, (C**2 - 1) / S**2)], flow={S: C / 2, C: c * S / 2})
+    return Model(letters, [(c, (C**2 - 1) / S**2)], {S: C / 2, C: c * S / 2}, {S: 0, C: 1})
 
 
 def triple_model() -> Model:
     """Model a double root at an end of the band, where the others of theorem-companion-range are -nu0 +- 2 nu0."""
     I = sympy.Symbol("I", positive=True)
-    whole = (I - 1) * b**2 * (nu - nu0) ** 2 * ((nu + nu0) ** 2 - 4 * nu0**2)
-    letters = {"nu0": nu0, "t": t, "I": I, "b": b, "e": -nu0 - 2 * nu0, **functions("q", whole, nu)}
+    basis = (I - 1) * b**2 * (nu - nu0) ** 2 * ((nu + nu0) ** 2 - 4 * nu0**2)
+    letters = {"nu0": nu0, "t": t, "I": I, "b": b, "e": -nu0 - 2 * nu0, **functions("q", basis, nu)}
     return Model(letters, flow={t: sympy.Integer(1)})
 
 
 def axis_model() -> Model:
     """Model any state near the spin along the field, in the letters of the top; n = K/b."""
-    whole = top_model()
-    M, K, letters = whole.letters["M"] / whole.letters["I2"], whole.letters["K"], dict(whole.letters)
+    basis = top_model()
+    M, K, letters = basis.letters["M"] / basis.letters["I2"], basis.letters["K"], dict(basis.letters)
     letters |= {"M1": M[0], "M2": M[1], "n1": K[0] / b, "n2": K[1] / b, "nu": K[2] / b}
     letters |= {"A": (letters["I"] - 1) * b**2, "B3": b, "omega3": M[2] / letters["I"] - b}
-    return replace(whole, letters=letters)
+    return replace(basis, letters=letters)
 
 
 def escape_model() -> list[Model]:
@@ -155,8 +157,8 @@ def escape_model() -> list[Model]:
     phases, flow = {delta: (sympy.sqrt((1 + e) / 2), sympy.sqrt((1 - e) / 2))}, {T: (1 - c * T**2) / 2, t: 1}
     cases = []
     for sign in (1, -1):
-        where = [(M3, sign * a * (1 + e)), (c, 4 * a**2 - (a * (1 + e)) ** 2)]
-        model = Model({**letters, "size": sign * M3}, where, flow, phases=phases, domains={"e": "unit"})
+        bindings = [(M3, sign * a * (1 + e)), (c, 4 * a**2 - (a * (1 + e)) ** 2)]
+        model = Model({**letters, "size": sign * M3}, bindings, flow, phases=phases, domains={"e": "unit"})
         cases.append(_spinors(model))
     return cases
 

@@ -1,16 +1,16 @@
 r"""Reads the TeX of the ledger: the line that is tried is made from the formula that is shown.
 
-`line` turns a formula, or several of them, into a line of `notation`. Brackets with a comma are what the paper means
-by them: [a, b] the vector product, (a, b) the scalar one, {a, b} Poisson's bracket. A letter without a sign between it
-and the next is a factor. What a letter means is said by a table, in TeX; without an entry it is named after itself:
+`line` turns a formula, or several of them, into a line of `notation`. Brackets with a comma have the meaning of the
+paper: [a, b] the vector product, (a, b) the scalar one, {a, b} Poisson's bracket. A letter without a sign between it
+and the next is a factor. A table gives the meaning of a letter, in TeX; a letter without an entry has its own name:
 
     \mathbf{K}: K    \Omega_3: Omega3    \hat{B}_2: hB2    \dot m: d(m)    R_{ij}: R[i, j]    f(0): at0(f)
 
-A table may also say what a longer phrase means: an expression, a whole relation, other TeX, or nothing, where the
+A table may also give the meaning of a longer phrase: an expression, a whole relation, other TeX, or nothing, where the
 model says it.
-Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names what
-the table says. On both sides of an arrow stand statements of the line; `arrows` says where which arrow stands, and
-a trial must have said the same: what it builds in of a premise, and what tries the other direction of a double arrow.
+Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names the
+phrases of the table. On both sides of an arrow stand statements of the line; `arrows` lists them with
+their places, and a trial must name the same ones: the premise that its model has, or the line for the other direction.
 """
 
 import ast
@@ -25,7 +25,14 @@ from atlas.trial.proofs.notation import names, parse, write
 
 _TOKEN = re.compile(r"\\begin\{\w+\}|\\end\{\w+\}|\\text\{[^}]*\}|\\[A-Za-z]+|\\.|\d|\S", re.DOTALL)
 _SILENT = {r"\left", r"\right", r"\Bigl", r"\Bigr", r"\bigl", r"\bigr", r"\displaystyle", r"\!", "\\ "}
-_SAME = {r"\tfrac": r"\frac", r"\varepsilon": r"\epsilon", r"\boldsymbol": r"\mathbf", r"\equiv": "=", r"\;": r"\,"}
+_SAME = {
+    r"\tfrac": r"\frac",
+    r"\varepsilon": r"\epsilon",
+    r"\boldsymbol": r"\mathbf",
+    r"\equiv": "=",
+    r"\;": r"\,",
+    r"\text{diag}": r"\diag",
+}
 _RELATES = re.compile("[=<>]")
 _ALIGNED = {r"\begin{aligned}", r"\end{aligned}"}
 _ARROWS = {r"\iff", r"\implies"}
@@ -40,7 +47,7 @@ _SIGNS: dict[str, type[ast.cmpop]] = {
     ">": ast.Gt,
     r"\ge": ast.GtE,
 }
-_FUNCTIONS = {rf"\{name}" for name in ("sqrt", "sin", "cos", "tan", "ln", "det", "exp", "sinh", "cosh", "tanh")}
+_FUNCTIONS = {rf"\{name}" for name in ["sqrt", "sin", "cos", "tan", "ln", "det", "diag", "exp", "sinh", "cosh", "tanh"]}
 _ACCENTS = {r"\hat": "h", r"\tilde": "tilde", r"\dot": "d", r"\ddot": "d2"}
 _FONTS = {r"\mathbf", r"\mathbb", r"\mathrm", r"\operatorname", r"\mathcal"}
 _TOTAL = "sum over "
@@ -61,7 +68,7 @@ class _Said:
 
 @dataclass(frozen=True)
 class _Letter:
-    """A letter with its marks: accents from outside in, the letter with its font, primes, and what stands below it."""
+    """A letter with its marks: accents from outside in, the letter with its font, primes, and its index."""
 
     accents: tuple[str, ...]
     base: str
@@ -74,7 +81,7 @@ _Token = str | _Said
 
 @dataclass(frozen=True)
 class _Table:
-    """What letters and phrases mean, the long ones first, and the left side of a formula that is printed without."""
+    """Meanings of letters and phrases, the long ones first, and the left side of a formula that is printed without."""
 
     letters: Mapping[_Letter, str] = field(default_factory=dict)
     phrases: tuple[tuple[tuple[str, ...], str], ...] = ()
@@ -109,7 +116,7 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
 
 
 def arrows(tex: str, signs: Mapping[str, str]) -> list[tuple[int, str]]:
-    """Return the arrows of a formula outside what the table says, each with the number of statements before it."""
+    """Return the arrows of a formula outside the phrases of the table, each with the number of statements before it."""
     tokens = _said(_tokens(tex), _table(tuple(signs.items())))
     found = [(place, mark) for place, mark in enumerate(tokens) if isinstance(mark, str) and mark in _ARROWS]
     return [(len(_statements(tokens[:place])), mark) for place, mark in found]
@@ -136,7 +143,7 @@ def _table(signs: tuple[tuple[str, str], ...]) -> _Table:
         reader = _Formula(tokens, _Table())
         if reader.is_letter():
             letter = reader.letter()
-            if reader.at == len(tokens):
+            if reader.position == len(tokens):
                 letters[letter] = plain
                 continue
         phrases[tuple(tokens)] = plain
@@ -145,7 +152,7 @@ def _table(signs: tuple[tuple[str, str], ...]) -> _Table:
 
 
 def _tokens(tex: str) -> list[str]:
-    r"""Return the tokens of a formula; \boxed and what only sets its size left out, with the braces of a single one."""
+    r"""Return the tokens of a formula; without \boxed, marks of size and the braces of a single token."""
     tokens = [_SAME.get(mark, mark) for mark in _TOKEN.findall(tex) if mark not in _SILENT]
     kept: list[str] = []
     drops, depth, matrices = list[int](), 0, 0
@@ -194,7 +201,7 @@ def _statements(tokens: list[_Token]) -> list[list[_Token]]:
 
 
 def _signed(statement: list[_Token]) -> list[list[_Token]]:
-    r"""Return what y_\pm = a \pm b says: two statements, of y_+ and of y_-; any other is one."""
+    r"""Return two statements, of y_+ and of y_-, for y_\pm = a \pm b; any other is one."""
     if not any(pair[0] == "_" and pair[1] in {r"\pm", r"\mp"} for pair in pairwise(statement)):
         return [statement]
     upper, lower = {r"\pm": "+", r"\mp": "-"}, {r"\pm": "-", r"\mp": "+"}
@@ -204,7 +211,7 @@ def _signed(statement: list[_Token]) -> list[list[_Token]]:
 
 
 def _said(tokens: list[str], table: _Table) -> list[_Token]:
-    """Put what the table says of phrases in their place."""
+    """Replace phrases by their meanings in the table."""
     result: list[_Token] = []
     place = 0
     while place < len(tokens):
@@ -220,7 +227,7 @@ def _said(tokens: list[str], table: _Table) -> list[_Token]:
 
 
 def _phrase(plain: str) -> list[_Token]:
-    """Return what a phrase becomes: nothing, a statement of its own, the left side of one, or an expression."""
+    """Return the tokens for a phrase: none, a statement of its own, the left side of one, or an expression."""
     if not plain:
         return [","]
     if plain.startswith("\\"):
@@ -236,7 +243,7 @@ class _Formula:
     def __init__(self, tokens: list[_Token] | list[str], table: _Table) -> None:
         self.tokens: list[_Token] = list(tokens)
         self.table = table
-        self.at = 0
+        self.position = 0
         self.bold = False
         self.thin: set[str] = set()  # letters without an index, and those that are bold
         self.vectors: set[str] = set()
@@ -261,7 +268,7 @@ class _Formula:
             sides.append(self.sum())
             if names(sides[0]) & set(self.sums):
                 raise UnreadableError(f"the index of {ast.unparse(sides[0])} is summed on the other side")
-        if self.at < len(self.tokens):
+        if self.position < len(self.tokens):
             raise UnreadableError(f"{self.peek()} in the formula is not read")
         if not operators and not found:
             raise UnreadableError(f"{ast.unparse(sides[0])} is not related to anything")
@@ -269,14 +276,14 @@ class _Formula:
 
     def peek(self, ahead: int = 0) -> _Token:
         """Return the next mark, "" at the end."""
-        return self.tokens[self.at + ahead] if self.at + ahead < len(self.tokens) else ""
+        return self.tokens[self.position + ahead] if self.position + ahead < len(self.tokens) else ""
 
     def take(self, wanted: str = "") -> _Token:
         """Take the next mark, which must be the one that is wanted."""
         here = self.peek()
         if here == "" or (wanted and here != wanted):
             raise UnreadableError(f"{wanted or 'something'} is missing where the formula has {here or 'its end'}")
-        self.at += 1
+        self.position += 1
         return here
 
     def sum(self) -> ast.expr:
@@ -325,7 +332,7 @@ class _Formula:
         """Refuse a bracket behind a letter that looks like the argument of a function."""
         if before is None or self.peek() != "(":
             return
-        behind = self.tokens[self.at + 1 : self.at + 3]
+        behind = self.tokens[self.position + 1 : self.position + 3]
         if isinstance(behind[0], _Said):
             return
         if behind[-1:] == [")"] or (behind[:1] == ["-"] and self.peek(3) == ")"):
@@ -349,7 +356,7 @@ class _Formula:
         return indices
 
     def power(self) -> ast.expr:
-        """Read a factor with what stands behind it: powers, indices, an argument t or 0, T for the transpose."""
+        """Read a factor with its suffixes: powers, indices, an argument t or 0, T for the transpose."""
         bold, self.bold = self.bold, False
         base = self.atom()
         while True:
@@ -359,17 +366,17 @@ class _Formula:
             elif self.peek() == "_":
                 self.take()
                 base = ast.Subscript(base, _tuple(self.indices()))
-            elif self.tokens[self.at : self.at + 3] == ["(", "t", ")"]:
-                self.at += 3
-            elif self.tokens[self.at : self.at + 3] == ["(", "0", ")"]:
-                self.at += 3
+            elif self.tokens[self.position : self.position + 3] == ["(", "t", ")"]:
+                self.position += 3
+            elif self.tokens[self.position : self.position + 3] == ["(", "0", ")"]:
+                self.position += 3
                 base = _call("at0", base)
             else:
                 self.bold |= bold
                 return base
 
     def raised(self, base: ast.expr) -> ast.expr:
-        """Read what stands above: a power, the transpose, or an index."""
+        """Read a superscript: a power, the transpose, or an index."""
         if self.peek() == "T":
             self.take()
             return _call("T", base)
@@ -384,7 +391,7 @@ class _Formula:
         return self.peek() == "{" and self.peek(2) == "}" and isinstance(mark, str) and mark.isalpha()
 
     def group(self) -> ast.expr:
-        """Read what braces hold, or one mark without them."""
+        """Read a group in braces, or one mark without them."""
         if self.peek() == "{":
             self.take()
             result = self.sum()
@@ -414,10 +421,12 @@ class _Formula:
         return readers[here]()
 
     def function(self) -> ast.expr:
-        """Read a function of what stands behind it: a bracket, a group, or a product of letters."""
+        """Read a function with its argument: a bracket, a group, or a product of letters."""
         name = str(self.take()).strip("\\")
         if name == "sqrt":
             return _call(name, self.group())
+        if name == "diag":
+            return _call(name, *self.entries(str(self.take("("))))
         if self.peek() == "^":
             self.take()
             exponent = self.group()
@@ -430,15 +439,15 @@ class _Formula:
         entries = self.entries(str(self.take()))
         if len(entries) == 1:
             return entries[0]
-        if closing == ")" and self.tokens[self.at : self.at + 2] == ["^", "T"]:
-            self.at += 2
+        if closing == ")" and self.tokens[self.position : self.position + 2] == ["^", "T"]:
+            self.position += 2
             return ast.List(entries)
         if len(entries) == 2:
             return _call(product, *entries)
         raise UnreadableError("a row of numbers is not read where a column should stand")
 
     def entries(self, opening: str) -> list[ast.expr]:
-        """Read what stands between commas in a bracket."""
+        """Read the entries of a bracket, between commas."""
         entries = [self.sum()]
         while self.peek() in {",", ";"}:
             self.take()
@@ -457,18 +466,18 @@ class _Formula:
         return _call(name, inside)
 
     def fraction(self) -> ast.expr:
-        """Read a fraction, or d/dt of what follows."""
+        """Read a fraction, or d/dt of the next factor."""
         self.take()
-        if self.tokens[self.at : self.at + 7] == ["{", "d", "}", "{", "d", "t", "}"]:
-            self.at += 7
+        if self.tokens[self.position : self.position + 7] == ["{", "d", "}", "{", "d", "t", "}"]:
+            self.position += 7
             return _call("d", self.power())
-        if self.tokens[self.at : self.at + 2] == ["{", r"\partial"]:
+        if self.tokens[self.position : self.position + 2] == ["{", r"\partial"]:
             return _call("partial", *(self.varied() for _ in range(2)))
         top = self.group()
         return ast.BinOp(top, ast.Div(), self.group())
 
     def varied(self) -> ast.expr:
-        """Read what is differentiated, or by what, in a partial derivative."""
+        """Read the numerator or the denominator of a partial derivative."""
         self.take("{")
         self.take(r"\partial")
         inside = self.product()
@@ -539,7 +548,7 @@ class _Formula:
                 return _Letter(tuple(accents), (font and f"{font} ") + base, primes, tuple(below))
 
     def below(self) -> list[str]:
-        """Read what stands below a letter as tokens."""
+        """Read the index of a letter as tokens."""
         if self.peek() != "{":
             return [str(self.take())]
         self.take()
@@ -556,7 +565,7 @@ class _Formula:
         return _plain(self.below())
 
     def named(self) -> ast.expr:
-        """Return what a letter means: what the table says, else what it is named after itself."""
+        """Return the plain name of a letter: that of the table, else its own."""
         letter = self.letter()
         self.bold |= letter.base.startswith(r"\mathbf")
         family = self.table.letters.get(_Letter(letter.accents, letter.base, letter.primes, ()), "")
@@ -564,29 +573,29 @@ class _Formula:
             return self.meant(letter)
         rates = [_ACCENTS[accent] for accent in letter.accents if accent in {r"\dot", r"\ddot"}]
         still = replace(letter, accents=tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}))
-        whole = self.table.letters.get(letter)
-        if whole is not None and whole.endswith("()"):
+        basis = self.table.letters.get(letter)
+        if basis is not None and basis.endswith("()"):
             self.take("(")
-            return _call(whole.removesuffix("()"), *self.entries("("))
-        value = _expression(whole.removesuffix("[]")) if whole is not None else self.meant(still)
+            return _call(basis.removesuffix("()"), *self.entries("("))
+        value = _expression(basis.removesuffix("[]")) if basis is not None else self.meant(still)
         if isinstance(value, ast.Name):
             (self.vectors if letter.base.startswith("\\mathbf") else self.thin).add(value.id)
-        for rate in reversed(rates) if whole is None else ():
+        for rate in reversed(rates) if basis is None else ():
             value = _call(rate, value)
         return value
 
     def meant(self, letter: _Letter) -> ast.expr:
-        """Return what a letter without dots means."""
+        """Return the plain name of a letter without dots."""
         if letter in self.table.letters:
             return _expression(self.table.letters[letter].removesuffix("[]"))
         bare = _Letter(letter.accents, letter.base, letter.primes, ())
         prefix = "".join(_ACCENTS[accent] for accent in letter.accents)
         name = prefix + _name(letter.base.split(" ")[-1].strip("\\")) + "p" * letter.primes
-        known = self.table.letters.get(bare)
+        vocabulary = self.table.letters.get(bare)
         if name + "".join(letter.below) in self.table.taken(letter):
             raise UnreadableError(f"{name}{''.join(letter.below)} is the name of another letter")
-        if letter.below and not (known is None and all(mark.isdigit() for mark in letter.below)):
-            array = _expression(known.removesuffix("[]")) if known else ast.Name(name)
+        if letter.below and not (vocabulary is None and all(mark.isdigit() for mark in letter.below)):
+            array = _expression(vocabulary.removesuffix("[]")) if vocabulary else ast.Name(name)
             return ast.Subscript(array, _tuple(_plain(letter.below)))
         return ast.Name(name + "".join(letter.below))
 

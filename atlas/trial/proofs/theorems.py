@@ -1,4 +1,4 @@
-"""What the atlas adds to the paper, on trial in the same way."""
+"""Theorems of the atlas that the paper does not have, on trial in the same way."""
 
 from functools import cache
 
@@ -32,13 +32,15 @@ ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, an
 
 def quartic_model() -> Model:
     """Any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
-    whole = state_model().letters
+    basis = state_model().letters
     names = ("E", "c3", "c5", "I", "Bsquare")
     fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
     letters = {**fixed, **cubic(fixed, fixed["Bsquare"], fixed["I"]), "u": U}
     letters["leading"] = lambda Q: sympy.Poly(Q, U).coeff_monomial(U**4)
-    where = [(symbol, whole[name]) for name, symbol in fixed.items()]
-    return Model(letters, [*where, (U, whole["Omega3"])], flow={U: whole["d"](whole["Omega3"])})
+    bindings = [(symbol, basis[name]) for name, symbol in fixed.items()]
+    return Model(
+        letters, [*bindings, (U, basis["Omega3"])], flow={U: basis["d"](basis["Omega3"])}, laws="u = Omega_3 by (34)"
+    )
 
 
 def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
@@ -55,17 +57,17 @@ def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
 def stability_model() -> Model:
     """Model Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
     b, hB3 = elementary.b, elementary.hB3
-    where = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), *elementary.FIELD]
+    bindings = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), *elementary.FIELD]
     letters = {"tau": hB3 / elementary.hB2, "x": x, "w": x * b, "b": b, "Bsquare": b**2, "hB3": hB3}
-    return Model({**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), **letters}, where)
+    return Model({**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), **letters}, bindings)
 
 
 def short_model() -> Model:
     """Model the same for 1 <= I <= 2 and any real X but 0."""
     X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
-    where = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + more})), (omega2, X - B2), (B3, tau * B2)]
+    bindings = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + more})), (omega2, X - B2), (B3, tau * B2)]
     letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + more), "X": X, "tau": tau, "I": 1 + more}
-    return Model({**LETTERS, **letters}, where, domains={"more": "unit"})
+    return Model({**LETTERS, **letters}, bindings, domains={"more": "unit"})
 
 
 @cache
@@ -110,15 +112,15 @@ def root_model() -> list[Model]:
         [(omega2, -B2), (I, sympy.Integer(1))],
         [(omega2, -B2), (B3, zero)],
     ]
-    return [Model(letters, where) for where in lines]
+    return [Model(letters, bindings) for bindings in lines]
 
 
 def leaving_model() -> Model:
     """Model I < 1, time, and Q by theorem-root with the frequency 0."""
     t, v = sympy.symbols("t v", real=True)
     letters: dict[str, Value] = {"I": 1 / (1 + excess), "B3": B3, "t": t, "v": v, "omega3": omega3}
-    whole = evaluated("theorem-root", SIGNS, {**letters, "nun2": sympy.Integer(0)})
-    letters |= functions("Q", whole.xreplace({v: U - omega3}), U)
+    basis = evaluated("theorem-root", SIGNS, {**letters, "nun2": sympy.Integer(0)})
+    letters |= functions("Q", basis.xreplace({v: U - omega3}), U)
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
@@ -138,12 +140,12 @@ def ball_nutation_model() -> Model:
 
 def torque_model() -> Model:
     """(17) for any symmetric mass matrix and any Omega."""
-    whole = euler_poisson.magnetic_model()
-    R, tensor, mass = (whole.letters[name] for name in ("R", "I", "g"))
+    basis = euler_poisson.magnetic_model()
+    R, tensor, mass = (basis.letters[name] for name in ("R", "I", "g"))
     spin, field = euler_poisson.Omega, euler_poisson.Bf
     torque = -euler_poisson.mu / euler_poisson.c * cross(R * mass * R.T * field, R * spin)
-    letters = {**whole.letters, "m": R * tensor * spin, "dm": torque, "c": euler_poisson.c}
-    return Model(letters, whole.where, dict(zip(R, R * hat(spin), strict=True)))
+    letters = {**basis.letters, "m": R * tensor * spin, "dm": torque, "c": euler_poisson.c}
+    return Model(letters, basis.bindings, dict(zip(R, R * hat(spin), strict=True)))
 
 
 def lines_model() -> list[Model]:
@@ -156,7 +158,7 @@ def lines_model() -> list[Model]:
 def turning_model(case: str) -> Model:
     """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
     e = elementary
-    first, axis, where = (
+    first, axis, bindings = (
         (e.b, sympy.Matrix([0, e.hB2, e.hB3]), [(I, sympy.Integer(1))])
         if case == "ball"
         else (e.B2, sympy.Matrix([0, 1, 0]), [(e.u, sympy.Integer(1))])
@@ -166,7 +168,7 @@ def turning_model(case: str) -> Model:
     letters = {**e.CONSTANTS, "Omega": e.SPIN.xreplace({omega2: -e.B2}), "b": e.b, "J": e.TENSOR, "g": e.MASS}
     letters["Bp"] = sympy.Matrix([0, e.B2, e.B3])
     phases = {first * e.t: (e.ck, e.sk), second * e.t: (e.cf, e.sf)}
-    model = Model(letters, [*e.ANGLES, *e.FIELD, *where], flow, e.START, phases, e.DOMAINS)
+    model = Model(letters, [*e.ANGLES, *e.FIELD, *bindings], flow, e.START, phases, e.DOMAINS)
     model.letters |= {"about_z": model.about(ball.E3), "about_B" if case == "ball" else "about_y": model.about(axis)}
     return model
 
@@ -188,16 +190,16 @@ def angles_model() -> Model:
     halves = {name: sympy.symbols(f"c_{name} s_{name}", real=True) for name in names}
     tangents = sympy.symbols("p1:4", real=True)
     flow: dict[Value, Value] = {}
-    where: list[tuple[Value, Value]] = []
+    bindings: list[tuple[Value, Value]] = []
     for name, rate, tangent in zip(names, rates, tangents, strict=True):
         cosine, sine = halves[name]
         flow |= {cosine: -rate / 2 * sine, sine: rate / 2 * cosine}
-        where += [(cosine, turn(tangent)[0]), (sine, turn(tangent)[1])]
-    whole = {name: (c**2 - s**2, 2 * c * s) for name, (c, s) in halves.items()}
+        bindings += [(cosine, turn(tangent)[0]), (sine, turn(tangent)[1])]
+    basis = {name: (c**2 - s**2, 2 * c * s) for name, (c, s) in halves.items()}
     axes = ball.E3, sympy.Matrix([1, 0, 0]), ball.E3
-    first, second, third = (rodrigues(axis, *whole[name]) for name, axis in zip(names, axes, strict=True))
+    first, second, third = (rodrigues(axis, *basis[name]) for name, axis in zip(names, axes, strict=True))
     R = first * second * third
-    model = Model({}, where, flow)
+    model = Model({}, bindings, flow)
     W = R.T * R.applyfunc(model.rate)
     spin = sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])
     K = b * R.row(2).T
@@ -205,7 +207,7 @@ def angles_model() -> Model:
     letters |= {"c3": spin[2] + K[2], "i": sympy.I}
     for name, size, rate in zip(("xi", "eta"), halves[names[1]], (psi1 + chi1, psi1 - chi1), strict=True):
         letters[name] = model.rate(size) / size + sympy.I * rate / 2
-    return Model(letters, where, flow)
+    return Model(letters, bindings, flow)
 
 
 def _and_only_there(line: str) -> str:

@@ -13,7 +13,8 @@ nu, r, a, A, M3, p, x, y = sympy.symbols("nu nu0 a A M3 p x y", real=True)
 J, COUPLING, E3 = sympy.diag(1, 1, I), sympy.diag(k2, k2, k3), sympy.Matrix([0, 0, 1])
 KAPPA, LEADING = k2 - k3 / I, A0 + k3**2 / I - k2**2
 LETTERS = {"I": I, "k2": k2, "k3": k3, "a0": a0, "A0": A0, "kappa": KAPPA, "A": LEADING}
-LETTERS |= {"J": J, "k": COUPLING, "e3": E3}
+LETTERS |= {"J": J, "k": COUPLING, "e3": E3, "k1": COUPLING[0, 0]}
+LETTERS |= {f"J{n + 1}": J[n, n] for n in range(3)}
 g = sympy.Symbol("g", real=True)
 QUARTIC = (1 - nu**2) * (g - 2 * a * nu - A * nu**2) - (p - M3 * nu) ** 2
 """The quartic of every top, by theorem-every-top."""
@@ -29,35 +30,45 @@ def state_model() -> Model:
     M, b = vector("M"), vector("b")
     Omega = J.inv() * (M - COUPLING * b)
     rates = cross(M, Omega) + cross(COUPLING * Omega - _force(b) * E3, b), cross(b, Omega)
-    where = list(zip(b, direction(), strict=True))
+    bindings = list(zip(b, direction(), strict=True))
     energy = dot(Omega, J * Omega) + 2 * a0 * b[2] + A0 * b[2] ** 2
-    momentum, along = M[2], dot(M, b)
+    momentum, momentum_along_field = M[2], dot(M, b)
     turn = (Omega[0] * b[0] + Omega[1] * b[1]) / (1 - nu**2)
-    letters = {**LETTERS, "nu": nu, "M3": momentum, "p": along, "h": energy, "a": momentum * KAPPA + a0}
+    letters = {
+        **LETTERS,
+        "M": M,
+        "b": b,
+        "Omega": Omega,
+        "nu": nu,
+        "M3": momentum,
+        "p": momentum_along_field,
+        "h": energy,
+        "a": momentum * KAPPA + a0,
+    }
     letters |= {"psi1": turn, "chi1": Omega[2] - nu * turn}
-    letters["g"] = energy - momentum**2 / I + 2 * k2 * along - k2**2
+    letters["g"] = energy - momentum**2 / I + 2 * k2 * momentum_along_field - k2**2
     flow = dict(zip([*M, *b, nu], [*rates[0], *rates[1], rates[1][2]], strict=True))
-    return Model(letters, [*where, (nu, b[2])], flow)
+    return Model(letters, [*bindings, (nu, b[2])], flow, laws="M and b by the assumed equations")
 
 
 def start_model() -> Model:
-    """Model the start with b = (0, n2, n3), and what the rates of nu are there."""
-    whole, (n2, n3) = state_model(), turn(x)[::-1]
+    """Model the start with b = (0, n2, n3), and the rates of nu at this start."""
+    basis, (n2, n3) = state_model(), turn(x)[::-1]
     omega, direction = sympy.Matrix([omega1, omega2, omega3]), sympy.Matrix([0, *sympy.symbols("n2 n3", real=True)])
     M, symbols = J * omega + COUPLING * direction, sympy.symbols("w v", real=True)
     values = dict(zip([*vector("M"), *vector("b")], [*M, *direction], strict=True))
     letters = {**LETTERS, "nu": vector("b")[2], "n2": direction[1], "n3": direction[2]}
     letters |= {"omega1": omega1, "omega2": omega2, "omega3": omega3, "w": symbols[0], "v": symbols[1]}
     letters["D"] = LEADING + KAPPA**2 + a0 / direction[2]
-    return Model(letters, [(direction[1], n2), (direction[2], n3)], whole.flow, values)
+    return Model(letters, [(direction[1], n2), (direction[2], n3)], basis.flow, values)
 
 
 def paper_model() -> Model:
     """Model the paper's body with B' = b n: k2 = b, k3 = I b, no potential."""
     b = sympy.Symbol("b", positive=True)
-    where = [(k2, b), (k3, I * b), (a0, sympy.Integer(0)), (A0, sympy.Integer(0))]
+    bindings = [(k2, b), (k3, I * b), (a0, sympy.Integer(0)), (A0, sympy.Integer(0))]
     letters = {**start_model().letters, "b": b}
-    return Model(letters, [*where, *start_model().where])
+    return Model(letters, [*bindings, *start_model().bindings])
 
 
 def turns_model() -> Model:
@@ -68,8 +79,8 @@ def turns_model() -> Model:
     b = sympy.Matrix([n2 * s, n2 * c, n3])
     letters = {**LETTERS, "b": b, "psi1": psi, "chi1": chi, "U": _force(b), "n2": n2, "n3": n3, "w": w, "v": v}
     letters |= {"omega2": w - n2 * k3 / I, "omega3": v - n3 / I * (k3 - 2 * KAPPA), "D": base["D"]}
-    where = [*start_model().where, (c, turn(y)[0]), (s, turn(y)[1])]
-    return Model(letters, where, flow={s: chi * c, c: -chi * s})
+    bindings = [*start_model().bindings, (c, turn(y)[0]), (s, turn(y)[1])]
+    return Model(letters, bindings, flow={s: chi * c, c: -chi * s})
 
 
 def quartic_model() -> Model:
@@ -82,19 +93,21 @@ def precession_model() -> Model:
     """Model a steady precession with the rate w at nu = r."""
     w = sympy.Symbol("w", real=True)
     momentum = (r * w**2 + a + A * r) / w
-    along, rest = w * (1 - r**2) + r * momentum, 2 * a * r + A * r**2 + w**2 * (1 - r**2)
-    letters = {"nu0": r, "a": a, "A": A, "w": w, "M3": momentum, "p": along, "g": rest}
-    return Model({**letters, **functions("q", QUARTIC.xreplace({M3: momentum, p: along, g: rest}), nu)})
+    momentum_along_field, remainder = w * (1 - r**2) + r * momentum, 2 * a * r + A * r**2 + w**2 * (1 - r**2)
+    letters = {"nu0": r, "a": a, "A": A, "w": w, "M3": M3, "p": p, "g": g}
+    return Model(
+        {**letters, **functions("q", QUARTIC, nu)}, [(M3, momentum), (p, momentum_along_field), (g, remainder)]
+    )
 
 
 def marginal_model() -> Model:
     """Model a steady precession whose nutation has no frequency, c = (a + A r)/w."""
-    base = dict(precession_model().letters)
-    w = base["w"]
+    base = precession_model()
+    w = base.letters["w"]
     c = sympy.Symbol("c", real=True)
     leading = (c * w - a) / r
     force = sympy.solve(w**2 + leading * (1 - 3 * r**2) - 2 * a * r + c**2, a)[0]
-    return Model({**base, "c": c}, [(A, leading), (a, force)])
+    return Model({**base.letters, "c": c}, [(A, leading), (a, force), *base.bindings])
 
 
 def sleeping_model() -> list[Model]:

@@ -1,13 +1,15 @@
-"""A trial: what the paper prints, what stands before it, and what the verdict rests on."""
+"""A trial: the printed form of an entry, the model of its letters, and the lines that are tried."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
+
+import sympy
 
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.proofs import tex
 from atlas.trial.proofs.assumed import Read, held
-from atlas.trial.proofs.decide import Outcome, decide
+from atlas.trial.proofs.decide import Outcome, decide, understood
 from atlas.trial.proofs.model import COMMON, Model, Value
 from atlas.trial.proofs.notation import NoMeaningError, Reader, parse, sides
 from atlas.trial.proofs.verdict import Grade
@@ -26,7 +28,7 @@ def _made(model: Callable[[], Cases]) -> Sequence[Model]:
 def _assumed(
     assumptions: tuple[str, ...], signs: tuple[tuple[str, str], ...], model: Callable[[], Cases], apart: tuple[str, ...]
 ) -> Read:
-    """Return what became of assumptions in a model, once for all forms that are tried."""
+    """Hold assumptions against a model, once for all forms that are tried."""
     return held(assumptions, dict(signs), _made(model), apart)
 
 
@@ -54,9 +56,9 @@ class Falsehood:
     """A false sentence near a claim, which its trial must refute: else the trial would let the claim pass unread.
 
     says    the sentence
-    right   what it changes in the true form of the claim, in the first line that holds it; empty if it changes nothing
-    wrong   what it has in that place
-    model   of what it says this, if not of what the claim is about
+    right   piece of the true form that it replaces, in the first line that has it; empty if it replaces nothing
+    wrong   piece in that place
+    model   model of the false sentence, if not that of the claim
     """
 
     says: str
@@ -70,26 +72,26 @@ class Trial:
     r"""The trial of one entry of the ledger.
 
     name       that of the entry, the key under which its topic has it
-    model      what stands before it, made when it is needed; several cases where the claim covers them all
-    follows    from what the printed form is derived, in a few words
-    signs      what letters and phrases of its TeX mean, where its topic does not say so; see `tex`
-    form       what the line becomes that is made from the TeX, such as `notation.conserved`
+    model      function that makes the model, or a model for each case of the claim
+    follows    premises of the printed form, in a few words
+    signs      meanings of letters and phrases of its TeX beside those of its topic; see `tex`
+    form       change of the line that is made from the TeX, such as `notation.conserved`
     tex        the TeX, if it is not that of the ledger
     defines    letters that the printed form defines
-    solves     what must hold with these
-    elsewhere  models of statements that are not of what `model` is about, by their place in the line
+    solves     line that must hold with these letters
+    elsewhere  other models of single statements, by their place in the line
     apart      clauses of its assumptions whose letters are not those of `model`: they are named as not read
-    arrows     what stands at an arrow of the formula, by the number of statements before it: None at a single one,
+    arrows     for each arrow of the formula, by the number of statements before it: None at a single one,
                whose premise the model has or the line defines; at a double one the line that tries it in both
                directions, empty where `form` makes that of its two sides
     also       further lines that the claim needs: parts, or the lines alone where they are of the same model
-    definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
-    grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
+    definition whether the entry only defines its letters: then it is a definition and not proved
+    grade      kind of slip, if it needs an erratum: it is refuted, or true but incomplete
     slip       the entry under which the slip is counted, if it is the same one; its grade then is this one's, too
-    corrected_tex  the true form where there is a slip, in which `\boxed` marks what has changed; `corrected_signs`,
+    corrected_tex  the true form where there is a slip, in which `\boxed` marks the changes; `corrected_signs`,
                `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
                those of the printed form, and `corrected_also`
-    note       what the verdict means, where it needs a word
+    note       meaning of the verdict, if it needs a word
     false      a false sentence near it; a claim in words must have one, unless it is refuted itself
     """
 
@@ -129,7 +131,7 @@ class Trial:
 
     @property
     def true_form(self) -> "Trial | None":
-        """The trial of the true form, as of what is printed; None if there is no slip."""
+        """The trial of the true form; None if there is no slip."""
         if not self.corrected_tex:
             return None
         return Trial(
@@ -153,12 +155,12 @@ class Trial:
 
     @property
     def said(self) -> dict[str, str]:
-        """What of the printed and of the corrected form is not read, with the lines that are tried in its place."""
+        """Phrases of the printed and the corrected form that are not read, with the lines tried in their place."""
         return tex.said(self.formula, self.signs) | (self.true_form.said if self.true_form else {})
 
     @property
     def assumed(self) -> Read:
-        """What became of the assumptions in the model of the true form."""
+        """The assumptions, held against the model of the true form."""
         case = self.true_form or self
         return _assumed(EQUATIONS[self.name].assumptions, tuple(case.signs.items()), case.model, self.apart)
 
@@ -203,18 +205,36 @@ class Trial:
             parts, thin = self.parts, tex.thin(self.formula, self.signs)
         except (tex.UnreadableError, NoMeaningError) as reason:
             return Outcome("undecided", f"unreadable: {reason}")
-        tried = [(place, r"\implies" if line is None else r"\iff") for place, line in self.arrows.items()]
-        if tex.arrows(self.formula, self.signs) != tried:
-            return Outcome("undecided", "unreadable: its arrows are not those that are tried")
-        if self.assumed.broken:
-            return Outcome("undecided", f"assumed, and not so in the model: {'; '.join(self.assumed.broken)}")
-        for name in thin:
-            if any(getattr(model.letters.get(name), "shape", ()) == (3, 1) for model in parts[0].cases):
-                return Outcome("undecided", f"unreadable: {name} is a vector, and is not bold")
+        if objection := self._objection(thin):
+            return Outcome("undecided", objection)
         outcome = _joined([piece.outcome(shrink=shrink) for piece in parts])
         if self.definition and outcome.decision == "proved":
             return Outcome("definition", "it says what its letters mean")
         return outcome
+
+    def _objection(self, thin: Iterable[str]) -> str:
+        """Return why the line is not tried: arrows, assumptions or letters that it does not have; empty if none."""
+        tried = [(place, r"\implies" if line is None else r"\iff") for place, line in self.arrows.items()]
+        if tex.arrows(self.formula, self.signs) != tried:
+            return "unreadable: its arrows are not those that are tried"
+        if self.assumed.broken:
+            return f"assumed, and not so in the model: {'; '.join(self.assumed.broken)}"
+        if singular := self._singular():
+            return f"assumed, and without a value there: {singular}"
+        for name in thin:
+            if any(getattr(model.letters.get(name), "shape", ()) == (3, 1) for model in self.parts[0].cases):
+                return f"unreadable: {name} is a vector, and is not bold"
+        return ""
+
+    def _singular(self) -> str:
+        """Return the first special case of the assumptions at which a side of the true line has no value."""
+        part = (self.true_form or self).parts[0]
+        for number, symbol, value in self.assumed.special:
+            relations = understood(part.line, part.cases[number], part.defines, part.solves)[0]
+            sides = (sympy.sympify(side) for each in relations for side in (*each.left, *each.right))
+            if any(side.subs(symbol, value).has(sympy.nan, sympy.zoo) for side in sides):
+                return f"{symbol} = {value}"
+        return ""
 
     def of_corrected(self) -> Outcome:
         """Try the corrected form, which must be there."""
@@ -235,7 +255,7 @@ def evaluated(name: str, signs: Mapping[str, str], letters: Mapping[str, Value],
 
 
 def mended(name: str, changes: Mapping[str, str], more: str = "") -> str:
-    r"""Return the TeX of an entry with other pieces, in a \boxed unless they say what has changed, and more behind it.
+    r"""Return the TeX of an entry with other pieces, each in a \boxed unless it has one, and with more at the end.
 
     Raises ValueError if a piece is not there.
     """
@@ -248,7 +268,7 @@ def mended(name: str, changes: Mapping[str, str], more: str = "") -> str:
 
 
 def _joined(outcomes: Sequence[Outcome]) -> Outcome:
-    """Return what several lines come to: refuted if one is, proved if all are."""
+    """Return the outcome of several lines: refuted if one is, proved if all are."""
     for decision in ("refuted", "undecided", "supported"):
         for outcome in outcomes:
             if outcome.decision == decision:

@@ -1,4 +1,4 @@
-"""What a trial ends with, as a record that needs no SymPy."""
+"""Verdict of a trial, as a record that needs no SymPy."""
 
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
@@ -7,9 +7,8 @@ from typing import Any, Literal
 Decision = Literal["proved", "refuted", "undecided", "supported", "definition"]
 Grade = Literal["", "sign of the charge", "gap in the argument", "missing case", "misprint", "wording"]
 GRADES: tuple[Grade, ...] = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
-"""The kinds of slips, the grave ones first: what is wrong as physics, an argument that does not carry, a result that
-does not cover all that it is said to cover; then a formula or a sentence whose right form is plain from what stands
-around it."""
+"""The kinds of slips, the grave ones first: wrong physics, a gap in an argument, a result that covers less than
+claimed; then a formula or a sentence whose right form is plain from its context."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,22 +17,22 @@ class Verdict:
 
     name, number, section, kind   as in the ledger
     verdict         proved, refuted, undecided, supported (sampled only, with the count in `method`), or definition (it
-                    says what its letters mean, and there is nothing to prove)
+                    defines its letters, and there is nothing to prove)
     grade           the kind of slip, one of `GRADES`, where the entry needs an erratum: it is refuted, or it is true
                     as far as it goes and not complete or not clear; empty for all others
     slip            the entry under which the slip is counted, where several entries share one
     method          how: polynomial identity, exact counterexample, indices, ...
-    follows         from what the printed form was derived
+    follows         equations from which the printed form was derived
     printed         the printed form in plain letters, as it was tried, read from its TeX
     said            the phrases of it, in TeX, that are not read, with the lines in their place; empty if assumed
     not_read        the clauses of its assumptions that are not held against the model
     corrected       the true form where the printed one is refuted, and its TeX; it has been proved if
                     `corrected_verdict` says so
-    counterexample  values of the letters that break the printed form, and what its two sides then are
-    note            what the verdict means, where it needs a word
+    counterexample  values of the letters that break the printed form, and its two sides at these values
+    note            meaning of the verdict, if it needs a word
     false           a false sentence near a claim in words, `false_line` in plain letters, `false_verdict` on it, which
                     must be refuted
-    seconds         what the trial took of the processor
+    seconds         processor time of the trial
     source          fingerprint of the proof's source
     """
 
