@@ -1,10 +1,12 @@
 r"""Holds the models of a trial against the assumptions of its entry.
 
 A clause of an assumption that is one formula, or says that one thing differs from another, is read with the letters of
-the trial. An equation must hold in each model that knows its letters, unless they are independent there, so that the
-claim is tried for all their values. A domain must be covered: points of the models that obey it come near its ends.
+the trial. An equation must hold in each model that knows its letters, unless it gives a number to a free symbol, so
+that the claim is tried for all its values. A relation with the same expression on both sides says nothing, and counts
+as not read. A domain must be covered: points of the models that obey it come near its ends.
 """
 
+import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +18,7 @@ import sympy
 from atlas.trial.proofs import tex
 from atlas.trial.proofs.identity import resolved, vanishes
 from atlas.trial.proofs.model import Model
-from atlas.trial.proofs.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
+from atlas.trial.proofs.notation import Reader, Relation, letters_of, parse, write
 
 POINTS, NEAR = 6000, 0.05
 """Points of a model, and how near one of them must come to an end of a domain, beside 1 and the sizes compared."""
@@ -28,7 +30,7 @@ _CLAUSE = re.compile(r"\$([^$]+)\$(?: (differs? from|is) (0|\d|\$[^$]+\$))?(?: \
 class Read:
     """Assumptions of an entry: true in the models, false there, not read; and (model, symbol, value) of special cases.
 
-    A special case is an equation for a symbol that is free in the model, so that the claim must have a value there.
+    A special case gives a number to a symbol that is free in the model, so that the claim must have a value there.
     """
 
     kept: tuple[str, ...]
@@ -60,15 +62,14 @@ def held(assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[
         if not relations:
             left.append(clause)
         for number, relation in relations:
-            if relation.sign == "=":
-                bindings = resolved(models[number].bindings)
-                free = not _vanish(relation, bindings)
-                (broken if free and not _independent(relation, models[number], bindings) else kept).append(
-                    relation.text
-                )
-                special += [(number, relation.left[0], relation.right[0])] * free
-            elif relation.sign == "!=":
-                (broken if _vanish(relation, resolved(models[number].bindings)) else kept).append(relation.text)
+            bindings = resolved(models[number].bindings)
+            if _says_nothing(relation):
+                left.append(clause)
+            elif relation.sign == "=" and _gives_number(relation, bindings):
+                kept.append(relation.text)
+                special.append((number, relation.left[0], relation.right[0]))
+            elif relation.sign in {"=", "!="}:
+                (kept if _vanish(relation, bindings) == (relation.sign == "=") else broken).append(relation.text)
             else:
                 domains.setdefault(number, []).extend(_sides(relation, models[number]))
     for text, distance in _nearest(domains, models).items():
@@ -87,22 +88,39 @@ def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence
 
 
 def _relations(formula: str, signs: Mapping[str, str], model: Model) -> list[Relation]:
-    """Return the relations of a formula in a model; none where it is not read or has letters unknown there."""
+    """Return the relations of a formula in a model; none where a formula is not read or has letters unknown there.
+
+    Left out are those with a letter whose symbol bears the name of another letter, as J1 is J2 in a symmetric top: one
+    can stand in the place of the other unnoticed. That both are equal is read.
+    """
     symbols = {str(s): s for v in model.letters.values() for s in getattr(v, "free_symbols", ())}
     letters = symbols | model.letters
     try:
         line = tex.line(formula, signs) if formula else ""
         trees = [tree for tree in parse(line) if set(letters_of(tree)) <= {*letters}] if line else []
-        return Reader(letters, model.ranges).relations(write(trees)) if trees else []
-    except (tex.UnreadableError, NoMeaningError, TypeError, KeyError, AttributeError, IndexError, SyntaxError):
+        found = Reader(letters, model.ranges).relations(write(trees)) if trees else []
+    except (ValueError, TypeError, KeyError, AttributeError, IndexError, SyntaxError):
         return []
+    double = {name for name, value in model.letters.items() if str(value) != name and _is_letter(value, model)}
+    return [each for each in found if not double.intersection(each.letters) or re.fullmatch(r"\w+ \S+ \w+", each.text)]
 
 
-def _independent(relation: Relation, model: Model, bindings: dict[Any, Any]) -> bool:
-    """Whether the letters of an equation are different free symbols of a model."""
-    values = [model.letters.get(name, sympy.Symbol(name, real=True)) for name in relation.letters]
-    single = "(" not in relation.text and all(isinstance(x, sympy.Symbol) and x not in bindings for x in values)
-    return single and len(set(values)) == len(values)
+def _is_letter(value: Any, model: Model) -> bool:
+    """Whether the value of a letter is a symbol that bears the name of a letter of the model."""
+    return isinstance(value, sympy.Symbol) and model.letters.get(str(value)) == value
+
+
+def _says_nothing(relation: Relation) -> bool:
+    """Whether both sides of a relation are the same expression as typed, and equal or not less than each other."""
+    tree = parse(relation.text)[0]
+    return relation.sign in {"=", "<=", ">="} and ast.dump(tree.left) == ast.dump(tree.comparators[0])
+
+
+def _gives_number(relation: Relation, bindings: Mapping[Any, Any]) -> bool:
+    """Whether an equation gives a number to its one letter, which is a free symbol of the model."""
+    symbol, value = relation.left[0], sympy.sympify(relation.right[0])
+    free = isinstance(symbol, sympy.Symbol) and symbol not in bindings
+    return free and len(relation.letters) == len(relation.left) == 1 and bool(value.is_number)
 
 
 def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
