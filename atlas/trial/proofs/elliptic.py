@@ -222,9 +222,7 @@ TRIALS = {
         r"moments are $A+(s/\varrho)J$ in the field $\varrho\mathbf{K}$, one for each $\varrho$, as in "
         "@theorem-free-body. The elliptic motions, and with $J_1=J_2$ the elementary ones, are of this form "
         "with numbers $J_i$ of any sign.",
-        false=Falsehood(
-            "The products are those of the true body alone", "X = alpha*A + gamma*J", "X = alpha*A + beta*J"
-        ),
+        false=Falsehood("The field's moments have a number of their own", "beta*A + alpha*s*J", "beta*A + gamma*s*J"),
     ),
     "theorem-splitting": Trial(
         model=root_model,
