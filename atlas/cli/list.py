@@ -118,8 +118,12 @@ def _tables(_: list[str]) -> Listing:
     import atlas.book.keys  # noqa: F401  its tables join the others
     from atlas.book.tables import TABLES
 
+    def content(table: Any) -> str:
+        words = sentence(table).removeprefix("Return the ").removeprefix("Return ")
+        return words[:1].upper() + words[1:]
+
     record: dict[str, Any] = {
-        name: {"says": sentence(table), "keys": dict(_keys_of(get_annotations(table).values()))}
+        name: {"says": content(table), "keys": dict(_keys_of(get_annotations(table).values()))}
         for name, table in TABLES.items()
     }
     return {"tables": record}, [(name, entry["says"], _marked(entry["keys"])) for name, entry in record.items()]
