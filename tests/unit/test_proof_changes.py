@@ -63,6 +63,7 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
         ("theorem-band", r"\le0", r"\le1"),
         ("theorem-clebsch", r"\dot F", r"\ddot F"),
         ("theorem-sigma", r"\zeta(t+z_0)", r"\zeta(-t+z_0)"),
+        ("theorem-companion-triple", r"1+4(1-I)b^2\nu_0^2t^2", "1"),  # a constant
         ("theorem-cusp", r"\implies", r"\iff"),
         ("theorem-cusp", r"\implies", r",\quad "),
         ("theorem-clebsch", r",\qquad\dot F", r"\iff\dot F"),
