@@ -144,7 +144,7 @@ class Phases:
 
     @cached_property
     def _sums(self) -> tuple[FloatArray, FloatArray]:
-        """Head of P0 + P1 with 26 digits, and the matrix that sums the rows of `halves_of`."""
+        """Leading 26 binary digits of P0 + P1, and the matrix that sums the rows of `halves_of`."""
         with workprec():
             head, *lows = _columns([_head(p) for p in self._small])
         columns = [] if self.origins is None else [self.origins[1]]

@@ -39,7 +39,7 @@ def turned(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray)
 
 
 def along(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the rigid motions that take a place (D,) to others (N, D) without a turn."""
+    """Return identity matrices (N, D, D) and the translations (N, D) from a point (D,) to others."""
     return np.broadcast_to(np.eye(len(start)), (*places.shape, len(start))), places - start
 
 
