@@ -17,5 +17,5 @@ def test_a_missing_letter_is_named() -> None:
     """Nothing is guessed."""
     with pytest.raises(AtlasError, match="B3"):
         value("(71)", "omega3", omega2=0.5, I=1.5, B2=1.0)
-    with pytest.raises(AtlasError, match="does not say what 'psi' is"):
+    with pytest.raises(AtlasError, match="has no side 'psi'"):
         value("(71)", "psi")
