@@ -72,7 +72,7 @@ class Asked:
         return self.called or name_of(self.words)
 
     def sources(self, exists: Callable[[str], bool]) -> dict[str, str]:
-        """Return the report file by its name; `there` says whether a page of that name lies beside it."""
+        """Return the text of the report file by its name; `exists` says which pages lie beside the new one."""
         return {f"{self.name}.md": headed(self, written(definition(self, exists)))}
 
     def changed(self, family: str, **options: Any) -> "Asked":

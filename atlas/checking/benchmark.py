@@ -195,7 +195,7 @@ def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
 
 
 def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tuple[float, float]:
-    """Return limits for a logarithmic axis with ``left`` and ``right`` decades of room for names."""
+    """Return the limits of a logarithmic axis: `start` and `end` decades beyond the values, room for names."""
     logs = np.log10(np.fromiter(values, dtype=float))
     return float(10.0 ** (logs.min() - start)), float(10.0 ** (logs.max() + end))
 

@@ -274,7 +274,7 @@ def _arguments(motion: Any) -> dict[str, Any]:
 
 
 def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Check:
-    """Grade the trajectory in a CSV file, see `atlas.checking.trajectory`; `given` parameters override its # lines.
+    """Grade the trajectory in a CSV file, see `atlas.checking.trajectory`; `parameters` override its # lines.
 
     Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
     of a top direction, coupling, linear and quadratic; None stands for no value. With omega, all three components of

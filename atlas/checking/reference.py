@@ -49,7 +49,7 @@ class Reference:
 
 
 def reference(of_file: Mapping[str, tuple[float, ...]], overrides: Given, file: str) -> Reference:
-    """Return the reference of a trajectory: `given` parameters come before those `written` in its file.
+    """Return the reference of a trajectory; `overrides` come before the parameters `of_file` in its # lines.
 
     Raises AtlasError, with the name of the file, for missing or contradictory parameters, and the errors of
     the classes of motions for impossible bodies and starts.

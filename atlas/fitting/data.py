@@ -123,8 +123,8 @@ class Data:
     ) -> FloatArray:
         """Return the derivatives of the measured quantity, shape (N, k, P): the differences shrink by them.
 
-        `v` (N, P, 3) are the turns of R, of angular velocities dv/dt; `fields` (P, 3) the derivatives of the
-        `field`, and `rest` (N, 3) the differences where rotations are seen.
+        `v` (N, P, 3) has dR/dp = [v]x R, for angular velocities dv/dt; `fields` (P, 3) are the derivatives of the
+        `field`; `differences` (N, 3) are used where rotations are measured.
         """
         if self.kind == "rotation":
             return np.asarray((_inverse_right(differences) @ v.swapaxes(1, 2)).reshape(len(v), 3, -1))

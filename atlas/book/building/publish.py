@@ -22,9 +22,9 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, line
     do that and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one
     before; other files that it leaves are removed by the next one. Two builds at once take turns.
 
-    Only files that are still as they were written are replaced or removed; `known` are lines of such a list, by names
-    in `out`, for a folder without one. Raises AtlasError, with all written, where a file was edited: the new one is
-    beside it.
+    Only files that are still as they were written are replaced or removed; `lines_before` are lines of such a
+    list, with names in `out`, for a folder without one. A file that was edited stays; the new one is written beside
+    it, and AtlasError raised when all is written.
     """
     contents = {path: content for page in pages.values() for path, content in page.items()}
     inner = f"{name}/"
