@@ -1,14 +1,18 @@
 """Second moments of a charge distribution that is symmetric about the body's axis, apart from those of its mass."""
 
 from dataclasses import dataclass
+from dataclasses import field as attribute
+from fractions import Fraction
 from typing import Self
 
 import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike, ShapeName
 from atlas.arithmetic.dimensions import CHARGE, LENGTH
+from atlas.arithmetic.given import as_float_or_fraction
 from atlas.arithmetic.inputs import number, real, vectors
 from atlas.bodies.body import SHAPES, from_shape
+from atlas.bodies.inertia import MAX_EXACT_POINTS, sums_over_points
 from atlas.errors import AtlasError, DomainError
 
 CHARGE_MOMENT = "C m**2"
@@ -24,6 +28,11 @@ class ChargeMoments:
     ----------
     J2, J3 : float
         Moments across and along the axis, of either sign, in charge times length^2; x counts from the centre of mass.
+
+    Attributes
+    ----------
+    exact : tuple
+        Moments (J2, J3) without rounding, as a charged top takes them: floats or fractions.
 
     Raises
     ------
@@ -44,16 +53,22 @@ class ChargeMoments:
 
     J2: float
     J3: float
+    exact: tuple[float | Fraction, float | Fraction] = attribute(init=False, repr=False)
+    """Moments (J2, J3) without rounding: floats or fractions."""
 
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        object.__setattr__(self, "J2", number(self.J2, "J2", CHARGE_MOMENT))
-        object.__setattr__(self, "J3", number(self.J3, "J3", CHARGE_MOMENT))
+    def __init__(self, J2: float | Fraction, J3: float | Fraction) -> None:
+        exact = (
+            J if isinstance(J, Fraction) else number(J, name, CHARGE_MOMENT) for name, J in (("J2", J2), ("J3", J3))
+        )
+        object.__setattr__(self, "exact", tuple(exact))
+        for name, J in zip(("J2", "J3"), self.exact, strict=True):
+            object.__setattr__(self, name, number(J, name))
 
     def __add__(self, other: "ChargeMoments") -> "ChargeMoments":
         if not isinstance(other, ChargeMoments):
             return NotImplemented
-        return ChargeMoments(self.J2 + other.J2, self.J3 + other.J3)
+        J2, J3 = (as_float_or_fraction(Fraction(x) + Fraction(y)) for x, y in zip(self.exact, other.exact, strict=True))
+        return ChargeMoments(J2, J3)
 
     @classmethod
     def shape(cls, name: ShapeName, charge: float, **dimensions: RealArrayLike) -> Self:
@@ -89,8 +104,9 @@ class ChargeMoments:
             raise AtlasError(f"The moments of a charged {name} take {sizes}, not {given_sizes or 'nothing'}.")
         charge = number(charge, "The charge", CHARGE)
         body = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
-        sign = float(np.sign(charge))
-        return cls(sign * float(body.I2), sign * float(body.I3))
+        sign = int(np.sign(charge))
+        J2, J3 = (as_float_or_fraction(sign * Fraction(*I.as_integer_ratio())) for I in body.exact)
+        return cls(J2, J3)
 
     @classmethod
     def points(cls, charges: RealArrayLike, positions: RealArrayLike, *, held: bool = False) -> Self:
@@ -108,7 +124,7 @@ class ChargeMoments:
         Returns
         -------
         ChargeMoments
-            Moments J2 and J3.
+            Moments J2 and J3, of up to 4096 points without rounding.
 
         Raises
         ------
@@ -137,4 +153,7 @@ class ChargeMoments:
                 f"{abs(moments[0, 0] - moments[1, 1]):.3g} and elements off the diagonal reach {mixed:.3g}, more than "
                 f"{SYMMETRY_TOLERANCE * size:.3g} (1e-9 of the largest) for rounding."
             )
-        return cls(float(moments[0, 0] + moments[1, 1]) / 2, float(moments[2, 2]))
+        if e.size > MAX_EXACT_POINTS:
+            return cls(float(moments[0, 0] + moments[1, 1]) / 2, float(moments[2, 2]))
+        _, ((a, *_), (_, b, _), (*_, c)) = sums_over_points(e, x)
+        return cls(as_float_or_fraction((a + b) / 2 + c), as_float_or_fraction(a + b))

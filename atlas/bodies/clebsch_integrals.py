@@ -94,7 +94,7 @@ def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
 def body_tensor(inertia: Any) -> FloatArray:
     """Return the inertia tensor (3, 3), checked, of itself, principal moments (3,), a SymmetricBody or a ratio."""
     if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
-        I2, I3 = moments_of_one(inertia)
+        I2, I3 = map(float, moments_of_one(inertia))
         inertia = (I2, I2, I3)
     return inertia_tensor(inertia)
 

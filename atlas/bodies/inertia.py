@@ -70,15 +70,19 @@ def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
         with np.errstate(over="ignore", invalid="ignore"):
             x = x - (m @ x) / m.sum()
             return rational_matrix(real((m[:, None] * x).T @ x, "The mass matrix"))
-    exact = [[fmpq(*value.as_integer_ratio()) for value in column] for column in (m.tolist(), *x.T.tolist())]
-    mass, dipoles = (sum(exact[0], fmpq(0)), [[a * b for a, b in zip(exact[0], v, strict=True)] for v in exact[1:]])
-    sums = [sum(v, fmpq(0)) for v in dipoles]
-    matrix = [
-        [sum((a * b for a, b in zip(v, w, strict=True)), -p * q / mass) for w, q in zip(exact[1:], sums, strict=True)]
-        for v, p in zip(dipoles, sums, strict=True)
-    ]
+    mass = sum((fmpq(*value.as_integer_ratio()) for value in m.tolist()), fmpq(0))
+    first, second = sums_over_points(m, x)
+    matrix = [[y - first[i] * first[j] / mass for j, y in enumerate(row)] for i, row in enumerate(second)]
     finite(np.array([nearest(x) for row in matrix for x in row]), "The mass matrix")
     return matrix
+
+
+def sums_over_points(weights: FloatArray, positions: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
+    """Return the sums of a x, (3,), and of a x x^T, (3, 3), as rational numbers, of weights a (N,) at x (N, 3)."""
+    a, *columns = [[fmpq(*value.as_integer_ratio()) for value in v] for v in (weights.tolist(), *positions.T.tolist())]
+    weighted = [[p * q for p, q in zip(a, v, strict=True)] for v in columns]
+    second = [[sum((p * q for p, q in zip(v, w, strict=True)), fmpq(0)) for w in columns] for v in weighted]
+    return [sum(v, fmpq(0)) for v in weighted], second
 
 
 def inertia_tensor(inertia: Any) -> FloatArray:

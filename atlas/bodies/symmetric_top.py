@@ -9,7 +9,7 @@ from flint import fmpq
 from atlas.arithmetic.dimensions import ENERGY, INERTIA, MOMENTUM
 from atlas.arithmetic.inputs import FloatArray, common_shape, components, number, plain
 from atlas.arithmetic.numbers import as_rational, length, rational, workprec
-from atlas.bodies.body import moments
+from atlas.bodies.body import exact_moments
 from atlas.bodies.formula_domain import check_direction, check_moments
 from atlas.errors import DomainError
 
@@ -44,10 +44,12 @@ def arguments_of(top: Sequence[Any]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def moments_of_one(body: Any) -> tuple[float, float]:
-    """Return I2 and I3 of one body. Raises AtlasError for an array of bodies."""
-    I2, I3 = moments(body)
-    return I2, number(I3, "The ratio I3/I2 of the body")
+def moments_of_one(body: Any) -> tuple[Any, Any]:
+    """Return I2 and I3 of one body without rounding: floats or `Given`. Raises AtlasError for an array of bodies."""
+    I2, I3 = exact_moments(body)
+    for I in (I2, I3):
+        number(plain(I), "A moment of inertia of the body")
+    return I2, I3
 
 
 def along(field: tuple[float, float], weight: Any) -> fmpq:

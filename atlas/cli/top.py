@@ -1,6 +1,7 @@
 """Options of ``atlas top`` in place of moments and couplings: a heavy body, or a charged one in a field."""
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from math import hypot
 from pathlib import Path
 from typing import Any
@@ -156,7 +157,7 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
         return ChargeMoments(*options["charged"])
     _needs(options, "charge", "--coat")
     coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **given(options, SIZES))
-    return coat + ChargeMoments(options["charge"] * (length or 0.0) ** 2, 0.0)
+    return coat + ChargeMoments(Fraction(options["charge"]) * Fraction(length or 0) ** 2, 0.0)
 
 
 def _points(path: Path) -> dict[str, Any]:

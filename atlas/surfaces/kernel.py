@@ -4,13 +4,15 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from flint import fmpq
 
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import BLOCK, over
-from atlas.arithmetic.inputs import FloatArray, common_shape, components, kept, plain, vectors
+from atlas.arithmetic.given import Given
+from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, kept, plain, vectors
 from atlas.arithmetic.numbers import rounded
-from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.bodies.formula_domain import check_a2, check_a3, check_beta, check_D
 from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
 from atlas.display import Shown
@@ -64,11 +66,11 @@ class Quadric(Shown):
 
     def __init__(self, ratio: BodyLike, field: FieldLike) -> None:
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
-        I2, I3 = moments(ratio)
-        self._inputs = (I2, I3, plain(B2), plain(B3))
+        I2, I3 = exact_moments(ratio)
+        self._inputs = (I2, I3, as_given(B2), as_given(B3))
         self.shape = common_shape(*map(np.shape, self._inputs))
-        self.field = self._inputs[2:]
-        self.arguments = {"ratio": kept_ratio(ratio, I3), "field": self.field}
+        self.field = (plain(B2), plain(B3))
+        self.arguments = {"ratio": kept_ratio(ratio, I3), "field": self._inputs[2:]}
 
     @classmethod
     def of_top(
@@ -113,8 +115,9 @@ class Quadric(Shown):
         One of "two-sheet hyperboloid" (I > 1), "cone" (I = 1), "one-sheet hyperboloid" (I < 1), "plane pair" (B3 = 0),
         "line" (B2 = 0) and "all space" (B = 0).
         """
-        I2, I3, B2, B3 = np.broadcast_arrays(*self._inputs)
-        names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, I3 == I2, I3 > I2], KINDS[:-1], KINDS[-1])
+        excess = over(lambda I2, I3: I3 - I2, *self._inputs[:2])
+        B2, B3, excess = np.broadcast_arrays(*self._inputs[2:], excess)
+        names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, excess == 0, excess > 0], KINDS[:-1], KINDS[-1])
         return names if names.ndim else str(names)
 
     @kept
@@ -127,9 +130,10 @@ class Quadric(Shown):
             For B = 0.
         """
         I2, I3, B2, B3 = self._directed()
-        vertical = B2 == 0
-        slope = over(quadric.tangent, I2, I3, np.where(vertical, B3, B2), B3, unit=slice(2, None), degree=0)
-        values: FloatOrArray = plain(np.arctan2(np.copysign(slope, B3), np.where(vertical, 0.0, np.copysign(1.0, B2))))
+        is_upright = np.equal(B2, 0)
+        slope = over(quadric.tangent, I2, I3, _replaced(B2, is_upright), B3, unit=slice(2, None), degree=0)
+        rise, run = np.where(is_upright, 1.0, slope), np.where(is_upright, 0.0, np.copysign(1.0, B2))
+        values: FloatOrArray = plain(np.arctan2(np.copysign(rise, B3), run))
         return values
 
     @kept
@@ -142,7 +146,7 @@ class Quadric(Shown):
             For B2 = 0 with B3 >= 0.
         """
         I2, I3, B2, B3 = self._directed()
-        check_a2(B2, B3)
+        check_a2(*map(np.asarray, (B2, B3)))
         return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
@@ -155,16 +159,16 @@ class Quadric(Shown):
             For B2 = 0 with B3 <= 0.
         """
         I2, I3, B2, B3 = self._directed()
-        check_a3(B2, B3)
+        check_a3(*map(np.asarray, (B2, B3)))
         return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3 = sqrt(|1-I| B2^2 (1, |a2|, |a3|)), (55), (57), in 1/time; shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
-        is_upright = np.asarray(B2) == 0
+        is_upright = np.equal(B2, 0)
         semi_axes = over(
-            quadric.semi_axes, I2, I3, np.where(is_upright, 1.0, B2), B3, unit=slice(2, None), degree=(1, 1, 1)
+            quadric.semi_axes, I2, I3, _replaced(B2, is_upright), B3, unit=slice(2, None), degree=(1, 1, 1)
         )
         C1, C2, C3 = (plain(np.where(is_upright, 0.0, C)) for C in semi_axes)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
@@ -190,7 +194,8 @@ class Quadric(Shown):
         """
         I2, I3, B2, B3 = self._directed()
         cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, None), degree=(0, 0))
-        cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
+        left, below = np.less(B2, 0), np.less(B3, 0)
+        cos, sin = np.where(left & ~below, -cos, cos), np.where(left & below, -sin, sin)
         axes = np.zeros((*cos.shape, 3, 3))
         rows, flat = axes.reshape(-1, 9), np.stack([cos, sin]).reshape(2, -1)
         for i in range(0, len(rows), BLOCK):  # a part at a time stays in the cache
@@ -250,10 +255,19 @@ class Quadric(Shown):
         return over(quadric.residual, *self._inputs, *points, unit=slice(2, None), degree=3)
 
     def _directed(self) -> tuple[Any, ...]:
-        """Return the inputs as arrays; DomainError where I^-1 B' has no direction."""
-        I2, I3, B2, B3 = (np.asarray(x) for x in self._inputs)
-        check_beta(B2, B3)
-        return I2, I3, B2, B3
+        """Return the inputs. Raises DomainError if I^-1 B' has no direction."""
+        check_beta(*map(np.asarray, self._inputs[2:]))
+        return self._inputs
+
+
+def _replaced(numbers: Any, places: Any) -> Any:
+    """Return numbers without rounding, with 1 at the places of a mask."""
+    if not np.any(places):
+        return numbers
+    if not isinstance(numbers, Given):
+        return np.where(places, 1.0, numbers)
+    hi, low = np.where(places, 1.0, numbers.hi), np.where(places, 0.0, numbers.lo)
+    return Given(hi, low, numbers.rel, lambda index: fmpq(1) if places[index] else numbers.at(index))
 
 
 def _exactly(row: Any) -> "Exact":

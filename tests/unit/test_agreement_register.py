@@ -54,6 +54,7 @@ UNTIED = {
     "SymmetricBody.from_point_masses": GIVEN,
     "SymmetricBody.from_mass_matrix": GIVEN,
     "SymmetricBody.exact": GIVEN,
+    "ChargeMoments.exact": GIVEN,
     "body.exact_moments": GIVEN,
     "Field.pair": "two components of Field.prime, which is tied",
     **{
@@ -160,6 +161,7 @@ UNTIED = {
     "body.from_shape": GIVEN,
     "inertia.inertia_tensor": GIVEN,
     "inertia.exact_mass_matrix": GIVEN,
+    "inertia.sums_over_points": GIVEN,
     "inertia.principal_values": GIVEN,
     "inertia.rational_matrix": GIVEN,
     "units.ratio_of": GIVEN,

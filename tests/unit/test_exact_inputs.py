@@ -9,16 +9,20 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from flint import fmpq
 
 import atlas
-from atlas import SymmetricBody
+from atlas import ChargeMoments, SymmetricBody, TopMotion
 from atlas.arithmetic.inputs import FloatArray
-from atlas.arithmetic.numbers import nearest, workprec
+from atlas.arithmetic.numbers import nearest, rational, workprec
 from atlas.bodies.certified_body import shape_moments
 from atlas.book import body_and_field as body_records
 from atlas.cli.app import atlas as command
 from atlas.errors import DomainError, NearlySymmetricWarning
+from atlas.motions.elementary.certified_hyperbola import Hyperbola as CertifiedHyperbola
+from atlas.motions.elementary.formula_hyperbola import closing
 from atlas.motions.nutation.certified_general import GeneralMotion as Certified
+from atlas.surfaces.certified import Quadric as CertifiedQuadric
 
 FIELD, OMEGA = (1.0, 2.0), (0.3, 0.7, 0.2)
 LONG = 1e10
@@ -129,3 +133,44 @@ def test_a_page_takes_the_field_without_rounding() -> None:
     factor = Fraction(0.3) / Fraction(0.7) / 2
     assert case.exact_components == (factor, 2 * factor)
     assert case.components == (float(factor), float(2 * factor))
+
+
+@pytest.mark.parametrize("ratio", [Fraction(1, 3), Fraction(11, 7), 1 + Fraction(1, 10**20), 1 - Fraction(1, 10**20)])
+@pytest.mark.parametrize("field", [(Fraction(-1, 3), Fraction(2, 7)), (Fraction(3, 11), Fraction(1, 30))])
+def test_curve_and_surface_have_the_ratio_and_the_field_that_were_given(
+    ratio: Fraction, field: tuple[Fraction, Fraction]
+) -> None:
+    """Numbers of curve and quadric are those of proven digits, rounded once, for one object and in arrays."""
+    curve, surface = CertifiedHyperbola(ratio, field), CertifiedQuadric(ratio, field)
+    kernel, quadric = atlas.Hyperbola(ratio, field), atlas.Quadric(ratio, field)
+    omega2 = [0.7, -1.3, 0.01]
+    with workprec():
+        for name in ("omega3", "stability"):
+            wanted = [nearest(getattr(curve, name)(x)) for x in omega2]
+            assert getattr(kernel, name)(np.array(omega2)).tolist() == wanted
+            assert [getattr(kernel, name)(x) for x in omega2] == wanted
+        assert kernel.least_stability == nearest(curve.least_stability)
+        assert kernel.closed(3, 2).k == nearest(closing(*curve._constants, fmpq(3, 2)))
+        assert (quadric.a2, quadric.a3) == (nearest(surface.a2), nearest(surface.a3))
+        assert quadric.kind == surface.kind
+        assert quadric.residual((0.1, 0.2, 0.3)) == nearest(surface.residual((0.1, 0.2, 0.3)))
+
+
+def test_moments_of_charges_are_not_rounded() -> None:
+    """A coat, charges at points and a sum of both have exact moments, which the coupling of a top has too."""
+    coat = ChargeMoments.shape("cylindrical_shell", -0.3, radius=0.7, height=1.1)
+    I2, I3 = shape_moments("cylindrical_shell", mass=0.3, radius=0.7, height=1.1)
+    assert [*map(rational, coat.exact)] == [-I2, -I3]
+    places = np.array([(0.1, 0, 0), (-0.1, 0, 0), (0, 0.1, 0), (0, -0.1, 0), (0, 0, 0.3), (0, 0, -0.3)])
+    points = ChargeMoments.points(np.full(6, 0.7), places)
+    e, x2, z2 = Fraction(0.7), Fraction(0.1) ** 2, Fraction(0.3) ** 2
+    assert points.exact == (e * (2 * x2 + 2 * z2), e * 4 * x2)
+    assert [Fraction(x) for x in (coat + points).exact] == [
+        Fraction(a) + Fraction(b) for a, b in zip(coat.exact, points.exact, strict=True)
+    ]
+    body = SymmetricBody.solid_cylinder(**SIZES)
+    top = TopMotion.charged(body, coat, (0.0, 0.3), OMEGA)
+    assert [*map(rational, top.arguments["coupling"])] == [rational(J) * rational(0.3) / 2 for J in coat.exact]
+    assert [*map(rational, top.arguments["inertia"])] == [*map(rational, body.exact)]
+    heavy = TopMotion.heavy(body, 9.81, 0.3, (0.6, 0.8), OMEGA, mass=0.3)
+    assert rational(heavy.arguments["inertia"][0]) == rational(body.exact[0]) + rational(0.3) ** 3

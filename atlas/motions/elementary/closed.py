@@ -8,11 +8,11 @@ from flint import arb, fmpq
 
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import RATE
-from atlas.arithmetic.inputs import components, finite, number
+from atlas.arithmetic.inputs import as_given, components, finite, number, plain
 from atlas.arithmetic.numbers import nearest, root, workprec
 from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.words import TURN, ZERO, middle
-from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.elementary.formula_hyperbola import closing
 from atlas.motions.elementary.kernel import ElementaryMotion
@@ -65,15 +65,16 @@ class ClosedMotion(ElementaryMotion):
     def __init__(self, ratio: Any, field: Any, p: int, q: int) -> None:
         if not all(isinstance(x, Real) and x == x // 1 for x in (p, q)) or not q:
             raise AtlasError(f"phi/k = p/q takes two whole numbers, the second not 0, not {p!r} and {q!r}.")
-        I2, I3 = moments(ratio)
-        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
-        I3, B2, B3 = number(I3, "The ratio I"), number(B2, "B2"), number(B3, "B3")
+        I2, I3 = exact_moments(ratio)
+        B2, B3 = map(as_given, components(field, ("B2", "B3"), "The field", RATE))
+        for x, name in ((I3, "The ratio I"), (B2, "B2"), (B3, "B3")):
+            number(plain(x), name)
         self.winding = Fraction(int(p), int(q))
         """phi/k = p/q in lowest terms."""
         inputs = [fmpq(*x.as_integer_ratio()) for x in (I2, I3, B2, B3, self.winding)]
         _check(*inputs)
-        self.ratio, self.field, self.shape = kept_ratio(ratio, I3), (B2, B3), ()
-        self.arguments = {"ratio": self.ratio, "field": self.field, "p": p, "q": q}
+        self.ratio, self.field, self.shape = kept_ratio(ratio, plain(I3)), (plain(B2), plain(B3)), ()
+        self.arguments = {"ratio": kept_ratio(ratio, I3), "field": (B2, B3), "p": p, "q": q}
         self._closed = Closed(*inputs)
         self._inputs = (I2, I3, B2, B3, self._closed.omega2, None)
         self._made = {0: self._closed}  # type: ignore[dict-item]  # it has all that one elementary motion has

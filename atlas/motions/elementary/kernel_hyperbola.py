@@ -9,10 +9,11 @@ import numpy as np
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.inputs import FloatArray, components, plain, positive, real, whole
+from atlas.arithmetic.given import element
+from atlas.arithmetic.inputs import FloatArray, as_given, components, plain, positive, real, whole
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
 from atlas.arithmetic.words import exact
-from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
 from atlas.display import Shown
 from atlas.errors import AtlasError, DomainError
@@ -73,11 +74,11 @@ class Hyperbola(Shown):
     family = "hyperbola"
 
     def __init__(self, ratio: BodyLike, field: FieldLike) -> None:
-        I2, I3 = moments(ratio)
-        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
-        self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
-        self._ratio = kept_ratio(ratio, I3)
-        self.arguments = {"ratio": self._ratio, "field": (self.B2, self.B3)}
+        I2, I3 = exact_moments(ratio)
+        B2, B3 = map(as_given, components(field, ("B2", "B3"), "The field", RATE))
+        self._inputs = I2, I3, B2, B3
+        self.I2, self.I3, self.B2, self.B3 = map(plain, self._inputs)
+        self.arguments = {"ratio": kept_ratio(ratio, I3), "field": (B2, B3)}
 
     @classmethod
     def of_top(
@@ -122,7 +123,7 @@ class Hyperbola(Shown):
         """Exact I2, I3, B2, B3 of one curve."""
         if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
             raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
-        return exact(self.I2, self.I3, self.B2, self.B3)
+        return exact(*(element(x, ()) for x in self._inputs))
 
     @property
     def pole(self) -> FloatOrArray:
@@ -223,7 +224,7 @@ class Hyperbola(Shown):
         AtlasError
             Unless p and q are integers.
         """
-        return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
+        return ClosedMotion(self.arguments["ratio"], self._inputs[2:], p, q)
 
     def stability(self, omega2: RealArrayLike) -> FloatOrArray:
         """Squared frequency of nutation -p'(omega3), with the cubic p of (47), theorem-stability (not in the paper).
@@ -302,7 +303,8 @@ class Hyperbola(Shown):
         """
         from atlas.motions.nutation.kernel_general import GeneralMotion
 
-        return GeneralMotion(self._ratio, (self.B2, self.B3), (omega1, omega2, self.omega3(omega2)))
+        omega3 = self.omega3(omega2)
+        return GeneralMotion(self.arguments["ratio"], self._inputs[2:], (omega1, omega2, omega3))
 
     @property
     def least_stability(self) -> FloatOrArray:
@@ -320,7 +322,7 @@ class Hyperbola(Shown):
         """
         if np.any(np.equal(self.B2, 0)):
             raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
-        return over(least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, None), degree=2) + 0.0
+        return over(least_stability, *self._inputs, unit=slice(2, None), degree=2) + 0.0
 
     @property
     def unstable_band(self) -> tuple[float, float] | None:
@@ -333,7 +335,7 @@ class Hyperbola(Shown):
         """
         I2, I3, B2, B3 = self._exact
         disc = B2 * B2 - 8 * B3 * B3
-        if self.I3 >= self.I2 or disc <= 0:
+        if I3 >= I2 or disc <= 0:
             return None
         tau2, one_less = B3 * B3 / (B2 * B2), (I2 - I3) / I2
         with workprec():
@@ -421,7 +423,7 @@ class Hyperbola(Shown):
         if not 0 < tangent * B2 / extent < inf or not 0 < extent / scale < inf:
             raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
         high = np.log(extent / scale)
-        low = np.log(scale / B2) + np.log(tangent * B2 / extent) if self.I2 != self.I3 else high - np.log(1e3)
+        low = np.log(scale / B2) + np.log(tangent * B2 / extent) if I2 != I3 else high - np.log(1e3)
         lower_branch, upper_branch = (np.linspace(min(low, high - 1), high, n) for n in halves(points))
         return lower_branch, upper_branch
 
@@ -445,4 +447,4 @@ class Hyperbola(Shown):
         """Return the values of a formula of I2, I3, B2, B3 and omega2, where (71) holds; rounded once."""
         omega2 = real(omega2, "omega2", RATE)
         check_curve(self.B2, omega2)
-        return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, None), **more)
+        return over(formula, *self._inputs, omega2, unit=slice(2, None), **more)

@@ -172,7 +172,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         g = number(gravity, "The gravity g", "m / s**2")
         if g < 0:
             raise DomainError(f"The gravity g must not be negative, but is {g}: turn the direction round instead.")
-        i2, m_, g_, l_ = (rational(float(x)) for x in (I2, m, g, l))
+        i2, m_, g_, l_ = map(rational, (I2, m, g, l))
         transverse, linear = map(exact_number, (i2 + m_ * l_ * l_, m_ * g_ * l_))
         return cls((transverse, I3), (0.0, 0.0), direction, omega, linear=linear)
 
@@ -261,7 +261,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
             a3 = a3 + rational(anisotropy(susceptibility, volume, demagnetization, c != 1))
         linear = along((B2, B3), weight) - rational(number(moment, "The moment", "J/T")) * size
         quadratic = (a2 - a3) * size * size
-        coupling = [exact_number(rational(float(J)) * half) for J in (charges.J2, charges.J3)]
+        coupling = [exact_number(rational(J) * half) for J in charges.exact]
         return cls((I2, I3), coupling, (B2, B3), omega, linear=exact_number(linear), quadratic=exact_number(quadratic))
 
     @kept
