@@ -56,7 +56,8 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
 
 def _not_real(value: Any, name: str) -> AtlasError:
     """Return the error for an input that is not made of real numbers."""
-    return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.")
+    carried = " atlas.motion and classes of motions carry a standard deviation." * hasattr(value, "std_dev")
+    return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.{carried}")
 
 
 def number(value: Any, name: str, unit: str = "") -> float:

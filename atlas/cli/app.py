@@ -120,7 +120,7 @@ for name, says in {
     "figure": "Draw figures.",
     "animate": "Let a figure move: mp4, gif or apng.",
     "explore": "Turn bodies, move sliders, in the browser.",
-    "list": "Name the figures, reports and shapes.",
+    "list": "Name figures, reports, shapes, families ...",
     "hyperbola": "Sample the hyperbola (67).",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",

@@ -31,13 +31,14 @@ from atlas.cli.spectrum import check_spectrum, recorded, show_lines, spectrum_of
 from atlas.cli.table import out_option, write_table
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.cli.typed import exactly, measured, parts_of
-from atlas.cli.uncertain import Spread, mapped, spread, uncertain
+from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.families.family import RATE, TIME
 from atlas.lazy import cached_property
 from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.motions.register import Command as Described
+from atlas.motions.uncertainty import mapped
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
@@ -302,7 +303,7 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
     )
 
 
-def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = (), named: str = "") -> Spread:
+def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = (), named: str = "") -> UncertainAnswer:
     """Return the quantities of an object of a family, and samples at times, with their standard deviations.
 
     `named` is the name of the command, whose record has the name of the family where several share it.
@@ -320,7 +321,7 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
         larmor = in_field(family) and values["magnetic"] is not None
         return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
 
-    return spread(answered, options)
+    return UncertainAnswer.of(answered, options)
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:

@@ -145,7 +145,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         """Read a number with its standard deviation."""
         carried = getattr(ctx.command if ctx else None, "carries", False)
         if not carried or (param and param.name in {"times", "grid", "least"}):
-            self.fail(f"{text!r} has an uncertainty, which nothing follows from here: motions carry it.", param, ctx)
+            self.fail(
+                f"{text!r} has an uncertainty, which is not carried here: leave it out; atlas motion carries those of "
+                "body, field and start.", param, ctx,
+            )  # fmt: skip
         decimals, sigma = len(parts["decimals"] or parts["digits"] or ""), parts["last"] or parts["full"]
         if parts["last"] and "." not in sigma:
             sigma += f"e-{decimals}"

@@ -8,6 +8,7 @@ from atlas.motions.elementary.kernel_ball import BallMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.start import argument, start_of
 from atlas.motions.torus.kernel import AsymmetricMotion
+from atlas.motions.uncertainty import UncertainMotion, is_uncertain
 
 AnyMotion: TypeAlias = AsymmetricMotion | FreeMotion | ElementaryMotion | BallMotion | GeneralMotion
 
@@ -68,12 +69,20 @@ def motion(
     rounding and stands for the rotation of its quaternion. Entries of R are within about 1e-15 at any time.
     `input_error` bounds the effect of rounding the inputs.
 
+    Any number of the inputs may have a standard deviation, as `uncertainties.ufloat` has it: numbers with the
+    attributes `nominal_value` and `std_dev`. Quantities and matrices of the motion are then `ufloat` too, correlated
+    with the inputs; `nominal_value` is the motion at the nominal inputs. Classes of motions take such inputs alike.
+
     Examples
     --------
     >>> motion = atlas.motion([[2, 0.1, 0], [0.1, 1.5, 0.2], [0, 0.2, 1]], (0.3, 0, 1), (0.1, 0.2, 3.0))
     >>> motion.family, motion.kind
     ('asymmetric', 'on a torus')
     """
+    if is_uncertain(inertia, field, omega, attitude, omega_laboratory):
+        starts = {"attitude": attitude, "omega_laboratory": omega_laboratory}
+        named = {name: x for name, x in starts.items() if x is not None}
+        return UncertainMotion(motion, (inertia, field, omega), named)  # type: ignore[return-value]  # its numbers vary
     start = start_of(inertia, field, omega, attitude, omega_laboratory)
     name, w = ("omega", omega) if omega is not None else ("omega_laboratory", omega_laboratory)
     arguments = {

@@ -26,6 +26,7 @@ from atlas.lazy import cached_property
 from atlas.motions.actions import Actions, actions
 from atlas.motions.frames import Placement
 from atlas.motions.spectrum import Spectrum, SpectrumOf, Wheels, function_of, spectrum
+from atlas.motions.uncertainty import CarriesUncertainty
 from atlas.viewers import notebook
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def check_column(j: Any) -> None:
         raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
 
 
-class Motion(Shown, Generic[Single]):
+class Motion(CarriesUncertainty, Shown, Generic[Single]):
     """Motions R(t) of the shape of the parameters, which broadcasts with the times.
 
     One motion is evaluated by the object that `_single` makes of its inputs. So is each of an array at many times,
@@ -77,13 +78,13 @@ class Motion(Shown, Generic[Single]):
     _placement: Placement | None = None
     """Where the motion stands, if not along the axes of its class with R(0) = 1."""
 
-    def __new__(cls, *_: Any, **arguments: Any) -> Self:
-        """Tell who gives a start that is another class's which one takes it."""
+    def __new__(cls, *inputs: Any, **arguments: Any) -> Self:
+        """Refuse a start that another class takes, by its name."""
         code = cls.__init__.__code__
         known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
         for name in arguments.keys() - set(known) & OTHERS.keys():
             raise TypeError(f"{cls.__name__} takes {', '.join(known)}, not {name}, which is for {OTHERS[name]}.")
-        return super().__new__(cls)
+        return super().__new__(cls, *inputs, **arguments)
 
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
         self._make, self._inputs = make, inputs

@@ -10,15 +10,15 @@ import pytest
 from click.testing import CliRunner
 
 import atlas
-from atlas.cli import uncertain
 from atlas.cli.app import atlas as command
 from atlas.cli.uncertain import concise
+from atlas.motions import uncertainty
 
 
 @pytest.fixture(autouse=True)
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let as few draws be made as make sense."""
-    monkeypatch.setattr(uncertain, "DRAWS", 50)
+    monkeypatch.setattr(uncertainty, "DRAWS", 50)
 
 
 def run(words: str) -> tuple[int, str]:
@@ -29,10 +29,10 @@ def run(words: str) -> tuple[int, str]:
 
 def test_answers_that_take_long_are_drawn_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
     """A hundred draws then, which is said, and a deviation to 7 %."""
-    monkeypatch.setattr(uncertain, "DRAWS", 150)
+    monkeypatch.setattr(uncertainty, "DRAWS", 150)
     words = "motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2"
     for slow, draws in ((60.0, 150), (0.0, 100)):
-        monkeypatch.setattr(uncertain, "SLOW", slow)
+        monkeypatch.setattr(uncertainty, "SLOW_ANSWER", slow)
         assert f"by sampling, {draws} draws" in run(words)[1]
 
 

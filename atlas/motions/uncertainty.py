@@ -1,0 +1,359 @@
+"""Standard deviations of numbers that depend on uncertain inputs, and motions whose inputs are uncertain."""
+
+import math
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from time import process_time
+from typing import Any, NamedTuple, Self
+
+from atlas.errors import AtlasError, AtlasWarning, DomainError
+from atlas.lazy import cached_property
+
+DERIVATIVE_STEP = 1 / 8
+"""Part of a standard deviation over which a derivative is taken, by differences on both sides."""
+
+MAX_CURVATURE = 0.03
+"""Part of a deviation by which terms of second and third order may change it; beyond, the number is sampled."""
+
+MAX_LOST = 0.05
+"""Part of the draws that may lie outside a domain: the scatter of the others is still right to a tenth."""
+
+ROUNDING = 1e-12
+"""Part of a number, or of the largest component of a vector or a matrix, that is rounding and no uncertainty."""
+
+DRAWS, MAX_DRAWN_NUMBERS, MIN_DRAWS = 500, 2_000_000, 25
+"""Draws of the inputs; numbers in all of them, which fewer draws do not exceed; and draws that a deviation needs."""
+
+SLOW_ANSWER = 0.05
+"""Seconds of an answer above which 4 MIN_DRAWS draws are made, whose deviation is right to 7 %."""
+
+BY_SAMPLING = "by sampling, {}, since they are not of first order."
+BY_NEITHER = "no deviation: they are not of first order, and by sampling there are {}."
+ONE_SIDED = "by derivatives on one side: on the other they have no value a standard deviation off."
+
+Place = tuple[Any, ...]
+Numbers = dict[Place, float]
+"""Numbers of an answer by their place in it."""
+
+Steps = Sequence[float]
+"""Change of each independent input, in its standard deviations."""
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Numbers with their standard deviations.
+
+    Attributes
+    ----------
+    slopes : dict of place to list of float
+        First-order change of each number over one standard deviation of each input.
+    sigma, error : dict of place to float
+        Standard deviation of each number, infinite where it is unknown; error of a sampled deviation.
+    sampled : set of places
+        Numbers whose deviation is not of first order.
+    notes : list of str
+        Sentences on deviations that are not derivatives on both sides.
+    """
+
+    slopes: dict[Place, list[float]]
+    sigma: Numbers
+    error: Numbers
+    sampled: set[Place]
+    notes: list[str]
+
+
+def spread(
+    middle: Any, answer: Callable[[Steps], Any], count: int, progress: Callable[[int, int, str], None] | None = None
+) -> Spread:
+    """Return the standard deviations of the numbers of `middle`, the answer at the middle of the inputs.
+
+    `answer` gives the answer for steps of `count` independent inputs. Deviations are of first order, by derivatives,
+    on one side where a number has no value a standard deviation off on the other. They are sampled where terms of
+    second and third order would change them, and where a number has no value on either side of an input, or of all
+    inputs together; a number that too many draws lack has no deviation.
+    """
+    numbers = numbers_of(middle)
+    sizes = _sizes(numbers)
+    directions = [tuple(float(i == j) for j in range(count)) for i in range(count)]
+    together = [(count**-0.5,) * count] * (count > 1)
+    began = process_time()
+    terms = [_terms(answer, direction, numbers) for direction in directions + together]
+    seconds = (process_time() - began) / (4 * len(terms))
+    alone = terms[:count]
+    slopes = {key: [x.line.get(key, 0.0) for x in alone] for key in numbers}
+    sigma = {key: math.hypot(*slopes[key]) for key in numbers}
+    bent = {
+        key: math.hypot(*(x.second.get(key, 0.0) for x in terms), *(x.third.get(key, 0.0) for x in alone))
+        for key in numbers
+    }
+    curved = {
+        key for key in numbers if abs(bent[key] - sigma[key]) > MAX_CURVATURE * sigma[key] + ROUNDING * sizes[key]
+    }
+    curved |= {key for key in numbers if not all(key in x.line for x in terms)}
+    ended = {key for x in terms for key in x.ended if sigma[key] > ROUNDING * sizes[key]} - curved
+    error, sentences = Numbers(), {ONE_SIDED: ended}
+    if curved:
+        few = 4 * MIN_DRAWS
+        size = few if seconds > SLOW_ANSWER else min(DRAWS, max(MAX_DRAWN_NUMBERS // len(numbers), few))
+        draws = _draws(answer, count, curved, size, progress)
+        lost = {key for key, values in draws.items() if len(values) < size - MAX_LOST * size}
+        for key, values in draws.items():
+            sigma[key], error[key] = (math.inf, math.inf) if key in lost else _deviation(values)
+        for keys, text in ((curved - lost, BY_SAMPLING), (lost, BY_NEITHER)):
+            most = size - min((len(draws[key]) for key in keys), default=size)
+            sentences[text.format(f"{size} draws" + f", {most} of them without a value" * bool(most))] = keys
+    notes = list[str]()
+    for text, keys in sentences.items():
+        names = dict.fromkeys(str(key[2] if key[0] == "samples" else key[0]) for key in numbers if key in keys)
+        notes += [f"Of {', '.join(names)} {text}"] * bool(names)
+    sigma = {key: x if x > ROUNDING * sizes[key] else 0.0 for key, x in sigma.items()}
+    return Spread(slopes, sigma, error, curved, notes)
+
+
+class Terms(NamedTuple):
+    """Terms of a Taylor series in one direction, by number, and the numbers that have a value on one side only.
+
+    `line` is the term of first order, `second` that of second, `third` the sum of those of first and third order.
+    """
+
+    line: Numbers
+    second: Numbers
+    third: Numbers
+    ended: set[Place]
+
+
+def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) -> Terms:
+    """Return the terms of those numbers that have a value on a side of the middle, for a whole step in a direction."""
+
+    def off(step: float) -> Numbers:
+        try:
+            return numbers_of(answer([step * x for x in direction]))
+        except DomainError:
+            return {}
+
+    terms, sides = Terms({}, {}, {}, set()), [[off(sign * step) for step in (DERIVATIVE_STEP, 1.0)] for sign in (1, -1)]
+    for key, x in middle.items():
+        differences = [
+            [numbers[key] - x for numbers in side] for side in sides if all(key in numbers for numbers in side)
+        ]
+        if len(differences) == 2:
+            (near_difference, after), (far, before) = differences
+            terms.line[key] = (near_difference - far) / (2 * DERIVATIVE_STEP)
+            terms.second[key] = (after + before) / 2**0.5
+            terms.third[key] = 1.5 * (after - before) - 2 * terms.line[key]
+        elif differences:  # of the parabola through three points; the sign follows the side
+            terms.ended.add(key)
+            ((near_difference, after),) = differences
+            slope = (near_difference - DERIVATIVE_STEP**2 * after) / (DERIVATIVE_STEP - DERIVATIVE_STEP**2)
+            terms.second[key] = (after - slope) * 2**0.5
+            terms.line[key] = terms.third[key] = slope if key in sides[0][0] and key in sides[0][1] else -slope
+    return terms
+
+
+def _sizes(numbers: Numbers) -> Numbers:
+    """Return the size of each number, for those of one matrix or vector the size of its largest component."""
+    largest = dict[Place, float]()
+    for key, x in numbers.items():
+        group = key[:3] if key[0] == "samples" else key
+        largest[group] = max(largest.get(group, 0.0), abs(x))
+    return {key: largest[key[:3] if key[0] == "samples" else key] for key in numbers}
+
+
+def _draws(
+    answer: Callable[[Steps], Any],
+    count: int,
+    places: set[Place],
+    size: int,
+    progress: Callable[[int, int, str], None] | None,
+) -> dict[Place, list[float]]:
+    """Return the numbers at these places for `size` normal draws of the inputs, as far as they have a value."""
+    import random
+
+    normal = random.Random(1).gauss  # noqa: S311
+    draws: dict[Place, list[float]] = {key: [] for key in places}
+    for i in range(size):
+        if progress is not None:
+            progress(i, size, "")
+        try:
+            numbers = numbers_of(answer([normal(0.0, 1.0) for _ in range(count)]))
+        except DomainError:
+            continue
+        for key in draws.keys() & numbers.keys():
+            draws[key].append(numbers[key])
+    return draws
+
+
+def _deviation(values: list[float]) -> tuple[float, float]:
+    """Return the standard deviation of draws, and its own: about 1/sqrt(2 N) of it, more where the tails are long."""
+    if len(values) < MIN_DRAWS:
+        return math.inf, math.inf
+    mean, freedom = math.fsum(values) / len(values), len(values) - 1
+    second, fourth = (math.fsum((x - mean) ** power for x in values) / freedom for power in (2, 4))
+    return math.sqrt(second), math.sqrt(max(fourth / second - second, 0.0) / (4 * freedom)) if second else 0.0
+
+
+def numbers_of(answer: Any) -> Numbers:
+    """Return the finite numbers of an answer by their places, without times."""
+    numbers = Numbers()
+    mapped(answer, lambda x, place: numbers.update({place: x}))
+    return {place: x for place, x in numbers.items() if math.isfinite(x)}
+
+
+def mapped(value: Any, function: Callable[[float, Place], Any], place: Place = ()) -> Any:
+    """Return an answer with each number replaced by a function of the number and its place."""
+    if isinstance(value, float):
+        return function(float(value), place)
+    if isinstance(value, Mapping):
+        return {key: entry if key == "t" else mapped(entry, function, (*place, key)) for key, entry in value.items()}
+    if not isinstance(value, str) and hasattr(value, "__iter__"):
+        return [mapped(entry, function, (*place, i)) for i, entry in enumerate(value)]
+    return value
+
+
+def is_uncertain(*arguments: Any) -> bool:
+    """Whether there is a number with a standard deviation among arguments, or in tuples, lists and arrays of them."""
+    return any(True for _ in _uncertain(arguments))
+
+
+def _listed(value: Any) -> Any:
+    """Return an array of objects as a list, and any other value unchanged."""
+    return value.tolist() if getattr(getattr(value, "dtype", None), "kind", "") == "O" else value
+
+
+def _uncertain(value: Any) -> Iterator[Any]:
+    """Yield the numbers with a standard deviation in a value."""
+    value = _listed(value)
+    if isinstance(value, tuple | list):
+        for entry in value:
+            yield from _uncertain(entry)
+    elif hasattr(value, "nominal_value") and hasattr(value, "std_dev"):
+        yield value
+
+
+def _replaced(value: Any, function: Callable[[Any], float]) -> Any:
+    """Return a value with each number that has a standard deviation replaced by a function of it."""
+    value = _listed(value)
+    if isinstance(value, tuple | list):
+        entries = [_replaced(entry, function) for entry in value]
+        return tuple(entries) if isinstance(value, tuple) else entries
+    return function(value) if is_uncertain(value) else value
+
+
+class UncertainMotion:
+    """Motion from inputs with standard deviations, such as those of `uncertainties.ufloat`.
+
+    Attributes and functions of time are those of the motion: numbers and arrays of them come as `ufloat`, correlated
+    with the inputs and with one another. Text, integers and booleans are those of the nominal motion.
+
+    Attributes
+    ----------
+    nominal_value : Motion
+        Motion at the nominal values of the inputs.
+
+    Raises
+    ------
+    AtlasError
+        For an attribute that is no number, such as a picture: `nominal_value` has it.
+
+    Warns
+    -----
+    AtlasWarning
+        Where a deviation is not of first order: it is then sampled, and the number independent of the inputs.
+    """
+
+    def __init__(self, make: Callable[..., Any], arguments: Sequence[Any], named: Mapping[str, Any]) -> None:
+        from uncertainties import ufloat
+
+        self._make, self._arguments, self._named = make, arguments, dict(named)
+        inputs = [*_uncertain((*arguments, *named.values()))]
+        self._inputs = {id(x): x if hasattr(x, "derivatives") else ufloat(x.nominal_value, x.std_dev) for x in inputs}
+        variables = dict.fromkeys(v for x in self._inputs.values() for v, _ in x.derivatives.items() if v.std_dev)
+        self._variables = list(variables)
+        self._moved = dict[tuple[float, ...], Any]()
+        self.nominal_value = self._at((0.0,) * len(self._variables))
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *dir(self.nominal_value)]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._make, self._arguments, self._named)
+
+    def __repr__(self) -> str:
+        texts = [*map(repr, self._arguments), *(f"{name}={x!r}" for name, x in self._named.items())]
+        return f"{self._make.__name__}({', '.join(texts)})"
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        value = getattr(self.nominal_value, name)
+        if callable(value):
+            return lambda *args, **how: self._carried(name, lambda motion: getattr(motion, name)(*args, **how))
+        return self._carried(name, lambda motion: getattr(motion, name))
+
+    @cached_property
+    def _units(self) -> list[Any]:
+        """Independent inputs less their nominal values, in standard deviations."""
+        return [(v - v.nominal_value) / v.std_dev for v in self._variables]
+
+    def _at(self, steps: Steps) -> Any:
+        """Return the motion for steps of the independent inputs; those of derivatives are kept."""
+        key = tuple(steps)
+        if key not in self._moved:
+            by_variable = dict(zip(self._variables, steps, strict=True))
+
+            def value(x: Any) -> float:
+                own = self._inputs[id(x)]
+                changes = (d * v.std_dev * by_variable.get(v, 0.0) for v, d in own.derivatives.items())
+                return float(own.nominal_value + math.fsum(changes))
+
+            arguments, named = _replaced(tuple(self._arguments), value), _replaced((*self._named.values(),), value)
+            motion = self._make(*arguments, **dict(zip(self._named, named, strict=True)))
+            if len(self._moved) > 4 * len(self._variables) + 4:
+                return motion
+            self._moved[key] = motion
+        return self._moved[key]
+
+    def _carried(self, name: str, get: Callable[[Any], Any]) -> Any:
+        """Return a quantity of the motion with its standard deviations."""
+        import numpy as np
+
+        nominal = get(self.nominal_value)
+        array = np.asarray(nominal)
+        if array.dtype.kind in "biU":
+            return nominal
+        if array.dtype.kind != "f":
+            raise AtlasError(f"{name} carries no standard deviation: take nominal_value.{name}, of the nominal motion.")
+
+        def rows(values: Any) -> dict[str, Any]:
+            values = np.asarray(values)
+            return {"samples": [{name: row} for row in values.reshape(-1, *values.shape[-1:] or (1,))]}
+
+        found = spread(rows(nominal), lambda steps: rows(get(self._at(steps))), len(self._variables))
+        for note in found.notes:
+            warnings.warn(note, AtlasWarning, stacklevel=3)
+        number = partial(self._number, found)
+        entries = np.empty(array.size, dtype=object)
+        entries[:] = [x for sample in mapped(rows(nominal), number)["samples"] for x in sample[name]]
+        return entries.reshape(array.shape) if array.ndim else entries[0]
+
+    def _number(self, found: Spread, value: float, place: Place) -> Any:
+        """Return a number as the sum of its first-order terms, or as independent of the inputs where it is sampled."""
+        from uncertainties import ufloat
+
+        sigma = found.sigma.get(place, math.nan)
+        if place in found.sampled or not math.isfinite(sigma):
+            return ufloat(value, sigma if math.isfinite(sigma) else math.nan)
+        slopes = found.slopes[place] if sigma else [0.0] * len(self._units)
+        return sum((slope * unit for slope, unit in zip(slopes, self._units, strict=True)), value + 0 * self._units[0])
+
+
+class CarriesUncertainty:
+    """Class whose inputs may have standard deviations: it makes an `UncertainMotion` of them."""
+
+    def __new__(cls, *inputs: Any, **named: Any) -> Self:
+        """Return an object of the class, or the uncertain motion of its inputs."""
+        if is_uncertain(*inputs, *named.values()):
+            return UncertainMotion(cls, inputs, named)  # type: ignore[return-value]  # its numbers vary
+        return super().__new__(cls)
