@@ -127,9 +127,9 @@ CASES = [
     ("motion --tensor 1 1 1 0 0 0 --ratio 1 --field 0 0 1 --spin 1", "found --ratio and --tensor"),
     ("motion --tensor 1 1 1 0 0 0.1 --field 0 0 1 --spin 1 --attitude 0 0 1 1", "of the length 1, x y z w"),
     ("check {place}/plain.csv --ratio 1 --spin 1 --omega 1 2 3", "one of --omega W1 W2 W3 and --spin W3"),
-    ("sweep elementary --set ratio=1.3(1) B2=1 B3=2 omega2=0.3 --quantity k --out k.csv", "atlas motion carries those of"),
+    ("sweep elementary --set ratio=1.3(1) B2=1 B3=2 omega2=0.3 --quantity k --out k.csv", "atlas motion carries those"),
     ("motion --ratio 1.3(1) --field 1 2 --omega2 0.3 --decimal", "without an uncertainty"),
-    ("hyperbola --ratio 1.3 --field 2(1) --angle 1", "motions carry it"),
+    ("hyperbola --ratio 1.3 --field 2(1) --angle 1", "atlas motion carries those"),
     (
         "page --tensor 1 1.2 1.1 0.1 0 0.05(1) --field 0 0 1 --omega 0.1 0.2 0.3",
         "a page carries uncertainties along principal axes",
