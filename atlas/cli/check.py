@@ -59,7 +59,7 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2",
         "atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2",
         "atlas check mine.csv --inertia 1 0.5 --direction 0.6 0.8 --linear 3 --omega 0.1 0.2 5",
-        "atlas check mine.csv --figure mine.pdf --json",
+        "atlas check rk4.csv leapfrog.csv --ratio 1.5 --field 1 2 --omega2 0.7 --figure errors.pdf",
         "atlas check coarse.csv fine.csv finest.csv --order --figure order.pdf",
     ),
 )
@@ -88,8 +88,9 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     (M,K), K^2 and T are watched, and no digits counted. Errors of Omega are in units of its length, of a top and of a
     body with three moments in units of the largest rate there is.
 
-    With --order several files are runs of one motion with several steps, '# step = 0.01' or the mean distance of the
-    times: their largest errors tell the order of convergence.
+    Several files, of several integrators, say, are graded one after the other, and --figure draws the errors of all.
+    With --order they are runs of one motion with several steps, '# step = 0.01' or the mean distance of the times:
+    their largest errors tell the order of convergence.
 
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.
@@ -103,15 +104,14 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
 def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
     """Grade trajectories against the motion with these parameters; show the grades, and return the exit status."""
     from atlas.checking.check import check_file
+    from atlas.checking.comparison import Comparison
     from atlas.checking.order import convergence
 
     parameters["omega"] = body.start_of(options, needed=False)
     if given(options, ("field", "magnetic")):
         parameters["field"] = body.chosen_field(options)
-    if len(files) > 1 and not options["order"]:
-        raise click.UsageError("several files are graded with --order; without it give one.")
-    checks = [check_file(file, threshold=options["threshold"], **parameters) for file in files]
-    grades = convergence(checks) if options["order"] else checks[0]
+    checks = tuple(check_file(file, threshold=options["threshold"], **parameters) for file in files)
+    grades = convergence(checks) if options["order"] else checks[0] if len(checks) == 1 else Comparison(checks)
     if options["as_json"]:
         dump(grades.record())
     else:
@@ -120,7 +120,10 @@ def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[s
     if options["order"]:
         return 0
     failed = [
-        f"{column.name} from t = {column.fails_at:g}" for column in checks[0].columns if column.fails_at is not None
+        f"{column.name}{f' of {check.file}' * (len(checks) > 1)} from t = {column.fails_at:g}"
+        for check in checks
+        for column in check.columns
+        if column.fails_at is not None
     ]
     if failed:
         click.echo(f"atlas: fewer than {checks[0].threshold:g} correct digits in {', '.join(failed)}", err=True)

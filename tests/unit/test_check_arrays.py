@@ -1,6 +1,7 @@
 """`atlas.check`: arrays are graded as the command grades files, and runs with several steps have an order."""
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ from click.testing import CliRunner
 from scipy.spatial.transform import Rotation
 
 import atlas
-from atlas.checking.check import Check
+from atlas.checking.check import Check, check_file
+from atlas.checking.comparison import Comparison
 from atlas.checking.headings import MATRIX, OMEGA
 from atlas.checking.order import Convergence
 from atlas.cli.app import atlas as command
@@ -95,6 +97,30 @@ def test_several_steps_tell_the_order(tmp_path: Path, place: float, order: int) 
     assert shown.stdout == f"{found}\n{figure}\n"
     assert "largest error" in figure.read_text()
     assert atlas.check(list(t), list(R), motion=motion, step=[4, 16, 8]).steps == (16, 8, 4)
+
+
+def test_several_integrators_are_compared_in_one_picture(tmp_path: Path) -> None:
+    """Each file has its table, as alone, a curve in the picture, and a say in the exit status."""
+    options = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2"
+    motion = MOTIONS[options]
+    files = [str(written(tmp_path / f"{i}.csv", *midpoint(motion, 100, i / 2))) for i in (0, 1)]
+    files += [str(written(tmp_path / "exact.csv", TIMES, motion.rotation(TIMES)))]
+    figure = tmp_path / "errors.svg"
+    run = partial(CliRunner().invoke, command, standalone_mode=False)
+    alone = [run(["check", file, *options.split()]).stdout for file in files]
+    together = run(["check", *files, *options.split(), "--figure", str(figure)])
+    assert together.return_value == 1
+    assert together.stdout == "".join([*alone, f"{figure}\n"])
+    assert "of 0.csv from t" in together.stderr
+    assert "exact.csv" not in together.stderr
+    assert run(["check", files[2], files[2], *options.split()]).return_value == 0
+    body = {"ratio": 1.5, "field": (1.0, 2.0), "omega": (0.3, 0.7, 0.2)}
+    checks = tuple(check_file(Path(file), **body) for file in files)
+    (panel,) = Comparison(checks).scene().panels
+    assert [curve.label for curve in panel.layers] == ["0.csv", "1.csv", "exact.csv"]
+    assert [curve.points[-1, 1] for curve in panel.layers] == [max(x.errors["R"][-1], 1e-17) for x in checks]
+    with pytest.raises(AtlasError, match="8 files at most, not 9"):
+        Comparison(checks * 3).scene()
 
 
 def test_a_step_may_stand_in_the_file(tmp_path: Path) -> None:

@@ -192,7 +192,6 @@ CASES = [
     ("fit {place}/one.csv --fix ratio=1.4 --start ratio=1.5", "ratio is given twice"),
     ("check {place}/none.csv", "none.csv"),
     ("check {place}/sub", "sub"),
-    ("check {place}/plain.csv {place}/charged.csv --ratio 1 --field 1 2 --omega2 1", "with --order"),
     (f"{SWEEP} --list {{place}}/bytes.csv", "not UTF-8: byte 0xff"),
     (f"{SWEEP} --list {{place}}/nul.csv", "cannot be read as CSV: field larger"),
     (f"{SWEEP} --list {{place}}/twice.csv", "a heading of different names"),

@@ -1,0 +1,69 @@
+"""Trajectories of several integrators, graded side by side: their tables, and their errors in one picture."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from atlas.checking.check import Check
+from atlas.checking.grades import LINES, MAX_DIGITS
+from atlas.errors import AtlasError
+from atlas.pictures import Curve, Plane, Scene
+
+ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+"""Roles of the curves, one for each trajectory."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Grades of several trajectories, each against its reference motion."""
+
+    checks: tuple[Check, ...]
+
+    def __str__(self) -> str:
+        """Return the tables of the trajectories, one after the other."""
+        return "\n".join(map(str, self.checks))
+
+    def record(self) -> dict[str, Any]:
+        """Return the grades as plain data for JSON, under "checks" a list of the records of the trajectories."""
+        return {"checks": [check.record() for check in self.checks]}
+
+    def scene(self) -> Scene:
+        """Draw the errors of all trajectories against time, matrices, Omega and quaternions in a panel each.
+
+        Raises AtlasError for more trajectories than there are roles, and where none has a column that is graded.
+        """
+        groups = [group for group in LINES if any(group in check.errors for check in self.checks)]
+        if not groups:
+            raise AtlasError(f"{self.checks[0].file} and the others have no certified motion: no error can be drawn.")
+        if len(self.checks) > len(ROLES):
+            raise AtlasError(f"A picture compares {len(ROLES)} files at most, not {len(self.checks)}: leave some out.")
+        panels = tuple(self._panel(group) for group in groups)
+        files = _listed([check.file for check in self.checks])
+        worst = (f"{min(c.worst for c in check.columns):.1f} of {check.file}" for check in self.checks if check.columns)
+        digits = f"Correct digits in the worst column: {', '.join(worst)}."
+        quantities = _listed([{"R": "matrices", "Omega": "angular velocity"}.get(x, "quaternions") for x in groups])
+        return Scene(
+            title=f"Errors of {files}",
+            caption=f"The largest errors in {quantities} of {files} against the certified motion. {digits}",
+            alt=f"Curves of error against time on a logarithmic scale, one for each of {files}. {digits}",
+            panels=panels,
+            size=(120.0, 15.0 + 60.0 * len(panels)),
+            parameters=dict(self.checks[0].parameters),
+        )
+
+    def _panel(self, group: str) -> Plane:
+        """Return the errors of one group of columns."""
+        limits = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
+        curves = tuple(
+            Curve(np.column_stack([check.times, np.clip(check.errors[group], *limits)]), role, check.file)
+            for check, role in zip(self.checks, ROLES, strict=False)
+            if group in check.errors
+        )
+        return Plane(curves, "$t$", f"error of {LINES[group][1]}", y_scale="log", legend=True)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Return names as a list in words."""
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
