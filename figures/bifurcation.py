@@ -40,7 +40,7 @@ def scene(
         panel(rf"({letter}) $p={tex(ratio.c / ratio.b)}$", ratio, reach)
         for letter, ratio in zip("abcd", maps, strict=False)
     )
-    there = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
+    drawn_roles = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
     return Scene(
         caption=(
             r"Lines over $H$ and $F$: elliptic motions of the "
@@ -48,7 +48,7 @@ def scene(
             rf"marks: stable (dots) and other spins (crosses) about an axis. $I_i={tex_vector(inertia)}$, "
             rf"$b={tex(b)}$, momenta $p=(\mathbf{{M}},\mathbf{{K}})/b$ along the field."
             + (" For $p=0$ its lower edge is straight, of plane pendulums." if 0.0 in momentum else "")
-            + (" Open circle: rest." if "rest" in there else "")
+            + (" Open circle: rest." if "rest" in drawn_roles else "")
         ),
         alt=(
             f"Planes of F and H for p = {listed([plain(x) for x in momentum])}: a region that opens to the right "
@@ -63,7 +63,7 @@ def scene(
             "crosses": "unstable_point",
         }
         | {"shaded": "region"}
-        | ({"Open circle": "rest"} if "rest" in there else {}),
+        | ({"Open circle": "rest"} if "rest" in drawn_roles else {}),
         spare=(1, 3)[: len(panels) - 2],
         size=(WIDTH * min(len(panels), 2) / 2, HEIGHT * -(-len(panels) // 2)),
     )
@@ -112,8 +112,8 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
         word = text if stable else "unstable"
         layers.append(Curve(points, role, word if named.get(word) == k else ""))
     layers += [
-        Points(spins[which : which + 1], ROLES[spin.kind], rf"$\mathbf{{e}}_{which + 1}$")
-        for which, spin in enumerate(bifurcation.spins)
+        Points(spins[index : index + 1], ROLES[spin.kind], rf"$\mathbf{{e}}_{index + 1}$")
+        for index, spin in enumerate(bifurcation.spins)
     ]
     if bifurcation.rest is not None:
         place = bifurcation.rest - [0.0, slope * bifurcation.rest[0]]
@@ -129,7 +129,7 @@ def line(
 ) -> FloatArray:
     """Return a stretch (N, 2) as it is drawn; ``sizes`` are millimetres to a unit of both axes."""
     poles = set((-bifurcation.a).tolist())
-    first, last = (STRETCH_END if end in poles else 0.0 for end in (stretch.low, stretch.high))
+    start_gap, end_gap = (STRETCH_END if end in poles else 0.0 for end in (stretch.low, stretch.high))
 
     def points(u: FloatArray) -> FloatArray:
         z = stretch.low + (stretch.high - stretch.low) * np.sin(np.pi / 2 * u) ** 2
@@ -137,7 +137,7 @@ def line(
         return values - [[0.0, slope]] * values[:, :1]
 
     box = np.array([x_limits[0], -np.inf]), np.array([x_limits[1], np.inf])
-    return curve(points, first, 1 - last, quarter_pixel(1.0, 1.0), pieces=32, box=box, scale=np.array(sizes))
+    return curve(points, start_gap, 1 - end_gap, quarter_pixel(1.0, 1.0), pieces=32, box=box, scale=np.array(sizes))
 
 
 def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
@@ -146,6 +146,6 @@ def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
     for oval in ("bounded", "unbounded"):
         points = np.concatenate([points for name, points in lines if name == oval])
         points = points[np.argsort(points[:, 0], kind="stable")]
-        last = [stop, float(np.interp(stop, *points.T))]
-        sides.append(np.array([*points[points[:, 0] < stop], last]))
+        end_point = [stop, float(np.interp(stop, *points.T))]
+        sides.append(np.array([*points[points[:, 0] < stop], end_point]))
     return np.concatenate([sides[0][::-1], sides[1]])

@@ -37,7 +37,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     """Draw seven bodies, their places on the scale of I, and their quadrics in the field B' = (0, B2, B3)."""
     if not all(field):
         raise DomainError(f"figure body_ruler needs B2, B3 not zero, not field = {field}.")
-    prime = drawn(field, azimuth)
+    prime = drawn_field(field, azimuth)
     view = {"azimuth": azimuth, "elevation": elevation}
     return Scene(
         caption=(
@@ -57,22 +57,22 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     )
 
 
-def drawn(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
+def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
     """Return the field B' of the drawn quadrics: as long as leaves each of them its place in the row."""
-    right = frame(Space((), azimuth=azimuth))[0]
+    rightward = frame(Space((), azimuth=azimuth))[0]
     unit = SIZE / float(np.hypot(*field))
     prime = (unit * field[0], unit * field[1])
-    ends = [solids.extent(quadrics.pieces(I, prime, REACH * SIZE, 0.1), right) for _, I in BODIES]
+    ends = [solids.extent(quadrics.pieces(I, prime, REACH * SIZE, 0.1), rightward) for _, I in BODIES]
     share = min(1.0, 0.95 * STEP / max(high - low for low, high in ends))
     return share * prime[0], share * prime[1]
 
 
-def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
+def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
     """Return the layers of some of the bodies and the part of the scale on which they stand."""
-    some = BODIES[first:end]
-    start, stop = np.floor(some[0][1]), some[-1][1]
-    fine, reach = tolerance(STEP * len(some) / 2), REACH * float(np.hypot(*prime))
-    places = row(len(some), STEP, azimuth)
+    bodies = BODIES[begin:end]
+    start, stop = np.floor(bodies[0][1]), bodies[-1][1]
+    resolution, reach = tolerance(STEP * len(bodies) / 2), REACH * float(np.hypot(*prime))
+    places = row(len(bodies), STEP, azimuth)
     low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
 
     def on_scale(I: float, height: float = 0.0) -> FloatArray:
@@ -80,15 +80,15 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
         return np.asarray(low + share * (high - low) + (RULER + height) * E3)
 
     layers: list[Layer] = []
-    for place, (name, I) in zip(places, some, strict=True):
-        layers += body(name, I, place, fine)
+    for place, (name, I) in zip(places, bodies, strict=True):
+        layers += body(name, I, place, resolution)
         layers.append(Label(place + NAMES * E3, name, body_role(I)))
         foot = place + (NAMES - 0.3) * E3
         layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
         layers.append(Points(on_scale(I)[None], "point"))
-        surfaces = quadrics.pieces(I, prime, reach, fine)
+        surfaces = quadrics.pieces(I, prime, reach, resolution)
         shift = place + ABOVE * E3 + in_plane(*prime)
-        layers += quadrics.placed(surfaces, quadrics.quadric_matrix(I, prime), shift, fine)
+        layers += quadrics.placed(surfaces, quadrics.quadric_matrix(I, prime), shift, resolution)
     layers.append(Curve(np.stack([on_scale(start), on_scale(stop)]), "basis"))
     for mark in np.arange(start, stop + 0.25, 0.25):
         layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))

@@ -11,7 +11,7 @@ from atlas.pictures.quadric_panel import E2, E3, in_plane
 
 ROW = "a body"
 SEEN = "One colour means one thing in all figures."
-COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
+COLUMN, ROW_HEIGHT, LENGTH = 6.2, 1.0, 1.4
 VECTORS = (
     ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),
     ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),
@@ -49,19 +49,19 @@ def scene() -> Scene:
     columns: list[list[Layer]] = [[], [], [], []]
     for row, (role, name) in enumerate(VECTORS):
         tail, tip = place(0, row)
-        columns[0] += [Arrow(tail, tip, role), beside(tip, name)]
+        columns[0] += [Arrow(tail, tip, role), meaning(tip, name)]
     for column, roles in ((1, CURVES), (2, COMPONENTS), (3, BODIES)):
         for row, (role, name) in enumerate(roles):
             ends = place(column, row)
-            columns[column] += [Curve(ends, role), beside(ends[1], name)]
+            columns[column] += [Curve(ends, role), meaning(ends[1], name)]
     for row, (role, name) in enumerate(MARKS, len(COMPONENTS)):
         ends = place(2, row)
-        columns[2] += [Points(ends.mean(axis=0)[None], role), beside(ends[1], name)]
+        columns[2] += [Points(ends.mean(axis=0)[None], role), meaning(ends[1], name)]
     for column, (role, name) in enumerate((("surface", "initial data"), ("solid", "the body"))):
         ends = place(column, len(VECTORS))
         half = 0.5 * (ends[1] - ends[0])
         area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
-        columns[column] += [area, beside(ends[1], name)]
+        columns[column] += [area, meaning(ends[1], name)]
     return Scene(
         caption="In grey print a vector is told by its name; two lines of a "
         "column differ in lightness, width or dashes, and marks in shape. The colours of bodies are for figures in "
@@ -79,9 +79,9 @@ def scene() -> Scene:
 
 def place(column: int, row: int) -> np.ndarray:
     """Return both ends (2, 3) of the sample in a column and a row."""
-    return in_plane(COLUMN * column, -ROW * row) + np.outer([0.0, LENGTH], E2)
+    return in_plane(COLUMN * column, -ROW_HEIGHT * row) + np.outer([0.0, LENGTH], E2)
 
 
-def beside(end: np.ndarray, name: str) -> Label:
+def meaning(end: np.ndarray, name: str) -> Label:
     """Return the meaning of a sample, to the right of its end."""
     return Label(end, name, "label", (5.0, 0.0))

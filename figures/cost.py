@@ -32,14 +32,14 @@ def scene(*, columns: int = 1) -> Scene:
             f"by {listed([benchmark.title(method) for method in SHOWN])}. Below, multiples of the time that filling "
             "the memory takes, for the plain formula and for the atlas on one core and on two."
         ),
-        panels=(each(record), multiples(record)),
+        panels=(matrix_times(record), multiples(record)),
         columns=columns,
         spare=(1,),
         size=(columns * 140.0, 2 // columns * 66.0),
     )
 
 
-def each(record: benchmark.Results) -> Plane:
+def matrix_times(record: benchmark.Results) -> Plane:
     """Draw nanoseconds a matrix on one thread."""
     layers: list[Layer] = []
     for method in SHOWN:

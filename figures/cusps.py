@@ -101,12 +101,12 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 
     ends = level([wells.spin(end)[:2] for end in (1, -1)])
     places = level([value(top, wells) for top in tops])
-    far = 1.35 * max(abs(M3), float(np.abs(places[:, 0]).max()))
+    p_limit = 1.35 * max(abs(M3), float(np.abs(places[:, 0]).max()))
     lines = [
         level(np.stack([branch.p, branch.g], axis=1))
-        for branch in wells.precessions(3 * far + 3 * np.sqrt(abs(wells.a)))
+        for branch in wells.precessions(3 * p_limit + 3 * np.sqrt(abs(wells.a)))
     ]
-    inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines] + [ends, places])
+    inside = np.concatenate([line[np.abs(line[:, 0]) <= p_limit] for line in lines] + [ends, places])
     low, high = float(inside[:, 1].min()), float(places[:, 1].max())
     high = max(high, -low)
     cusps = np.linspace(-1.0, 1.0, 65)
@@ -115,16 +115,16 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         Curve(level(np.stack(wells.cusps(cusps), axis=1)), "reference"),
         Points(ends, "point"),
         Points(places, "start"),
-        Label(np.array([-0.3 * far, 0.5 * high]), "loops", "note"),
+        Label(np.array([-0.3 * p_limit, 0.5 * high]), "loops", "note"),
         Label(np.array([0.0, 0.4 * low]), "waves", "note"),
         *(Label(end, "spin", "note", (side, 0.0)) for end, side in zip(ends, (8.0, 9.0), strict=True)),
     ]
-    beside = np.array([0.0, 0.08 * (high - low)])
+    label_shift = np.array([0.0, 0.08 * (high - low)])
     for name, top, place in zip("abc", tops, places, strict=False):
         side = -1 if trace(top) == "waves" else 1
-        layers.append(Label(place + side * beside, name))
+        layers.append(Label(place + side * label_shift, name))
     return Plane(
-        tuple(layers), f"$p$ (1/{unit})", f"$g-2ap/M_3$ (1/{unit}$^2$)", (-far, far), room((low, high), 0.12),
+        tuple(layers), f"$p$ (1/{unit})", f"$g-2ap/M_3$ (1/{unit}$^2$)", (-p_limit, p_limit), room((low, high), 0.12),
         title=f"({letter}) energies",
     )  # fmt: skip
 
@@ -132,5 +132,5 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 def value(top: TopMotion, wells: Wells) -> FloatArray:
     """Return p and g of a motion, formed at its start."""
     (n2, n3), (_, omega2, _) = top.direction, top.omega
-    nu, across = n3 / np.hypot(n2, n3), n2 / np.hypot(n2, n3)
-    return np.array([omega2 * across + wells.M3 * nu, wells.energy(nu, omega2 / across)])
+    nu, sine = n3 / np.hypot(n2, n3), n2 / np.hypot(n2, n3)
+    return np.array([omega2 * sine + wells.M3 * nu, wells.energy(nu, omega2 / sine)])

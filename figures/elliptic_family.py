@@ -16,7 +16,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.motions.nutation.formula_elliptic import splitting
 from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
-from atlas.pictures.hyperbola_plane import Window, branches, components, seen, window
+from atlas.pictures.hyperbola_plane import Window, branches, components, visible_mask, window
 from atlas.pictures.sample import curve, quarter_pixel
 
 ROW = "three moments"
@@ -41,9 +41,9 @@ def scene(
     for I1 in first:
         if len({I1, 1.0, ratio}) < 3:
             raise DomainError(f"figure elliptic_family needs three different moments, not {(I1, 1.0, ratio)}.")
-    view, across = window(field, reach), WIDTH / len(first) - MARGIN
+    view, panel_width = window(field, reach), WIDTH / len(first) - MARGIN
     panels = tuple(
-        panel(f"({letter}) $I_1={tex(I1)}$", (I1, 1.0, ratio), field, view, across, unit)
+        panel(f"({letter}) $I_1={tex(I1)}$", (I1, 1.0, ratio), field, view, panel_width, unit)
         for letter, I1 in zip("abc", first, strict=False)
     )
     return Scene(
@@ -66,17 +66,20 @@ def scene(
 
 
 def panel(
-    name: str, inertia: tuple[float, ...], field: tuple[float, float], view: Window, across: float, unit: str
+    name: str, inertia: tuple[float, ...], field: tuple[float, float], view: Window, panel_width: float, unit: str
 ) -> Plane:
     """Return the curves of one body."""
-    millimetres = (across, HEIGHT - MARGIN)
+    millimetres = (panel_width, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     hyperbola = branches(inertia[2], field, view, millimetres)
     layers += [Curve(piece, "limit") for piece in hyperbola]
     lines = curves(inertia, field, view, millimetres)
-    named = {max((len(part), i) for i, (part, one) in enumerate(lines) if one == role)[1] for _, role in lines}
+    named = {
+        max((len(oval_piece), i) for i, (oval_piece, piece_role) in enumerate(lines) if piece_role == role)[1]
+        for _, role in lines
+    }
     words = [NAMES[role] if i in named else "" for i, (_, role) in enumerate(lines)]
-    layers += [Curve(part, role, text) for (part, role), text in zip(lines, words, strict=True)]
+    layers += [Curve(oval_piece, role, text) for (oval_piece, role), text in zip(lines, words, strict=True)]
     if hyperbola:
         lowest = min(hyperbola[0], key=lambda point: abs(point[1] - 0.9 * view.y[0]))
         layers.append(Label(lowest, "(67)", "limit", (-4.0, 0.0)))
@@ -98,7 +101,7 @@ def curves(
     I, B = np.diag(inertia_tensor(inertia)), np.array([0.0, *components(field)])
     D = float(np.prod(I))
     low, middle, high = np.sort(-D / I)
-    (x, y), (left, bottom), (right, top) = millimetres, *view.box
+    (x, y), (x_low, y_low), (x_high, y_high) = millimetres, *view.box
 
     def unbounded(s: FloatArray) -> FloatArray:
         return high - high * np.tan(np.pi / 2 * s) ** 2
@@ -108,24 +111,24 @@ def curves(
 
     lines = []
     for role, branch in product(("main", "third"), (1.0, -1.0)):
-        along = unbounded if role == "main" else bounded
+        oval = unbounded if role == "main" else bounded
 
-        def points(s: FloatArray, along: Any = along, branch: float = branch) -> FloatArray:
+        def points(s: FloatArray, oval: Any = oval, branch: float = branch) -> FloatArray:
             """Return (omega2, omega3, z)."""
-            z = along(s)
+            z = oval(s)
             w = z[:, None] + D / I
             v = branch * np.sqrt(np.abs(w.prod(axis=1)))
             omega = -(1 + v[:, None] / (I * w)) * B
             return np.column_stack([omega[:, 1:], z])
 
-        box = np.array([left, bottom, -np.inf]), np.array([right, top, np.inf])
-        scale = np.array([x / (right - left), y / (top - bottom), 0.0])
+        box = np.array([x_low, y_low, -np.inf]), np.array([x_high, y_high, np.inf])
+        scale = np.array([x / (x_high - x_low), y / (y_high - y_low), 0.0])
         line = curve(points, BRANCH_END, 1 - BRANCH_END, quarter_pixel(1.0, 1.0), pieces=64, box=box, scale=scale)
         saddle = splitting(I, B, line[:, 2]) < 0
         cuts = [0, *(np.flatnonzero(np.diff(saddle)) + 1).tolist(), len(line)]
         for a, b in pairwise(cuts):
             piece = line[a : b + 1, :2]
-            piece = piece[seen(piece, view)]
+            piece = piece[visible_mask(piece, view)]
             if len(piece):
                 lines.append((piece, "unstable_line" if saddle[a] else role))
     return lines

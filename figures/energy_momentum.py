@@ -38,25 +38,25 @@ def scene(
     """
     tops = one_each(ratios, b, linear)
     alike = len(b) == 1 and not any(linear)
-    called = [
+    top_names = [
         f"$I={tex(I)}$" + ("" if alike else f", $b={tex(field)}$, $a_0={tex(weight)}$") for I, field, weight in tops
     ]
     panels: list[Plane] = []
-    for name, top in zip(called, tops, strict=True):
+    for name, top in zip(top_names, tops, strict=True):
         panels.append(panel(f"({'abcdef'[len(panels)]}) {name}", *top, M3, reach, unit))
         panels += swallowtail(panels[-1], "abcdef"[len(panels)])
     same = f", $b={tex(b[0])}$" if alike else ""
-    there = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
-    rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
+    drawn_roles = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
+    stability_words = "stable (solid) or unstable (dashed)" if "unstable_line" in drawn_roles else "all stable (solid)"
     kinds = {"start": "stable (dots)", "unstable_point": "of focus-focus type (crosses)"}
-    spins = " or ".join(words for role, words in kinds.items() if role in there)
+    spins = " or ".join(words for role, words in kinds.items() if role in drawn_roles)
     return Scene(
         caption=(
             r"Over $p$ and $2H$: steady precessions with their rate $w$ in Larmor's frame, "
-            + rest
+            + stability_words
             + (f", and spins along the field or the vertical, {spins}." if spins else ".")
-            + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in there else "")
-            + f" $M_3={tex(M3)}${same}, {listed(called)}."
+            + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in drawn_roles else "")
+            + f" $M_3={tex(M3)}${same}, {listed(top_names)}."
         ),
         alt=(
             f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: a smooth curve, "
@@ -74,7 +74,7 @@ def scene(
                 "dots": "start",
                 "crosses": "unstable_point",
             }.items()
-            if role in there
+            if role in drawn_roles
         },
         size=(WIDTH, HEIGHT * len(panels)),
     )
@@ -99,33 +99,37 @@ def one_each(
 def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
     """Return the curves of one top."""
     scale = max(b, abs(linear) ** 0.5)
-    wells, rest = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
+    wells, energy_shift = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
     branches = list(wells.precessions(3.0 * reach * scale))
     lines = [
-        (run, "unstable_line" if unstable else "main") for branch in branches for run, unstable in runs(branch, rest)
+        (run, "unstable_line" if unstable else "main")
+        for branch in branches
+        for run, unstable in runs(branch, energy_shift)
     ]
-    free = any(not branch.w.any() for branch in branches)  # w = 0 at any nu, as of a ball
-    near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
-    if not len(near):
+    has_zero_rate = any(not branch.w.any() for branch in branches)  # w = 0 at any nu, as of a ball
+    visible_points = np.concatenate(
+        [np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)]
+    )
+    if not len(visible_points):
         raise DomainError(
             f"figure energy_momentum: with M3 = {M3:g} and b = {b:g} no steady precession at I = {I:g} has |p| below "
             f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
         )
-    spins = [(p, g + rest, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
-    near = np.array([*near, *(spin[:2] for spin in spins)])
-    low, high = float(near[:, 1].min()), float(near[:, 1].max())
+    spins = [(p, g + energy_shift, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
+    visible_points = np.array([*visible_points, *(spin[:2] for spin in spins)])
+    low, high = float(visible_points[:, 1].min()), float(visible_points[:, 1].max())
     high = high if high > low else low + scale * scale
     pad = 0.08 * (high - low)
     p, nu = np.linspace(-reach * scale, reach * scale, 401), np.tanh(np.linspace(-7.0, 7.0, 701))
-    least = np.minimum(np.asarray(wells.potential(p[:, None], nu)).min(axis=1) + rest, high + pad)
+    least = np.minimum(np.asarray(wells.potential(p[:, None], nu)).min(axis=1) + energy_shift, high + pad)
     above = [[p[-1], high + pad], [p[0], high + pad]]
     layers: list[Layer] = [Region(np.array([*np.stack([p, least], axis=1), *above]), "region")]
     layers += [Curve(line, role) for line, role in lines]
-    layers += [label for x in branches if x.w.any() for label in names(x, reach * scale, rest)]
-    layers += [Label(np.array([0.0, rest]), "$w=0$", "note", (0.0, 6.0))] if free else []
+    layers += [label for x in branches if x.w.any() for label in names(x, reach * scale, energy_shift)]
+    layers += [Label(np.array([0.0, energy_shift]), "$w=0$", "note", (0.0, 6.0))] if has_zero_rate else []
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     spin_name = r"spin along $\mathbf{B}$" if b else "upright spin"
-    layers += [Label(np.array(spin[:2]), spin_name, "note", (9, -4) if free else (5, 6)) for spin in spins[:1]]
+    layers += [Label(np.array(spin[:2]), spin_name, "note", (9, -4) if has_zero_rate else (5, 6)) for spin in spins[:1]]
     layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note"))
     place = np.array([-0.95 * reach * scale, low + 0.04 * (high - low)])
     layers += [Label(place, "no motion", "note", (20.0, 0.0))] if least[0] > place[1] else []
@@ -139,50 +143,52 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     )
 
 
-def swallowtail(whole: Plane, letter: str) -> list[Plane]:
+def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
     """Return a panel with the surroundings of the unstable precessions alone, none where all are stable."""
-    curves = [layer for layer in whole.layers if isinstance(layer, Curve)]
+    curves = [layer for layer in diagram.layers if isinstance(layer, Curve)]
     folds = [curve.points for curve in curves if curve.role == "unstable_line"]
     if not folds:
         return []
     p, H2 = np.concatenate(folds).T
     x = room(p, 0.3)
-    low = min(float(H2.min()), *(line[:, 1].min() for line in (one.points for one in curves) if len(line)))
+    low = min(
+        float(H2.min()), *(line[:, 1].min() for line in (branch_curve.points for branch_curve in curves) if len(line))
+    )
     y = room([low, float(H2.max())], 0.3)
     ends = np.transpose([x, y])
     layers: list[Layer] = []
-    for layer in whole.layers:
+    for layer in diagram.layers:
         if isinstance(layer, Label):
-            at = np.atleast_2d(layer.at)
-            inside = at[((at > ends[0]) & (at < ends[1])).all(axis=1)]
+            places = np.atleast_2d(layer.at)
+            inside = places[((places > ends[0]) & (places < ends[1])).all(axis=1)]
             layers += [replace(layer, at=inside)] if len(inside) else []
         else:
             layers.append(layer)
-    title = f"({letter}) swallowtail of {whole.title.partition(' ')[0]}"
-    return [replace(whole, layers=tuple(layers), x_limits=x, y_limits=y, title=title)]
+    title = f"({letter}) swallowtail of {diagram.title.partition(' ')[0]}"
+    return [replace(diagram, layers=tuple(layers), x_limits=x, y_limits=y, title=title)]
 
 
-def names(branch: Branch, reach: float, rest: float) -> list[Layer]:
+def names(branch: Branch, reach: float, energy_shift: float) -> list[Layer]:
     """Return labels of a curve inside the view: "unstable", else the sign of its rate w."""
-    w, stable, seen = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
+    w, stable, is_visible = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
     order = np.argsort(-branch.g, kind="stable")
-    points = np.stack([branch.p, branch.g + rest], axis=1)
+    points = np.stack([branch.p, branch.g + energy_shift], axis=1)
     kinds = (
         ("$w<0$", "note", stable & (w < 0), (-6.0, 0.0), 1),
         ("$w>0$", "note", stable & (w > 0), (6.0, 0.0), 1),
         ("unstable", "unstable_line", ~stable, (0.0, 5.0), -1),
     )
     return [
-        Label(points[order[(which & seen)[order]]][::step][:40:10], text, role, offset)
-        for text, role, which, offset, step in kinds
-        if (which & seen).any()
+        Label(points[order[(is_kind & is_visible)[order]]][::step][:40:10], text, role, offset)
+        for text, role, is_kind, offset, step in kinds
+        if (is_kind & is_visible).any()
     ]
 
 
-def runs(branch: Branch, rest: float) -> list[tuple[FloatArray, bool]]:
+def runs(branch: Branch, energy_shift: float) -> list[tuple[FloatArray, bool]]:
     """Return the pieces (N, 2) of a curve (p, 2H) that are stable or unstable throughout, and which."""
     unstable = np.asarray(branch.stable) < 0
-    points = np.stack([branch.p, branch.g + rest], axis=1)
+    points = np.stack([branch.p, branch.g + energy_shift], axis=1)
     cuts = np.flatnonzero(np.diff(unstable)) + 1
     edges = [0, *cuts.tolist(), len(points)]
     return [(points[a : b + 1], bool(unstable[a])) for a, b in pairwise(edges)]

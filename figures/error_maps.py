@@ -21,27 +21,27 @@ TIME = r"$t\,|\mathbf{B}'|$"
 
 def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2: float = 0.7) -> Scene:
     """Draw two maps, over omega2 and over I, of the plain formula."""
-    first, second = over_omega2(ratio, field), over_ratio(field, omega2)
-    measured = np.concatenate([first.ours.ravel(), second.ours.ravel()])
-    worst, sign = np.nanmax(measured), float(np.sign(field[0]))
+    omega2_errors, ratio_errors = over_omega2(ratio, field), over_ratio(field, omega2)
+    measured = np.concatenate([omega2_errors.ours.ravel(), ratio_errors.ours.ravel()])
+    largest_error, sign = np.nanmax(measured), float(np.sign(field[0]))
     empty = " A cell without colour has a phase beyond $2^{50}$." if np.isnan(measured).any() else ""
     return Scene(
         caption=(
             r"Largest error in any entry of $R(t)$ in "
             r"double precision for "
             rf"{tex_setting(ratio, field)}: (a) over $\omega_2$, (b) over $I$ at $\omega_2={tex(omega2)}$. At the same "
-            rf"times the atlas errs by at most ${tex(float(f'{worst:.1e}'))}$.{empty}"
+            rf"times the atlas errs by at most ${tex(float(f'{largest_error:.1e}'))}$.{empty}"
         ),
         alt=(
             "Two maps of error, from 1e-17 to 1, with time upwards on a logarithmic scale. The error rises with time "
-            f"up to 1; the largest error of the atlas in the same cells is {worst:.1e}."
+            f"up to 1; the largest error of the atlas in the same cells is {largest_error:.1e}."
         ),
         panels=(
-            panel(first, r"$\omega_2/|B'_2|$", "(a) all motions of a body", "", {-sign: "pole", 0.0: "rest"}),
-            panel(second, "$I$", "(b) all bodies", "largest error", {3e-3: "needle", 1.0: "ball"}, "log"),
+            panel(omega2_errors, r"$\omega_2/|B'_2|$", "(a) all motions of a body", "", {-sign: "pole", 0.0: "rest"}),
+            panel(ratio_errors, "$I$", "(b) all bodies", "largest error", {3e-3: "needle", 1.0: "ball"}, "log"),
         ),
         columns=2,
-        commands=(first.table.command("omega2.csv"), second.table.command("ratio.csv")),
+        commands=(omega2_errors.table.command("omega2.csv"), ratio_errors.table.command("ratio.csv")),
         size=(178.0, 72.0),
     )
 

@@ -15,7 +15,7 @@ from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.pictures import Curve, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
-from atlas.pictures.movement import along
+from atlas.pictures.movement import translations
 from atlas.pictures.sample import flat, room
 
 ROW = "its axis"
@@ -50,7 +50,7 @@ def scene(
             r"The push is $\omega_1$. Above: $\Omega_3$ "
             rf"leaves with the rate $\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "
             r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it. "
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$."
+            rf"{tex_setting(ratio, field, article='A')}, $\omega_2={tex(omega2)}$."
         ),
         alt=(
             f"Panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}, one below the other: Omega 3 "
@@ -61,7 +61,7 @@ def scene(
         named={"dashed": "reference"},
         size=(WIDTH, COURSE * len(pushes) + LAW),
         rows=(*[COURSE] * (len(pushes) - 1), COURSE + 6.0, LAW - 6.0),
-        paths={f"{push:g}": partial(moved, motion) for push, motion in zip(pushes, motions, strict=True)},
+        paths={f"{push:g}": partial(dot_path, motion) for push, motion in zip(pushes, motions, strict=True)},
         lasts=1.6 * max(motion.period for motion in motions),
     )
 
@@ -71,25 +71,25 @@ def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
     return np.stack([t, motion.angular_velocity(t)[..., 2]], axis=-1)
 
 
-def moved(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+def dot_path(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how the dot of a motion goes along its curve."""
-    return along(point(motion, t), point(motion, np.zeros(1))[0])
+    return translations(point(motion, t), point(motion, np.zeros(1))[0])
 
 
 def courses(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> list[Plane]:
     """Return Omega3(t) of each motion over two periods of the slowest, one panel below the other."""
-    last = 1.6 * max(motion.period for motion in motions)
-    view = ((0.0, last), room([end for motion in motions for end in motion.turning_points], 0.12))
+    stop = 1.6 * max(motion.period for motion in motions)
+    view = ((0.0, stop), room([end for motion in motions for end in motion.turning_points], 0.12))
     panels = []
     for letter, motion, push in zip("abcde", motions, pushes, strict=False):
-        line = flat(partial(point, motion), 0.0, last, view, (WIDTH - MARGIN, COURSE - MARGIN), pieces=96)
+        line = flat(partial(point, motion), 0.0, stop, view, (WIDTH - MARGIN, COURSE - MARGIN), pieces=96)
         layers = (
-            Curve(np.array([[0.0, omega3], [last, omega3]]), "reference"),
+            Curve(np.array([[0.0, omega3], [stop, omega3]]), "reference"),
             Curve(line, "main"),
             Points(point(motion, np.zeros(1)), "start", rides=f"{push:g}"),
         )
         x_label = f"$t$ ({unit})" if push == pushes[-1] else ""
-        name = rf"({letter}) $\omega_1={written(push)}$"
+        name = rf"({letter}) $\omega_1={push_text(push)}$"
         panels.append(Plane(layers, x_label, rf"$\Omega_3$ (1/{unit})", *view, title=name))
     return panels
 
@@ -124,7 +124,7 @@ def periods(
     )
 
 
-def written(push: float) -> str:
+def push_text(push: float) -> str:
     """Return a push for a formula, powers of ten as such."""
     power = round(np.log10(abs(push))) if push else 0
     return f"10^{{{power}}}" if push == 10.0**power else tex(push)

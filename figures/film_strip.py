@@ -15,7 +15,7 @@ from atlas.pictures import Arrow, Curve, Label, Layer, Scene, solids
 from atlas.pictures.arrange import stacked
 from atlas.pictures.bodies import drawn_body, row
 from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_setting
-from atlas.pictures.movement import riding, turned
+from atlas.pictures.movement import body_path, riding
 from atlas.pictures.quadric_panel import E3, in_plane, tolerance
 
 ROW = "a body"
@@ -46,14 +46,14 @@ def scene(
     times = np.linspace(0.0, 2 * np.pi / abs(motion.k), count)
     axis = in_plane(*field) / np.hypot(*field)
     angle = float(np.arctan2(field[0], field[1]))
-    fine = tolerance(STEP * count / 2)
+    resolution = tolerance(STEP * count / 2)
     cells: list[list[Layer]] = []
     places = row(count, STEP, azimuth)
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
-        ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
+        ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), resolution)
         cells.append(
             [
-                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, fine)], f"body {i}"),
+                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, resolution)], f"body {i}"),
                 Curve(ring, "trace"),
                 Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides=f"body {i}"),
                 Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
@@ -64,7 +64,7 @@ def scene(
         caption=(
             rf"The axis $\mathbf{{R}}_3$ goes once round $\mathbf{{B}}$; the dark seam has "
             rf"made $\phi/k={tex(motion.phi / motion.k)}$ turns about the axis at the end. Below each of the {count} "
-            rf"moments, the part of the period $2\pi/k$ elapsed. {tex_setting(ratio, field, first='A')}, "
+            rf"moments, the part of the period $2\pi/k$ elapsed. {tex_setting(ratio, field, article='A')}, "
             rf"$\omega_2={tex(omega2)}$."
         ),
         alt=(
@@ -76,7 +76,7 @@ def scene(
         narrow=stacked(cells, 2, azimuth, elevation, STEP),
         size=(WIDTH, HEIGHT),
         paths={
-            f"body {i}": partial(turned, motion, time, centre)
+            f"body {i}": partial(body_path, motion, time, centre)
             for i, (time, centre) in enumerate(zip(times, places, strict=True))
         },
         lasts=float(times[-1]),

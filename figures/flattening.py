@@ -43,9 +43,9 @@ def scene(
             f"{longest:.3g}, not {stop:g}."
         )
     panels = tuple(
-        axis_trace.drawn(
+        axis_trace.traced_sphere(
             f"({letter}) $I_1={tex(I1)}$",
-            axis_trace.turned(trace((I1, 1.0, ratio), field, omega, stop), field),
+            axis_trace.erected(trace((I1, 1.0, ratio), field, omega, stop), field),
             elevation=elevation,
         )
         for letter, I1 in zip("abcdef", first, strict=False)
@@ -69,9 +69,9 @@ def scene(
     )
 
 
-def special(first: tuple[float, ...], ratio: float) -> str:
+def special(I1_values: tuple[float, ...], ratio: float) -> str:
     """Say which of the bodies are symmetric and which are flat."""
-    letters = {I1: f"({letter})" for letter, I1 in zip("abcdef", first, strict=False)}
+    letters = {I1: f"({letter})" for letter, I1 in zip("abcdef", I1_values, strict=False)}
     symmetric = f" In {letters[1.0]} the body is symmetric, and every loop touches both." if 1.0 in letters else ""
     flat = f" In {letters[ratio - 1.0]} it is flat." if ratio - 1.0 in letters else ""
     return symmetric + flat

@@ -64,17 +64,17 @@ def scene(
             f"figure flight_poster needs bodies that do not all cover one another: for {count} on a path of {path:.3g} "
             f"the size is at most {MAX_SIZES_PER_PATH * path / count:.3g}, not {size:g}."
         )
-    fine = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
+    resolution = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
     end = 0.5 * size * proportions(I)[1]
-    layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, fine, pieces=64), "flight_path")]
+    layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, resolution, pieces=64), "flight_path")]
     for between in HEADS:  # the sense of the flight
         tail, tip = particle.position(stop / (count - 1) * np.array([between - 0.1, between + 0.1]))
         layers.append(Arrow(tail, tip, "flight_path"))
     layers.append(Label(centres[0] - size * E3, "start", "label", (0.0, -6.0)))
-    near = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
-    for i in np.argsort(centres @ near):  # from the farthest to the nearest, as they cover one another
+    sight = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
+    for i in np.argsort(centres @ sight):  # from the farthest to the nearest, as they cover one another
         centre, R = centres[i], attitudes[i]
-        layers += solenoid(I, R, centre, size, fine)
+        layers += solenoid(I, R, centre, size, resolution)
         layers.append(Arrow(centre + end * R[:, 2], centre + AXIS * size * R[:, 2], "body_axis"))
     layers += fields(B, np.asarray(E, dtype=float), centres, size, (azimuth, elevation))
     return Scene(
@@ -101,7 +101,7 @@ def fields(B: FloatArray, E: FloatArray, centres: FloatArray, size: float, eye: 
     corner = np.array([flat[:, 0].max() - 0.4 * length, flat[:, 1].min() - size, 0.0]) @ view
     named = ((B, "field", r"$\mathbf{B}$"), (E, "electric", r"$\mathbf{E}$"))
     return [
-        Arrow(corner, corner + length * along / np.linalg.norm(along), role, name)
-        for along, role, name in named
-        if along.any()
+        Arrow(corner, corner + length * field_vector / np.linalg.norm(field_vector), role, name)
+        for field_vector, role, name in named
+        if field_vector.any()
     ]

@@ -47,16 +47,16 @@ def scene(
     if B2 == 0:
         raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
     I, one_less, _ = shape_factors(ratio)
-    free = one_less / I * B3 / float(np.hypot(B2, B3))
+    free_quotient = one_less / I * B3 / float(np.hypot(B2, B3))
     hyperbola = Hyperbola(ratio, field)
-    motions = closed(hyperbola, free, order) if free else {}
+    motions = closed(hyperbola, free_quotient, order) if free_quotient else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     turns = "a turn" if order == 1 else f"up to {order} turns"
     proper = (
         r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
-        rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
+        rf"free body of the same $k$, (87), $\phi/k{tex_equals(free_quotient)}$."
         + (rf" Dots: motions that repeat themselves after {turns}." if motions else "")
-        if free
+        if free_quotient
         else r"the proper rotation $\phi$, (72), which is zero on one line of the curve (67) and takes every value on "
         rf"the other, $\omega_2=-B'_2={tex(-B2)}$, drawn upright: there $\phi=\omega_3+B'_3$. (b) Their quotient, (86)."
     )
@@ -69,32 +69,35 @@ def scene(
             "line through zero, with the frequency of proper rotation phi, "
             + (
                 f"two branches with a pole at omega 2 = {plain(-B2)} and zeros at 0 and {plain(-2 * B2)}; and the "
-                f"quotient phi over k, two branches that level out at {plain(free)}, the value of the free body."
-                if free
+                f"quotient phi over k, two branches that level out at {plain(free_quotient)}, the value of the "
+                "free body."
+                if free_quotient
                 else "which is zero, but takes every value on an upright line at "
                 f"omega 2 = {plain(-B2)}; and the quotient phi over k, which does so too."
             )
         ),
         panels=(
             frequencies(hyperbola, (B2, B3), ends, motions, unit),
-            quotients((B2, B3), ends, free, motions, unit),
+            quotients((B2, B3), ends, free_quotient, motions, unit),
         ),
-        named={"dotted": "pole", "Dashed": "reference", **({"Dots": "point"} if motions else {})} if free else {},
+        named={"dotted": "pole", "Dashed": "reference", **({"Dots": "point"} if motions else {})}
+        if free_quotient
+        else {},
         size=(WIDTH, HEIGHT),
     )
 
 
-def closed(hyperbola: Hyperbola, free: float, order: int) -> dict[Fraction, ElementaryMotion]:
+def closed(hyperbola: Hyperbola, free_quotient: float, order: int) -> dict[Fraction, ElementaryMotion]:
     """Return the motions with phi/k = p/q, |p| and q up to ``order``, that panel (b) shows, by p/q.
 
     Neither ``free``, which no motion has, is among them nor twice that, which belongs to the state of rest.
     """
-    wanted = {Fraction(p, q) for q in range(1, order + 1) for p in range(-order, order + 1) if p}
+    fractions = {Fraction(p, q) for q in range(1, order + 1) for p in range(-order, order + 1) if p}
     return {
         r: hyperbola.closed(r.numerator, r.denominator)
-        for r in sorted(wanted)
-        if abs(r) < 0.95 * TOP * abs(free)
-        and min(abs(float(r) - free), abs(float(r) - 2 * free)) > POLE_TOLERANCE * abs(free)
+        for r in sorted(fractions)
+        if abs(r) < 0.95 * TOP * abs(free_quotient)
+        and min(abs(float(r) - free_quotient), abs(float(r) - 2 * free_quotient)) > POLE_TOLERANCE * abs(free_quotient)
     }
 
 
@@ -122,8 +125,8 @@ def frequencies(
 
         # phi ~ x - 1/x: as large at 1/x as at x, so it leaves the window nearer to the pole than this
         x = abs(1 + ends[1] / B2)
-        near = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), POLE_TOLERANCE)
-        pieces = graph(proper, B2, view, near, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
+        pole_gap = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), POLE_TOLERANCE)
+        pieces = graph(proper, B2, view, pole_gap, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
         layers.append(Curve(view.upright(-B2), "pole"))
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))
     else:
@@ -136,8 +139,8 @@ def frequencies(
     layers += [Points(pair, "point") for pair in pairs]
     scale = (WIDTH - MARGIN) / (ends[1] - ends[0])  # millimetres
     for r, m in motions.items():
-        others = [other.omega2 for other in motions.values() if other is not m]
-        if m in marks and scale * min((abs(m.omega2 - other) for other in others), default=np.inf) > ROOM:
+        neighbours = [neighbour.omega2 for neighbour in motions.values() if neighbour is not m]
+        if m in marks and scale * min((abs(m.omega2 - neighbour) for neighbour in neighbours), default=np.inf) > ROOM:
             layers.append(Label(np.array([m.omega2, m.phi]), f"${r}$", "note", (6.0 * side, 6.0)))
     layers += [
         Points(np.array([[0.0, 0.0]]), "rest"),
@@ -151,21 +154,21 @@ def frequencies(
 def quotients(
     field: tuple[float, float],
     ends: tuple[float, float],
-    free: float,
+    free_quotient: float,
     motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
     """Panel (b): phi/k by (86), which is finite at rest, where both vanish; ``free`` is that of the free body."""
     B2, _ = field
-    top = TOP * abs(free) or 1.0
+    top = TOP * abs(free_quotient) or 1.0
     view = Window(ends, (-top, top))
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
-    if free:
+    if free_quotient:
 
         def quotient(x: FloatArray) -> FloatArray:
-            return np.asarray(free * (1 + 1 / x))
+            return np.asarray(free_quotient * (1 + 1 / x))
 
-        layers += [Curve(view.upright(-B2), "pole"), Curve(view.level(free), "reference", "free body")]
+        layers += [Curve(view.upright(-B2), "pole"), Curve(view.level(free_quotient), "reference", "free body")]
         pieces = graph(quotient, B2, view, 0.1, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
         layers += [Curve(piece, "main") for piece in pieces]
     else:
@@ -176,12 +179,12 @@ def quotients(
         if ends[0] < motion.omega2 < ends[1]:
             x = 1 + motion.omega2 / B2
             scale = np.array([(WIDTH - MARGIN) / (ends[1] - ends[0]), (HEIGHT / 2 - MARGIN) / (2 * top)])  # mm
-            across = np.array([scale[1] * free / (x * x * B2), scale[0]])  # upright to the curve, as drawn
-            away = across / np.hypot(*across) / scale * BESIDE * np.copysign(1.0, -free)
+            normal = np.array([scale[1] * free_quotient / (x * x * B2), scale[0]])  # upright to the curve, as drawn
+            away = normal / np.hypot(*normal) / scale * BESIDE * np.copysign(1.0, -free_quotient)
             layers.append(Points(place[None], "point"))
-            if min(float(np.hypot(*((place - other) * scale))) for other in named) > APART:
+            if min(float(np.hypot(*((place - neighbour) * scale))) for neighbour in named) > APART:
                 named.append(place)
                 layers.append(Label(place - away, f"${r}$"))
-    layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
+    layers.append(Points(np.array([[0.0, 2 * free_quotient]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
     return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

@@ -27,7 +27,7 @@ def scene(
     motion = GeneralMotion(ratio, field, omega)
     moment, words = any_motion.start(omega)
     setting = (
-        f"{tex_setting(ratio, field, first='A')} from {moment}: {motion.kind}",
+        f"{tex_setting(ratio, field, article='A')} from {moment}: {motion.kind}",
         f"The motion of {plain_setting(ratio, field)} from {words}",
     )
     return any_motion.picture(motion, setting, motion.period, periods, elevation=elevation, unit=unit)

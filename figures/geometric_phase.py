@@ -41,9 +41,9 @@ def scene(
             f"{z}, {shown} and {count}."
         )
     places = z[0] + (z[1] - z[0]) * np.linspace(0.0, 1.0, count) ** 2
-    found = np.array([parts(EllipticMotion(inertia, field, one, branch)) for one in places]) / (2 * np.pi)
-    one = EllipticMotion(inertia, field, shown, branch)
-    turn, dynamic, area = (share / (2 * np.pi) for share in parts(one))
+    phase_rows = np.array([phases_of(EllipticMotion(inertia, field, place, branch)) for place in places]) / (2 * np.pi)
+    motion = EllipticMotion(inertia, field, shown, branch)
+    turn, dynamic, area = (share / (2 * np.pi) for share in phases_of(motion))
     return Scene(
         caption=(
             rf"(a) $\hat{{\mathbf{{K}}}}$ in a body with $I_i={tex_vector(inertia)}$, "
@@ -57,14 +57,14 @@ def scene(
             "curves over z: the turn about the field in a period, its dynamic part, and a geometric part of less than "
             "a turn."
         ),
-        panels=(sphere(one, field), plane(places, found, np.array([shown, turn, dynamic, -area]))),
+        panels=(sphere(motion, field), plane(places, phase_rows, np.array([shown, turn, dynamic, -area]))),
         columns=2,
         named={"hatched": "fine_trajectory", "dots": "start"},
         size=(WIDTH, HEIGHT),
     )
 
 
-def parts(motion: Any) -> tuple[float, float, float]:
+def phases_of(motion: Any) -> tuple[float, float, float]:
     """Return the turn about the field in a period of K, its dynamic part, and the area inside K's curve, in radians.
 
     The area is the integral of (1 - cos theta) dphi about the mean direction p of K, with K' = [K, Omega].
@@ -109,6 +109,6 @@ def sphere(motion: Any, field: Any) -> Space:
     layers.append(Curve(line, "trajectory"))
     layers += [Arrow(axis, 1.35 * axis, "body_axis", rf"$\mathbf{{e}}_{n}$") for n, axis in enumerate(np.eye(3), 1)]
     layers += [Points(start[None], "start"), Label(start, r"$\hat{\mathbf{K}}(0)$", "label", (6, -4))]
-    beside = pole + start
-    layers.append(Label(beside / np.linalg.norm(beside), "$S$"))
+    label_place = pole + start
+    layers.append(Label(label_place / np.linalg.norm(label_place), "$S$"))
     return Space(tuple(layers), 40.0, 48.0, title=r"(a) $\hat{\mathbf{K}}$ in the body")

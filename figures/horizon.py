@@ -22,7 +22,7 @@ ROOM = (0.4, 0.6), (1.2, 0.7)
 def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), columns: int = 1) -> Scene:
     """Draw one panel for each of the cases."""
     record = benchmark.read()
-    worst = max(
+    largest_error = max(
         (
             run.error
             for run in record.runs
@@ -30,17 +30,18 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
         ),
         default=0.0,
     )
-    shown = listed([f"the {benchmark.case_title(case)}" for case in cases])
+    case_titles = listed([f"the {benchmark.case_title(case)}" for case in cases])
     return Scene(
         caption=(
-            f"Largest error up to $T$ for {shown}; the atlas's largest is "
-            f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Dots: the best tolerance "
+            f"Largest error up to $T$ for {case_titles}; the atlas's largest is "
+            f"${tex(float(f'{largest_error:.1e}'))}$ (dotted: four ulp of 1). Dots: the best tolerance "
             f"that came through. {benchmark.measured(record)}"
         ),
         alt=(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, time to the "
             f"right and the largest error upwards: {listed([benchmark.case_title(case) for case in cases])}. "
-            f"{len(benchmark.by_method(record.runs))} methods are drawn; the largest error of the atlas is {worst:.1e}."
+            f"{len(benchmark.by_method(record.runs))} methods are drawn; the largest error of the atlas is "
+            f"{largest_error:.1e}."
         ),
         panels=panels(record, cases, columns),
         columns=columns,
@@ -52,13 +53,13 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
 
 def panels(record: benchmark.Results, cases: tuple[str, ...], columns: int) -> tuple[Plane, ...]:
     """Draw the runs of each case, and the limit."""
-    layers = {case: tuple(drawn(benchmark.runs_of(record, case))) for case in cases}
+    layers = {case: tuple(run_lines(benchmark.runs_of(record, case))) for case in cases}
     planes = benchmark.panels(layers, ("time $T$", "largest error up to $T$"), ROOM, columns)
     limit = Curve(benchmark.pairs(planes[0].x_limits or (), float, lambda _: LIMIT), "limit", "four ulp of 1")
     return tuple(replace(plane, layers=(*plane.layers, limit)) for plane in planes)
 
 
-def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:
+def run_lines(runs: list[benchmark.Run]) -> Iterator[Layer]:
     """Yield the line of each method through its best run at each horizon."""
     for method, group in benchmark.by_method(runs).items():
         horizons = sorted({run.horizon for run in group})

@@ -70,16 +70,16 @@ def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Windo
 
 def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
     """Return the curve of each body, or the one that all have in common."""
-    apart = all(components(field))
+    are_different = all(components(field))
     roles = tuple(map(body_role, ratios))
     if len(set(roles)) < len(roles):
         roles = LINES
     layers: list[Layer] = []
-    for ratio, role in zip(ratios if apart else ratios[:1], roles, strict=False):
-        name = f"$I={tex(quotient(ratio))}$" if apart else "every $I$"
+    for ratio, role in zip(ratios if are_different else ratios[:1], roles, strict=False):
+        name = f"$I={tex(quotient(ratio))}$" if are_different else "every $I$"
         pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
-        turned = -1 if quotient(ratio) < 1.0 else 1  # the name stands at the end, here that at the pole, alone there
-        layers += [Curve(piece[::turned], role, "" if order else name) for order, piece in enumerate(pieces)]
+        direction = -1 if quotient(ratio) < 1.0 else 1  # the name stands at the end, here that at the pole, alone there
+        layers += [Curve(piece[::direction], role, "" if order else name) for order, piece in enumerate(pieces)]
     return layers
 
 
@@ -87,5 +87,5 @@ def _points(ratios: tuple[float, ...], field: tuple[float, float]) -> list[Layer
     """Return the centre, rest and -2B' with their names, and the points of each body."""
     return [
         *marked(places(ratios[0], field)[:2], field),
-        *(Points(np.array([place.at]), place.role) for ratio in ratios for place in places(ratio, field)[2:]),
+        *(Points(np.array([place.point]), place.role) for ratio in ratios for place in places(ratio, field)[2:]),
     ]

@@ -43,11 +43,11 @@ def scene(
     I = 2.0 * np.arange(1, cells + 1) / cells
     beta = RIGHT * (np.arange(cells) + 0.5) / cells
     axes = semi_axes(I[None, :], beta[:, None])
-    seen = np.abs(beta / RIGHT - 0.5) < 0.5 - EDGE, np.minimum(I / 2.0, np.abs(I - 1.0)) > EDGE
+    visible = np.abs(beta / RIGHT - 0.5) < 0.5 - EDGE, np.minimum(I / 2.0, np.abs(I - 1.0)) > EDGE
     panels = []
     for k, row in enumerate(levels):
-        drawn = axes[np.ix_(*seen)][..., k]
-        low, high = float(f"{drawn.min():.2g}"), float(f"{drawn.max():.2g}")
+        shown_values = axes[np.ix_(*visible)][..., k]
+        low, high = float(f"{shown_values.min():.2g}"), float(f"{shown_values.max():.2g}")
         if not all(low <= level <= high for level in row):
             raise DomainError(
                 f"figure kinds_of_quadric draws levels of C{k + 1} from {low} to {high}, not all of {row}."
@@ -56,14 +56,14 @@ def scene(
             Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, RIGHT], [0.0, RIGHT]]), "region"),
             Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "silhouette"),
         ]
-        taken: list[FloatArray] = []
+        occupied: list[FloatArray] = []
         for value in dict.fromkeys(row):
             for line in contour_generator(I, beta, axes[..., k]).lines(value):
-                if (place := named(line, taken)) is None:
+                if (place := named(line, occupied)) is None:
                     layers.append(Curve(line, "main"))
                     continue
-                taken.append(place)
-                layers += [Curve(piece, "main") for piece in beside(line, place)]
+                occupied.append(place)
+                layers += [Curve(piece, "main") for piece in broken_line(line, place)]
                 layers.append(Label(place, f"${value:g}$", "main"))
         if k == 0:
             layers.append(Label(np.array([1.0, 0.92 * RIGHT]), "cone"))
@@ -101,16 +101,16 @@ def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
     return np.asarray(Quadric(np.broadcast_to(I, B2.shape), (B2, steep * B2)).semi_axes)
 
 
-def named(line: FloatArray, taken: list[FloatArray]) -> FloatArray | None:
+def named(line: FloatArray, occupied: list[FloatArray]) -> FloatArray | None:
     """Return the point of a level line for its value, far from the cone and the edges; none beside those ``taken``."""
     I, beta = line.T
-    good = np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))
-    for other in taken:
-        good[(np.abs(line - other) < LETTERS * [2.0, RIGHT]).all(axis=1)] = 0.0
-    return line[np.argmax(good)] if good.max() > 0 else None
+    quality = np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))
+    for neighbour in occupied:
+        quality[(np.abs(line - neighbour) < LETTERS * [2.0, RIGHT]).all(axis=1)] = 0.0
+    return line[np.argmax(quality)] if quality.max() > 0 else None
 
 
-def beside(line: FloatArray, place: FloatArray) -> list[FloatArray]:
+def broken_line(line: FloatArray, place: FloatArray) -> list[FloatArray]:
     """Return the two parts of a level line that leave room for its value at ``place`` (2,)."""
     away = np.hypot(*((line - place) / [2.0, RIGHT]).T) > ROOM
     ends = np.flatnonzero(np.diff(away)) + 1

@@ -47,7 +47,7 @@ def scene(
     b = float(np.hypot(*field))
 
     def in_laboratory(motion: GeneralMotion) -> Path:
-        return lambda t: axis_trace.turned(motion.third_axis(t), field)
+        return lambda t: axis_trace.erected(motion.third_axis(t), field)
 
     def in_larmor_frame(motion: GeneralMotion) -> Path:
         def path(t: FloatArray) -> FloatArray:
@@ -68,7 +68,7 @@ def scene(
             f"Two unit spheres with traces of the body's axis for {plain_setting(ratio, field)}. In the laboratory the "
             "two launches draw different lines; in Larmor's frame both are halves of one line through the start."
         ),
-        panels=tuple(panel(name, [frame(one) for one in motions], time, elevation) for name, frame in frames),
+        panels=tuple(panel(name, [frame(launch) for launch in motions], time, elevation) for name, frame in frames),
         columns=2,
         named={"blue": "trace", "teal": "second_launch", "dot": "start"},
         size=(2 * SIZE, SIZE + 6.0),
@@ -77,13 +77,13 @@ def scene(
 
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
     """Return one sphere with the traces of both motions."""
-    fine = tolerance(1.4)
+    resolution = tolerance(1.4)
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, fine),
+        solids.sphere(O, 1.0, resolution),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
     ]
     for path, role in zip(paths, ("trace", "second_launch"), strict=True):
-        points = curve(path, 0.0, time, fine, pieces=48)
+        points = curve(path, 0.0, time, resolution, pieces=48)
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
         ends = np.stack([np.interp(HEAD, length, coordinate) for coordinate in points.T], axis=1)
         tail, tip = ends / np.linalg.norm(ends, axis=1, keepdims=True)

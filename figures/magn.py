@@ -36,8 +36,8 @@ def scene(
     particle = ParticleMotion(mu, (0.0, *E), (0.0, 0.0, B), (0.0, 0.0, 0.0), (speed, 0.0, 0.0), c)
     rough = particle.position(np.linspace(0.0, turns * particle.period, 200))
     span = float(np.ptp(rough, axis=0).max()) or 1.0
-    fine = tolerance(0.5 * span)
-    path = curve(particle.position, 0.0, turns * particle.period, fine, pieces=max(8, round(8 * turns)))
+    resolution = tolerance(0.5 * span)
+    path = curve(particle.position, 0.0, turns * particle.period, resolution, pieces=max(8, round(8 * turns)))
     reach = 0.55 * span
     strength = float(np.hypot(*E))
     layers: list[Layer] = [
@@ -50,8 +50,8 @@ def scene(
     ]
     if strength > 0.0 and all(E):
         steep = abs(E[0]) < 2.0 * abs(E[1])
-        drawn = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), E)
-        tip = 1.1 * reach * in_plane(*(float(component) for component in drawn / np.linalg.norm(drawn)))
+        leaning_field = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), E)
+        tip = 1.1 * reach * in_plane(*(float(component) for component in leaning_field / np.linalg.norm(leaning_field)))
         flat, tall = tip[1] * E2, tip[2] * E3
         layers += [
             Arrow(O, tip, "electric", r"$\mathbf{E}$"),

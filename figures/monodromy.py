@@ -85,26 +85,24 @@ def plain_words(loop: Monodromy) -> str:
     return f"g3 comes back as g3 with {plain(m)} of g1 and {plain(n)} of g2"
 
 
-def values(name: str, wells: Wells, loop: Monodromy, first: bool, unit: str) -> Plane:
+def values(name: str, wells: Wells, loop: Monodromy, is_first: bool, unit: str) -> Plane:
     """Return the critical values at one M3 with the loop."""
     ends = np.array([[p, g] for p, g, D in (wells.spin(end) for end in (1, -1)) if D < 0])
-    far = 1.25 * max(float(np.abs(loop.p).max()), float(np.abs(ends[:, 0]).max()))
+    p_limit = 1.25 * max(float(np.abs(loop.p).max()), float(np.abs(ends[:, 0]).max()))
     lines = [
-        np.stack([x.p, x.g], axis=1) for x in wells.precessions(4 * far + 4 * np.sqrt(abs(wells.A) + abs(wells.a)))
+        np.stack([x.p, x.g], axis=1) for x in wells.precessions(4 * p_limit + 4 * np.sqrt(abs(wells.A) + abs(wells.a)))
     ]
-    inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines])
+    inside = np.concatenate([line[np.abs(line[:, 0]) <= p_limit] for line in lines])
     low, high = float(inside[:, 1].min()), float(loop.g.max())
     layers: list[Layer] = [
         *(Curve(line, "main") for line in lines),
         Curve(smooth(np.stack([loop.p, loop.g], axis=1)), "trajectory"),
-        Points(ends, "unstable_point", "spin" if first else ""),
-        *([Label(np.array([0.4 * far, low]), "no motion", "note")] if first else []),
+        Points(ends, "unstable_point", "spin" if is_first else ""),
+        *([Label(np.array([0.4 * p_limit, low]), "no motion", "note")] if is_first else []),
         Points(np.array([[loop.p[0], loop.g[0]]]), "start"),
     ]
-    return Plane(
-        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)" if first else "", (-far, far), room((low, high), 0.1),
-        title=name,
-    )  # fmt: skip
+    y_label = f"$g$ (1/{unit}$^2$)" if is_first else ""
+    return Plane(tuple(layers), f"$p$ (1/{unit})", y_label, (-p_limit, p_limit), room((low, high), 0.1), title=name)
 
 
 def smooth(points: FloatArray) -> FloatArray:
@@ -112,12 +110,12 @@ def smooth(points: FloatArray) -> FloatArray:
     count = len(points) - 1
     drift = np.outer(np.arange(count) / count, points[-1] - points[0])
     waves = np.fft.rfft(points[:-1] - drift, axis=0)
-    fine = np.fft.irfft(waves, LOOP_POINTS, axis=0) * (LOOP_POINTS / count)
-    fine += np.outer(np.arange(LOOP_POINTS) / LOOP_POINTS, points[-1] - points[0])
-    return np.concatenate([fine, fine[:1] + points[-1] - points[0]])
+    samples = np.fft.irfft(waves, LOOP_POINTS, axis=0) * (LOOP_POINTS / count)
+    samples += np.outer(np.arange(LOOP_POINTS) / LOOP_POINTS, points[-1] - points[0])
+    return np.concatenate([samples, samples[:1] + points[-1] - points[0]])
 
 
-def lattice(name: str, loop: Monodromy, first: bool) -> Plane:
+def lattice(name: str, loop: Monodromy, is_first: bool) -> Plane:
     """Return the periods with one nutation, in turns, and the course of g3."""
     track = smooth(-loop.turns)
     start, end = track[0], track[-1]
@@ -139,7 +137,7 @@ def lattice(name: str, loop: Monodromy, first: bool) -> Plane:
     return Plane(
         tuple(layers),
         r"turns about $\mathbf{n}$",
-        "turns about the axis" if first else "",
+        "turns about the axis" if is_first else "",
         (float(middle[0] - half), float(middle[0] + half)),
         (float(middle[1] - half), float(middle[1] + half)),
         equal=True,

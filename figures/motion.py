@@ -43,25 +43,25 @@ def scene(
     slow = 2 * np.pi * turns / (k or phi) if k or phi else 1.0
     # no more than MAX_SPIN_TURNS proper rotations: beyond, Omega(t) would be all ink
     stop = min(slow, 2 * np.pi * MAX_SPIN_TURNS / phi) if phi else slow
-    free = not any(motion.field)
-    along = "" if free else r"; dashed: its projection on the field"
+    is_free = not any(motion.field)
+    projection_words = "" if is_free else r"; dashed: its projection on the field"
     turning = rf"The body at the start; its axis in {SPOKES} steps, half at $t_1$."
     return Scene(
         caption=(
-            rf"{tex_setting(ratio, field, first='A')} from "
+            rf"{tex_setting(ratio, field, article='A')} from "
             rf"$\boldsymbol{{\omega}}=(0,\omega_2,\omega_3)$ with $\omega_2={tex(motion.omega2)}$, "
             rf"$\omega_3{tex_equals(motion.omega3)}$: {motion.case}, $k{tex_equals(motion.k)}$, "
             rf"$\phi{tex_equals(motion.phi)}$. "
             rf"(a) {turning if motion.k else 'The body.'} "
             r"(b) The angular velocity in the body. "
-            rf"(c) $\mathbf{{m}}/I_2$ in the laboratory, (88){along}."
+            rf"(c) $\mathbf{{m}}/I_2$ in the laboratory, (88){projection_words}."
         ),
         alt=(
             f"Three panels for the elementary motion of {plain_setting(ratio, field)} from the angular velocity "
             f"(0, {plain(motion.omega2)}, {plain(motion.omega3)}), {motion.case}: "
             + (
                 "the body and the way of its third axis, a circle about "
-                + ("the angular momentum; " if free else "the field; ")
+                + ("the angular momentum; " if is_free else "the field; ")
                 if motion.k
                 else "the body, whose third axis does not move; "
             )
@@ -74,15 +74,15 @@ def scene(
             marked(momentum(motion, slow, unit), motion),
         ),
         columns=COLUMNS,
-        named={"dashed": "reference"} if along else {},
+        named={"dashed": "reference"} if projection_words else {},
         size=(WIDTH, HEIGHT),
     )
 
 
 def trace(motion: ElementaryMotion) -> Space:
     """Panel (a): the body at t = 0, the field, and the way of the third axis on the unit sphere."""
-    free = not any(motion.field)
-    axis = motion.angular_momentum(0.0) if free else np.array([0.0, *motion.field])
+    is_free = not any(motion.field)
+    axis = motion.angular_momentum(0.0) if is_free else np.array([0.0, *motion.field])
     size = quarter_pixel(2.6, WIDTH / COLUMNS)
     layers: list[Layer] = drawn_body(quotient(motion.ratio), np.eye(3), O, BODY, size)
     if motion.k:
@@ -93,7 +93,7 @@ def trace(motion: ElementaryMotion) -> Space:
         layers.append(Points(motion.third_axis(np.array([period / 2])), "point"))
         layers.append(Label(motion.third_axis(period / 2), "$t_1$", "label", (6.0, 0.0)))
     if axis.any():
-        name, role = (r"$\mathbf{m}$", "momentum") if free else (r"$\mathbf{B}$", "field")
+        name, role = (r"$\mathbf{m}$", "momentum") if is_free else (r"$\mathbf{B}$", "field")
         layers.append(Arrow(O, 1.5 * axis / np.linalg.norm(axis), role, name))
     layers.append(Arrow(O, 1.25 * E3, "body_axis", r"$\mathbf{R}_3(0)$"))
     layers.append(Points(E3[None], "start"))

@@ -53,10 +53,20 @@ def scene(
     swings, least, largest = (
         x.reshape(-1, cells, cells) for x in (amplitudes(columns, field), columns["least"], columns["largest"])
     )
-    last = "b" if len(ratios) > 1 else "a"
+    last_letter = "b" if len(ratios) > 1 else "a"
     most = STEP * float(np.ceil(np.max(swings) / STEP))
     panels = tuple(
-        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, ends, unit, most, letter == last)
+        panel(
+            f"({letter}) {body_name(I)}, $I={tex(I)}$",
+            I,
+            field,
+            edges,
+            swing.T,
+            ends,
+            unit,
+            most,
+            letter == last_letter,
+        )
         for letter, I, swing, *ends in zip("abcd", ratios, swings, least, largest, strict=False)
     )
     return Scene(
@@ -82,8 +92,8 @@ def scene(
 def amplitudes(columns: Mapping[str, FloatArray], field: tuple[float, float]) -> FloatArray:
     """Return the amplitude of nutation in degrees: cos theta = (c3 - Omega3)/b at the turning points."""
     nu = (columns["omega3"] + field[1] - np.array([columns["least"], columns["largest"]])) / np.hypot(*field)
-    near, far = np.degrees(np.arccos(np.clip(nu, -1.0, 1.0)))
-    return far - near
+    least_angle, largest_angle = np.degrees(np.arccos(np.clip(nu, -1.0, 1.0)))
+    return largest_angle - least_angle
 
 
 def panel(
@@ -107,7 +117,7 @@ def panel(
     layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)" if bar else "", limits=(0.0, most))]
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
-    layers += [Points(np.array([place.at]), place.role) for place in places(I, field) if place.role != "point"]
+    layers += [Points(np.array([place.point]), place.role) for place in places(I, field) if place.role != "point"]
     layers += [
         Label(inmost(*middle, (looping == k) & (swing > most / 4)), word)
         for k, word in ((1.0, "loops"), (0.0, "waves"))

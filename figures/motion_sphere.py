@@ -40,23 +40,23 @@ def scene(
     pole = in_plane(*field) if any(field) else motion.angular_momentum(0.0)
     size = float(np.linalg.norm(pole))
     axis = pole / size if size else E3
-    fine = tolerance(1.6)
+    resolution = tolerance(1.6)
     angle = float(np.arctan2(np.hypot(axis[0], axis[1]), axis[2]))
     rate = max(abs(motion.k), abs(motion.phi)) or 1.0
     time = turns * 2.0 * np.pi / (abs(motion.k) or rate)
     eye = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
-    layers: Layers = [solids.sphere(O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
+    layers: Layers = [solids.sphere(O, 1.0, resolution), *quadric_panel.basis((1.7, 1.55, 1.45))]
     named = ("field", r"$\mathbf{B}$") if any(field) else ("momentum", r"$\mathbf{m}$")
     layers.append(Arrow(O, 1.65 * axis, *named))
     if np.sin(angle) > 1e-9 and motion.k:
-        layers.append(solids.cone(O, axis, angle, 1.0, fine))
+        layers.append(solids.cone(O, axis, angle, 1.0, resolution))
         period = 2.0 * np.pi / abs(motion.k)
-        layers.append(Curve(curve(motion.third_axis, 0.0, period, fine), "trace"))
+        layers.append(Curve(curve(motion.third_axis, 0.0, period, resolution), "trace"))
         layers += heads(motion.third_axis, period * np.array([0.2, 0.7]), eye, "trace", "")
-    drawn = rate * time < MAX_AXIS_PHASE
-    if drawn:
+    has_trace = rate * time < MAX_AXIS_PHASE
+    if has_trace:
         pieces = max(8, int(4.0 * rate * time / np.pi))
-        layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, fine, pieces=pieces), "second_trace"))
+        layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, resolution, pieces=pieces), "second_trace"))
         starts = np.arange(1.0, 2.0 * turns) * time / (2.0 * turns)
         layers += heads(lambda t: motion.column(1, t), starts, eye, "second_trace", r"$\mathbf{R}_1(t)$")
     later = 0.42 * 2.0 * np.pi / (abs(motion.k) or rate)
@@ -72,13 +72,13 @@ def scene(
         + (
             rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of the precession; "
             r"arrowheads show which way both run."
-            if drawn
+            if has_trace
             else rf"Arrowheads show which way it runs. The trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of "
             r"the precession would fill a band of the sphere, and is not drawn."
         ),
         alt=f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the "
         f"body precesses on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
-        + ("; the first axis traces a rosette." if drawn else "."),
+        + ("; the first axis traces a rosette." if has_trace else "."),
         panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         named={"heavy line": "trace", "thin line": "second_trace"},
         size=(100.0, 100.0),

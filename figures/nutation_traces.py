@@ -41,7 +41,7 @@ def scene(
     return Scene(
         caption=(
             r"At the start (dot) the third axis moves along the parallel with $\omega_2$."
-            rf" {tex_setting(ratio, field, first='A')}, with "
+            rf" {tex_setting(ratio, field, article='A')}, with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} periods of the nutation, $\mathbf{{B}}$ upright."
         ),
         alt=(

@@ -43,9 +43,9 @@ def scene(
     stable = [nu for nu, is_stable in top.equilibria if is_stable]
     saddles = [nu for nu, is_stable in top.equilibria if not is_stable]
     energies = top.energies(levels)
-    coarse = np.concatenate([line for energy in energies for line in top.orbits(*energy)])
-    high = 1.1 * float(np.abs(coarse[:, 1]).max())
-    view = room(coarse[:, 0], 0.06), (-high, high)
+    outlines = np.concatenate([line for energy in energies for line in top.orbits(*energy)])
+    high = 1.1 * float(np.abs(outlines[:, 1]).max())
+    view = room(outlines[:, 0], 0.06), (-high, high)
     layers: list[Layer] = [Curve(np.array([[view[0][0], 0.0], [view[0][1], 0.0]]), "guide")]
     layers += [Curve(line, "component") for energy in energies for line in top.orbits(*energy, view)]
     layers += [Curve(line, "unstable") for nu in saddles for line in top.orbits(top.V(nu), 0.0, view)]
@@ -107,8 +107,8 @@ class Top:
     @property
     def equilibria(self) -> list[tuple[float, bool]]:
         """Roots of V'(nu) in (-1, 1), and whether each is a minimum."""
-        nu, across = Polynomial([0, 1]), Polynomial([1, 0, -1])
-        slope = self.A * nu * across**2 + (self.p - self.M3 * nu) * (self.p * nu - self.M3)
+        nu, sine_squared = Polynomial([0, 1]), Polynomial([1, 0, -1])
+        slope = self.A * nu * sine_squared**2 + (self.p - self.M3 * nu) * (self.p * nu - self.M3)
         roots = slope.roots()
         real = np.sort(roots[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) < 1)].real)
         return [(float(x), bool(slope.deriv()(x) > 0)) for x in real]
@@ -125,24 +125,26 @@ class Top:
         inside = [(h + share * (top - h), nu) for h, nu in values if h < top for share in steps]
         return [*inside, *((top + depth * share, 0.0) for share in steps)]
 
-    def orbits(self, h: float, about: float, view: Window | None = None) -> list[FloatArray]:
+    def orbits(self, h: float, centre: float, view: Window | None = None) -> list[FloatArray]:
         """Return the closed curves (Omega3, its rate), shape (N, 2), of the energy h that go round a cosine, 0 for all.
 
         Without a ``view`` they are coarse.
         """
-        nu, across = Polynomial([0, 1]), Polynomial([1, 0, -1])
-        Q = across * (h - self.M3**2 / self.I - self.b**2 - self.A * nu**2) - (self.p - self.M3 * nu) ** 2
+        nu, sine_squared = Polynomial([0, 1]), Polynomial([1, 0, -1])
+        Q = sine_squared * (h - self.M3**2 / self.I - self.b**2 - self.A * nu**2) - (self.p - self.M3 * nu) ** 2
         roots = Q.roots()
         real = np.sort(roots[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) <= 1)].real)
         orbits = []
         for low, high in pairwise(real):
-            if Q((low + high) / 2) <= 0 or high - low < 1e-9 or (about and not low < about < high):
+            if Q((low + high) / 2) <= 0 or high - low < 1e-9 or (centre and not low < centre < high):
                 continue
-            rest = Q // Polynomial([-low * high, low + high, -1])
+            cofactor = Q // Polynomial([-low * high, low + high, -1])
 
-            def point(s: FloatArray, low: float = low, high: float = high, rest: Polynomial = rest) -> FloatArray:
+            def point(
+                s: FloatArray, low: float = low, high: float = high, cofactor: Polynomial = cofactor
+            ) -> FloatArray:
                 nu = (low + high) / 2 + (high - low) / 2 * np.sin(s)
-                rate = (high - low) / 2 * np.cos(s) * np.sqrt(np.maximum(rest(nu), 0.0))
+                rate = (high - low) / 2 * np.cos(s) * np.sqrt(np.maximum(cofactor(nu), 0.0))
                 return np.stack([self.omega3(nu), -self.b * rate], axis=1)
 
             turn = 2 * np.pi

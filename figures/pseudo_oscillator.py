@@ -46,19 +46,19 @@ def scene(
     low, high = motion.turning_points
     if high > low and not np.isfinite(motion.period):
         raise DomainError(f"From omega = {omega} the motion runs on a separatrix: it has no period to be drawn.")
-    rest = high == low
+    is_at_rest = high == low
     span = (high - low) or max(np.abs((*omega, *field))) or 1.0
     if high - low < NARROWEST * abs(omega[2]) and str(motion.kind).startswith("nutation"):
         raise DomainError("figure pseudo_oscillator draws a nutation, and that of this motion is too small to be seen.")
-    zero = float(omega[2]) if high - low < NARROW * abs(omega[2]) and not rest else 0.0
+    zero = float(omega[2]) if high - low < NARROW * abs(omega[2]) and not is_at_rest else 0.0
     view = window(oscillator, (low, high), span, zero)
     symbol = r"\Omega_3-\omega_3" if zero else r"\Omega_3"
     low, high = low - zero, high - zero
     allowed = rf"{tex(low)}\le{symbol}\le {tex(high)}"
-    still = "The motion is at equilibrium: $\\Omega_3$ is constant. "
+    rest_sentence = "The motion is at equilibrium: $\\Omega_3$ is constant. "
     period = rf"It oscillates in ${allowed}$ with the period $T{tex_equals(motion.period)}$. "
     ends = f"{plain(low)} and {plain(high)}{f' off {plain(zero)}' if zero else ''}"
-    spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {ends}"
+    spoken = "Omega 3 stays where it is" if is_at_rest else f"Omega 3 oscillates between {ends}"
 
     def Q(u: FloatArray) -> FloatArray:
         return np.asarray(oscillator.quartic(zero + u))
@@ -66,11 +66,11 @@ def scene(
     start = np.array([oscillator.omega3 - zero, (oscillator.omega1 * oscillator.B2) ** 2])
     return Scene(
         caption=(
-            rf"{tex_setting(ratio, field, first='A')} from "
+            rf"{tex_setting(ratio, field, article='A')} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic "
             r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47) and the "
             r"level of the motion. Dot: the start; the shaded "
-            rf"interval is allowed. (c) $\Omega_3(t)$. {still if rest else period}"
+            rf"interval is allowed. (c) $\Omega_3(t)$. {rest_sentence if is_at_rest else period}"
         ).rstrip(),
         alt=(
             f"Three panels for {plain_setting(ratio, field)}, started with the angular velocity "
@@ -96,8 +96,8 @@ def window(oscillator: PseudoOscillator, allowed: Ends, span: float, zero: float
     real = np.sort(extrema[np.isreal(extrema)].real)
     inside = real[(real >= allowed[0]) & (real <= allowed[1])]
     top = np.max(oscillator.quartic(inside), initial=0.0) or np.inf
-    near = [u for u in real if abs(u - sum(allowed) / 2) < 3 * span and abs(oscillator.quartic(u)) <= 3 * top]
-    low, high = min(allowed[0], *near, allowed[0]), max(allowed[1], *near, allowed[1])
+    close_extrema = [u for u in real if abs(u - sum(allowed) / 2) < 3 * span and abs(oscillator.quartic(u)) <= 3 * top]
+    low, high = min(allowed[0], *close_extrema, allowed[0]), max(allowed[1], *close_extrema, allowed[1])
     pad = max(0.5 * span, 0.25 * (high - low))
     return low - zero - pad, high - zero + pad
 
@@ -127,12 +127,12 @@ def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label
     inner = V(np.linspace(*allowed, 65))
     depth = float(max(level - inner.min(), 0.02 * np.abs(V(np.array(view))).max())) or 1.0
     limits = (level - 1.4 * depth, level + 1.2 * depth)
-    across = np.array([[allowed[0], level], [allowed[1], level]])
+    level_line = np.array([[allowed[0], level], [allowed[1], level]])
     layers = (
         Region(band(allowed, limits), "region"),
         Curve(graph(V, view, limits), "main"),
-        Curve(across, "second"),
-        Points(across, "rest"),
+        Curve(level_line, "second"),
+        Points(level_line, "rest"),
         Points(np.array([[start[0], level]]), "start"),
     )
     return Plane(layers, x_label, rf"$V$ (1/{unit}$^4$)", view, limits, title="(b) potential")

@@ -21,7 +21,7 @@ def scene(
     kind = Quadric(ratio, field).kind
     surface, legend = quadric_panel.DEGENERATE.get(kind, (f"a {kind}", quadric_panel.LEGEND))
     special = kind in quadric_panel.DEGENERATE
-    shown = (
+    contents = (
         "and the part of it that are motions"
         if special
         else "the canonical axes through −B' and the hyperbola in the plane e2, e3"
@@ -32,5 +32,5 @@ def scene(
         (azimuth, elevation),
         caption=f"It is {surface} for {tex_setting(ratio, field)}. {legend}",
         alt=f"{surface.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
-        "laboratory axes" + (f", B', its image under the inverse inertia tensor, {shown}." if any(field) else "."),
+        "laboratory axes" + (f", B', its image under the inverse inertia tensor, {contents}." if any(field) else "."),
     )

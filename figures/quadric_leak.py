@@ -27,7 +27,7 @@ DEEP = 0.02
 """How far down panel (b) goes at least, as a part of the largest departure."""
 PIECES = 32
 """Of a period at first."""
-SEEN = 1e-13
+MIN_DEPARTURE = 1e-13
 """Part of the field up to which a departure is rounding."""
 
 
@@ -43,8 +43,8 @@ def scene(
     """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``."""
     if not 0 < len(omega1) <= len(LINES) or not all(omega1):
         raise DomainError(f"omega1 must hold one to {len(LINES)} numbers, none of them zero, not {omega1}.")
-    still = start(ratio, field, 0.0, omega2)
-    nu2 = -still.stiffness(still.omega3)
+    oscillator = start(ratio, field, 0.0, omega2)
+    nu2 = -oscillator.stiffness(oscillator.omega3)
     motions = [Leaving(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
     law = (
         rf"dashed: the law $\lvert\omega_1B'_2\rvert/\nu_n$ near the hyperbola, where nutation has the frequency "
@@ -54,7 +54,7 @@ def scene(
     )
     return Scene(
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, starts with $\omega_2={tex(omega2)}$. "
+            rf"{tex_setting(ratio, field, article='A')}, starts with $\omega_2={tex(omega2)}$. "
             rf"(a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "
             r"dashed: the rate at $t=0$. "
             f"(b) The largest departure, with dots for the motions of (a); {law}"
@@ -105,10 +105,10 @@ class Leaving:
         self.below, self.above = min(ends), max(ends)
         self.farthest, self.speed = max(self.above, -self.below), float(oscillator.omega1) * self.field[0]
         self.period = float(self.top.period)
-        if self.farthest < SEEN * self.b or not np.isfinite(self.period):
+        if self.farthest < MIN_DEPARTURE * self.b or not np.isfinite(self.period):
             raise DomainError(
-                f"From omega = {self.top.omega} Omega3 has no period, or changes by less than {SEEN:g} of the field's "
-                "size."
+                f"From omega = {self.top.omega} Omega3 has no period, or changes by less than {MIN_DEPARTURE:g} of the "
+                "field's size."
             )
 
     def departure(self, t: FloatArray) -> FloatArray:
@@ -155,8 +155,8 @@ def departures(
     ends = (float(size.min()) / 30, float(size.max()) * 10)
 
     def departure(logarithm: FloatArray) -> FloatArray:
-        moved = [Leaving(start(ratio, field, float(value), omega2)) for value in 10.0**logarithm]
-        return np.stack([logarithm, [np.log10(x.farthest) for x in moved]], axis=1)
+        probes = [Leaving(start(ratio, field, float(value), omega2)) for value in 10.0**logarithm]
+        return np.stack([logarithm, [np.log10(x.farthest) for x in probes]], axis=1)
 
     decade = max((WIDTH / 2 - MARGIN) / np.log10(ends[1] / ends[0]), (HEIGHT - MARGIN) / np.log10(3.0 / DEEP))
     line = 10.0 ** curve(departure, np.log10(ends[0]), np.log10(ends[1]), quarter_pixel(1.0, decade), pieces=6)

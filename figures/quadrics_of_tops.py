@@ -97,15 +97,15 @@ def side_by_side(
 
     Gaps are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
     """
-    right, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
+    rightward, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
     heights = [solids.extent(surfaces, E3) for surfaces in sheets]
     least = PITCH * max(high - low for low, high in heights)
     depth = max(float(centre[2]) - low for centre, (low, _) in zip(centres, heights, strict=True))
     for surfaces, Q, centre, name in zip(sheets, matrices, centres, names, strict=True):
         level = centres[0] - centre
-        left, end = (x + level @ right for x in solids.extent(surfaces, right))
-        shift = (place - left) * right + level
-        place += max(end - left + GAP * scale, least)
+        left_end, right_end = (x + level @ rightward for x in solids.extent(surfaces, rightward))
+        shift = (place - left_end) * rightward + level
+        place += max(right_end - left_end + GAP * scale, least)
         low = centre + shift - (GAP + depth / scale) * scale * E3
         cells.append([*quadrics.placed(surfaces, Q, shift, tolerance(3 * scale)), Label(low, name)])
     return cells
@@ -118,7 +118,7 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
     low = -0.2 * high
     g = np.linspace(low, high, 129)
     border = np.stack([g * (2.0 - (1.0 + ratio) * g), g], axis=1)
-    at = float(np.interp(0.25 * high, g, border[:, 0]))
+    border_place = float(np.interp(0.25 * high, g, border[:, 0]))
     clipped = np.stack([np.clip(border[:, 0], -wide, wide), g], axis=1)
     layers: list[Layer] = [
         Region(np.concatenate([clipped, [[-wide, high], [-wide, low]]]), "region"),
@@ -130,8 +130,8 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
             Label(place, f"{number}", "label", (-5.0 if place[0] < 0 else 5.0, 5.0))
             for number, place in enumerate(places, 1)
         ),
-        Label(np.array([0.5 * (at - wide), 0.25 * high]), "one sheet", "note"),
-        Label(np.array([0.5 * (at + wide), 0.25 * high]), "two sheets", "note"),
+        Label(np.array([0.5 * (border_place - wide), 0.25 * high]), "one sheet", "note"),
+        Label(np.array([0.5 * (border_place + wide), 0.25 * high]), "two sheets", "note"),
     ]
     return Plane(
         tuple(layers), r"$(A_0+a_0/n_3)/b^2$", r"$k_3/Ik_2$", (-wide, wide), (low, high), title="(b) all tops",

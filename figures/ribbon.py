@@ -92,30 +92,30 @@ def bands(
     j = 3 - w
     stretch = float(quadric.semi_axes[j] / quadric.semi_axes[0])
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
-    rest = quadric_rest(quadric)
-    vertex = float(quadric.semi_axes[w]) if rest > 0.0 else 0.0
+    constant = quadric_rest(quadric)
+    vertex = float(quadric.semi_axes[w]) if constant > 0.0 else 0.0
     slope = float(quadric.semi_axes[w] / quadric.semi_axes[0]) ** 2
 
     def height(radius: float) -> float:
-        return float(np.sqrt(max(0.0, slope * (radius * radius + rest))))
+        return float(np.sqrt(max(0.0, slope * (radius * radius + constant))))
 
     for k, inner in enumerate(edges[:-1]):
         outer = edges[k + 1]
         start, bend = max(vertex, height(inner)), max(vertex, height(outer))
         steps = np.linspace(0.0, 1.0, ALONG) ** 2  # a sheet is round at its vertex
-        parts = [(start + (min(bend, reach) - start) * steps, (0.0,))]
+        stretches = [(start + (min(bend, reach) - start) * steps, (0.0,))]
         if bend < reach:
-            parts.append((np.linspace(bend, reach, ALONG), (1.0, -1.0)))
+            stretches.append((np.linspace(bend, reach, ALONG), (1.0, -1.0)))
         for sheet in (1.0, -1.0):
             for side in (1.0, -1.0):
                 grids = []
-                for h, halves in parts:
+                for h, halves in stretches:
                     radius = np.sqrt(np.maximum(radius_squared(quadric, h), 0.0))
                     safe = np.where(radius > 0.0, radius, 1.0)
                     low, high = (np.arccos(np.clip(c / safe, 0.0, 1.0)) for c in (outer, inner))
                     for half in halves:
-                        first, two = (half * low, half * high) if half else (-high, high)
-                        v = first[:, None] + (two - first)[:, None] * np.linspace(0.0, 1.0, ACROSS)
+                        lower, upper = (half * low, half * high) if half else (-high, high)
+                        v = lower[:, None] + (upper - lower)[:, None] * np.linspace(0.0, 1.0, ACROSS)
                         canonical = np.zeros((*v.shape, 3))
                         canonical[..., 0] = side * radius[:, None] * np.cos(v)
                         canonical[..., j] = stretch * radius[:, None] * np.sin(v)
@@ -136,13 +136,15 @@ def line(points: FloatArray, stable: FloatArray) -> list[Layer]:
 
 def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, step: float) -> list[Layer]:
     """Return the tints in a column with the rates between them, upwards from a corner (3,) of the plane of view."""
-    right, up, _ = frame
+    rightward, up, _ = frame
     layers: list[Layer] = []
     for k, edge in enumerate(edges):
         place = corner + k * step * up
         if k < BANDS:
-            layers.append(solids.rectangle(place + step / 2 * up, 0.45 * step * right, step / 2 * up, role=f"rate_{k}"))
-        layers.append(Label(place + 0.6 * step * right, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
+            layers.append(
+                solids.rectangle(place + step / 2 * up, 0.45 * step * rightward, step / 2 * up, role=f"rate_{k}")
+            )
+        layers.append(Label(place + 0.6 * step * rightward, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
     top = corner + (len(edges) - 0.2) * step * up
     return [*layers, Label(top, r"$|\omega_1B'_2|$", "label", (0.0, 3.0))]
 
@@ -152,7 +154,7 @@ def bodies(ratio: float, field: tuple[float, float], b: float) -> list[Layer]:
     Q = quadrics.quadric_matrix(ratio, field)
     layers: list[Layer] = []
     for place in places(ratio, field):
-        point = in_plane(*place.at)
+        point = in_plane(*place.point)
         normal = Q[:3, :3] @ point + Q[:3, 3]
         centre = point + OFF * b * normal / np.linalg.norm(normal)
         layers += [Points(point[None], place.role, place.text), Curve(np.stack([point, centre]), "guide")]

@@ -17,7 +17,7 @@ from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
 from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
 from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
 from atlas.pictures.layers import frame
-from atlas.pictures.movement import about, riding
+from atlas.pictures.movement import riding, rotations_about
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 
 ROW = "its axis"
@@ -39,16 +39,16 @@ def scene(
             f"figure rolling_cones needs a body that precesses: B2, B3, omega2 and omega2 + B2 all not zero, not "
             f"field = {field}, omega2 = {omega2}."
         )
-    free = motion.beside
+    free_motion = motion.beside
     axis = in_plane(*field) / np.hypot(*field)
-    both = {"(a) in the field": motion, "(b) free": free}
-    panels = tuple(cones(name, one, axis, (azimuth, elevation)) for name, one in both.items())
+    named_motions = {"(a) in the field": motion, "(b) free": free_motion}
+    panels = tuple(cones(name, cone_motion, axis, (azimuth, elevation)) for name, cone_motion in named_motions.items())
     return Scene(
         caption=(
             rf"(a) In the field, about $\mathbf{{B}}$, $\phi={tex(motion.phi)}$; (b) free, (87), about "
-            rf"$\mathbf{{m}}$, $\phi={tex(free.phi)}$. The body cone (amber) "
-            rf"{contact(motion, axis)} in (a) and {contact(free, axis)} in (b), green. "
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, $k={tex(motion.k)}$."
+            rf"$\mathbf{{m}}$, $\phi={tex(free_motion.phi)}$. The body cone (amber) "
+            rf"{contact(motion, axis)} in (a) and {contact(free_motion, axis)} in (b), green. "
+            rf"{tex_setting(ratio, field, article='A')}, $\omega_2={tex(omega2)}$, $k={tex(motion.k)}$."
         ),
         alt=(
             f"Two pairs of cones that touch along a line, for {plain_setting(ratio, field)} with omega 2 = "
@@ -59,8 +59,8 @@ def scene(
         columns=2,
         size=(160.0, 92.0),
         paths={
-            f"{layer_name} {name}": partial(path, one)
-            for name, one in both.items()
+            f"{layer_name} {name}": partial(path, cone_motion)
+            for name, cone_motion in named_motions.items()
             for layer_name, path in (("body", rolled), ("line", swung))
         },
         lasts=float(2 * np.pi / abs(motion.k)),
@@ -69,7 +69,7 @@ def scene(
 
 def rolled(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how the body turns, and its cone with it."""
-    return about(O, motion.rotation(t))
+    return rotations_about(O, motion.rotation(t))
 
 
 def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -78,7 +78,7 @@ def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatAr
     back = np.zeros((len(t), 3, 3))
     back[:, 0, 0], back[:, 1, 1], back[:, 2, 2] = np.cos(spin), np.cos(spin), 1.0
     back[:, 0, 1], back[:, 1, 0] = np.sin(spin), -np.sin(spin)
-    return about(O, motion.rotation(t) @ back)
+    return rotations_about(O, motion.rotation(t) @ back)
 
 
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
@@ -96,17 +96,17 @@ def reach(line: FloatArray, omega: FloatArray) -> float:
     return 1.35 if line @ omega > 0.0 else 0.6
 
 
-def beside(
+def name_place(
     rim: FloatArray, omega: FloatArray, view: tuple[float, float], *, narrow: bool
 ) -> tuple[FloatArray, tuple[float, float]]:
     """Return places at the rim (N, 3) of a cone for its name, clear of both cones, and the offset from them."""
-    right, up = (rim @ line for line in frame(Space((), *view))[:2])
+    rightward, up = (rim @ line for line in frame(Space((), *view))[:2])
     if up.mean() > 0.0 and narrow:
         return rim[int(np.argmax(up))], (0.0, 5.0)
     if up.mean() > 0.0:
-        ends = int(np.argmin(right)), int(np.argmax(right))
-        far = max(ends, key=lambda end: float(np.linalg.norm(rim[end] - omega)))
-        return rim[far], (float(np.copysign(5.0, right[far] - right.mean())), 0.0)
+        ends = int(np.argmin(rightward)), int(np.argmax(rightward))
+        farthest = max(ends, key=lambda end: float(np.linalg.norm(rim[end] - omega)))
+        return rim[farthest], (float(np.copysign(5.0, rightward[farthest] - rightward.mean())), 0.0)
     quarters = rim[[0, len(rim) // 4, len(rim) // 2, 3 * len(rim) // 4]]
     return 1.05 * quarters[np.argsort(-np.linalg.norm(quarters - omega, axis=1))], (0.0, -6.0)
 
@@ -116,26 +116,28 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
 
     The angular momentum of a free body is on the side of its angular velocity: (m, omega) is twice the energy.
     """
-    fine = tolerance(1.8)
+    resolution = tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))
     space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, E3))  # the half-angles
     omega /= np.linalg.norm(omega)
     layers: list[Layer] = []
     for line, angle, share, word in ((axis, space, "cone", "space"), (E3, body, "body", "body")):
         towards = line * np.copysign(1.0, line @ omega)
-        cone = solids.cone(O, towards, angle, 1.0, fine)
-        place, offset = beside(cone.rims[0], omega, view, narrow=angle == min(space, body))
-        found: list[Layer] = [
+        cone = solids.cone(O, towards, angle, 1.0, resolution)
+        place, offset = name_place(cone.rims[0], omega, view, narrow=angle == min(space, body))
+        cone_layers: list[Layer] = [
             replace(cone, role=share),
             Curve(np.stack([O, 1.12 * np.cos(angle) * towards]), "construction"),
             Label(place, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset),
         ]
-        layers += riding(found, f"body {name}") if share == "body" else found
-    free = isinstance(motion, FreeMotion)
-    role, letter = ("momentum", r"$\mathbf{m}$") if free else ("field", r"$\mathbf{B}$")
-    along = axis * (np.sign(axis @ omega) if free else 1.0)  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis
+        layers += riding(cone_layers, f"body {name}") if share == "body" else cone_layers
+    is_free = isinstance(motion, FreeMotion)
+    role, letter = ("momentum", r"$\mathbf{m}$") if is_free else ("field", r"$\mathbf{B}$")
+    direction = axis * (
+        np.sign(axis @ omega) if is_free else 1.0
+    )  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis
     layers += [
-        Arrow(O, reach(along, omega) * along, role, letter),
+        Arrow(O, reach(direction, omega) * direction, role, letter),
         Arrow(O, reach(E3, omega) * E3, "body_axis", r"$\mathbf{R}_3$", rides=f"body {name}"),
         Arrow(O, 1.35 * omega, "velocity", r"$\boldsymbol{\omega}$", rides=f"line {name}"),
         Points(O[None], "origin"),

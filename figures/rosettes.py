@@ -70,23 +70,23 @@ def scene(
 def golden(ratio: Any, field: tuple[float, float]) -> float:
     """Return omega2 of the motion with phi/k = (sqrt 5 - 1)/2, from phi/k = r (1 + B2/(omega2 + B2)), (86) and (87)."""
     I, one_less, _ = shape_factors(ratio)
-    free = float(one_less / I * field[1] / np.hypot(*field))
-    return float(field[0] * (1 / ((np.sqrt(5) - 1) / 2 / free - 1) - 1))
+    free_quotient = float(one_less / I * field[1] / np.hypot(*field))
+    return float(field[0] * (1 / ((np.sqrt(5) - 1) / 2 / free_quotient - 1) - 1))
 
 
 def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
     """Return one sphere with the trace of a point over ``turns`` turns of the precession, seen along the field."""
-    fine = tolerance(1.6)
+    resolution = tolerance(1.6)
     period = 2 * np.pi / abs(motion.k)
 
     def point(t: FloatArray) -> FloatArray:
         return np.asarray(np.sin(LEAN) * motion.column(1, t) + np.cos(LEAN) * motion.third_axis(t))
 
     pieces = max(16, int(16 * turns))
-    trace = curve(point, 0.0, turns * period, fine, pieces=pieces)
+    trace = curve(point, 0.0, turns * period, resolution, pieces=pieces)
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, fine),
-        Curve(curve(motion.third_axis, 0.0, period, fine), "body_axis"),
+        solids.sphere(O, 1.0, resolution),
+        Curve(curve(motion.third_axis, 0.0, period, resolution), "body_axis"),
         Curve(trace, "trajectory" if turns <= DENSE else "fine_trajectory"),
         Points(trace[:1], "start"),
     ]

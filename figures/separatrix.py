@@ -45,7 +45,7 @@ def scene(
             f"and field = {field}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
         )
     growth = float(np.sqrt(-stability))
-    motions, last = excursions(ratio, field, omega2), decay / growth
+    motions, half_time = excursions(ratio, field, omega2), decay / growth
     return Scene(
         caption=(
             rf"$\omega_2={tex(omega2)}$ of "
@@ -59,8 +59,8 @@ def scene(
             "pulse upwards and one downwards from the same level."
         ),
         panels=(
-            sphere(motions, field, last, (azimuth, elevation)),
-            course(motions, float(Hyperbola(ratio, field).omega3(omega2)), last, unit),
+            sphere(motions, field, half_time, (azimuth, elevation)),
+            course(motions, float(Hyperbola(ratio, field).omega3(omega2)), half_time, unit),
         ),
         columns=2,
         named={"dotted": "limit"},
@@ -88,13 +88,15 @@ def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[Ge
     return curves
 
 
-def sphere(motions: list[GeneralMotion], field: tuple[float, float], last: float, view: tuple[float, float]) -> Space:
+def sphere(
+    motions: list[GeneralMotion], field: tuple[float, float], half_time: float, view: tuple[float, float]
+) -> Space:
     """Panel (a): the traces of the axis on the sphere in the looks of panel (b), with the field upright."""
-    fine, r = tolerance(1.4), field[1] / float(np.hypot(*field))
-    ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), fine)
+    resolution, r = tolerance(1.4), field[1] / float(np.hypot(*field))
+    ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), resolution)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, fine),
+        solids.sphere(O, 1.0, resolution),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
         Curve(ring, "limit"),
         Label(ring[int(np.argmax(ring @ aside))], "precession", "note", (6.0, 0.0)),
@@ -102,25 +104,25 @@ def sphere(motions: list[GeneralMotion], field: tuple[float, float], last: float
     for motion, role in zip(motions, ROLES, strict=True):
 
         def axis(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
-            return axis_trace.turned(motion.third_axis(t), motion.field)
+            return axis_trace.erected(motion.third_axis(t), motion.field)
 
         place = axis(np.zeros(1))
-        layers += [Curve(curve(axis, -last, last, fine, pieces=64), role), Points(place, "start")]
+        layers += [Curve(curve(axis, -half_time, half_time, resolution, pieces=64), role), Points(place, "start")]
         layers.append(Label(place[0], "$t=0$", "label", (0.0, 8.0)))
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
 
 
-def course(motions: list[GeneralMotion], rest: float, last: float, unit: str) -> Plane:
+def course(motions: list[GeneralMotion], level: float, half_time: float, unit: str) -> Plane:
     """Panel (b): Omega3 of both motions over time; at rest it is that of the precession."""
-    view = ((-last, last), room([rest, *(motion.omega[2] for motion in motions)], 0.1))
-    layers: list[Layer] = [Curve(np.array([[-last, rest], [last, rest]]), "unstable")]
+    view = ((-half_time, half_time), room([level, *(motion.omega[2] for motion in motions)], 0.1))
+    layers: list[Layer] = [Curve(np.array([[-half_time, level], [half_time, level]]), "unstable")]
     for motion, role in zip(motions, ROLES, strict=True):
 
         def point(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
             return np.stack([t, motion.angular_velocity(t)[:, 2]], axis=-1)
 
-        line = flat(point, -last, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48)
-        name = "upper" if motion.omega[2] > rest else "lower"
+        line = flat(point, -half_time, half_time, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48)
+        name = "upper" if motion.omega[2] > level else "lower"
         layers += [Curve(line, role), Label(line[[len(line) // 2]], name, role, (30.0, 0.0))]
-    layers.append(Label(np.array([0.85 * last, rest]), "precession", "unstable", (0.0, 5.0)))
+    layers.append(Label(np.array([0.85 * half_time, level]), "precession", "unstable", (0.0, 5.0)))
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title=r"(b) $\Omega_3$")

@@ -27,10 +27,13 @@ ROLES = ("main", "second", "third", "fourth", "fifth")
 
 def scene() -> Scene:
     """Draw the errors of the angular velocity and of the attitude over time, a curve for each simulator."""
-    found = dict(errors())
-    worst = {name: error[:, 1:].max(axis=0) for name, error in found.items()}
-    right = [name for name, (rate, _) in worst.items() if rate < 1e-8]
-    exact, wrong = " and ".join(right), [rate for name, (rate, _) in worst.items() if name not in right]
+    error_tables = dict(errors())
+    largest_errors = {name: error[:, 1:].max(axis=0) for name, error in error_tables.items()}
+    exact_names = [name for name, (rate, _) in largest_errors.items() if rate < 1e-8]
+    exact, other_rates = (
+        " and ".join(exact_names),
+        [rate for name, (rate, _) in largest_errors.items() if name not in exact_names],
+    )
     return Scene(
         caption=(
             f"Simulators {exact} follow the closed form within $10^{{-8}}$ degrees. "
@@ -40,13 +43,13 @@ def scene() -> Scene:
         alt=(
             "Two panels of errors over 30 seconds, on logarithmic scales, with a curve for each of five simulators. "
             f"Those of simulators {exact} stay near 1e-10 and 1e-9 degrees; those of the others lie up to "
-            f"{min(wrong):.0e} to {max(wrong):.0e} degrees per second from the exact angular velocity."
+            f"{min(other_rates):.0e} to {max(other_rates):.0e} degrees per second from the exact angular velocity."
         ),
         panels=tuple(
             Plane(
                 tuple(
                     Curve(error[1:, [0, column]], role, f"simulator {name}")
-                    for role, (name, error) in zip(ROLES, found.items(), strict=True)
+                    for role, (name, error) in zip(ROLES, error_tables.items(), strict=True)
                 ),
                 "time (s)" if column == 2 else "",
                 label,
@@ -75,23 +78,23 @@ def errors() -> Iterator[tuple[str, FloatArray]]:
         t, rates, angles, longitude = np.split(table[table[:, 0] == name, 1:], [1, 4, 7], axis=1)
         rate = np.linalg.norm(rates - np.degrees(exact.angular_velocity(t[:, 0])), axis=1)
         local = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]) @ attitude(np.radians(angles))
-        turned = about(2, (np.radians(longitude) + EARTH * t)[:, 0]) @ local
-        apart = np.linalg.norm(turned[:1] @ exact.rotation(t[:, 0]) - turned, axis=(1, 2)) / np.sqrt(8)
-        yield f"{name:.0f}", np.column_stack([t[:, 0], rate, np.degrees(2 * np.arcsin(np.minimum(apart, 1.0)))])
+        attitudes = rotations(2, (np.radians(longitude) + EARTH * t)[:, 0]) @ local
+        distance = np.linalg.norm(attitudes[:1] @ exact.rotation(t[:, 0]) - attitudes, axis=(1, 2)) / np.sqrt(8)
+        yield f"{name:.0f}", np.column_stack([t[:, 0], rate, np.degrees(2 * np.arcsin(np.minimum(distance, 1.0)))])
 
 
 def attitude(angles: FloatArray) -> FloatArray:
     """Return the matrices R_z(yaw) R_y(pitch) R_x(roll), shape (N, 3, 3)."""
     yaw, pitch, roll = angles.T
-    return about(2, yaw) @ about(1, pitch) @ about(0, roll)
+    return rotations(2, yaw) @ rotations(1, pitch) @ rotations(0, roll)
 
 
-def about(axis: int, angle: FloatArray) -> FloatArray:
+def rotations(axis: int, angle: FloatArray) -> FloatArray:
     """Return the matrices of rotations by angles about a coordinate axis, shape (N, 3, 3)."""
     matrix = np.zeros((len(angle), 3, 3))
-    first, second = (axis + 1) % 3, (axis + 2) % 3
+    row, column = (axis + 1) % 3, (axis + 2) % 3
     matrix[:, axis, axis] = 1.0
-    matrix[:, first, first] = matrix[:, second, second] = np.cos(angle)
-    matrix[:, second, first] = np.sin(angle)
-    matrix[:, first, second] = -np.sin(angle)
+    matrix[:, row, row] = matrix[:, column, column] = np.cos(angle)
+    matrix[:, column, row] = np.sin(angle)
+    matrix[:, row, column] = -np.sin(angle)
     return matrix

@@ -38,11 +38,12 @@ def scene(
     rates = dict(zip((*axis.names, *spin.names), (*axis.rates, *spin.rates), strict=True))
     top = 1.2 * float(max(axis.frequencies.max(initial=0.0), spin.frequencies.max(initial=0.0))) or 1.0
     symbols = {"nutation": r"\omega_T", "precession": "k", "spin": r"\phi"}
-    told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
+    rate_words = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
         caption=(
-            rf"{tex_setting(ratio, field, first='A')} from "
-            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "
+            rf"{tex_setting(ratio, field, article='A')} from "
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {rate_words}. (a) Of the axis, along the field and across "
+            "it. "
             r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are norms of "
             r"complex amplitudes, for one sign of a frequency, beside the root mean square."
         ),
@@ -81,12 +82,12 @@ def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, u
         for i, n in enumerate(chosen):
             layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i or unit else kind))
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
-    written: list[int] = []
+    labelled: list[int] = []
     for n in np.argsort(-size):
-        if len(written) < names and all(abs(f[n] - f[other]) > BESIDE * top for other in written):
-            written.append(int(n))
+        if len(labelled) < names and all(abs(f[n] - f[neighbour]) > BESIDE * top for neighbour in labelled):
+            labelled.append(int(n))
     for n in sorted(
-        written, key=lambda n: float(f[n])
+        labelled, key=lambda n: float(f[n])
     ):  # a name that gives way to its left neighbour goes to the right
         text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
         layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))

@@ -18,7 +18,7 @@ from atlas.errors import DomainError
 from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setting
-from atlas.pictures.hyperbola_plane import Window, components, graph, seen, unstable
+from atlas.pictures.hyperbola_plane import Window, components, graph, unstable, visible_mask
 from atlas.pictures.sample import flat
 
 ROW = "its map"
@@ -43,19 +43,19 @@ def scene(
         raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
     bands = unstable(ratio, field)
     order = r"\le" if B3 else "<"  # the ends of a band belong to it, theorem-band-ends; for B3 = 0 they do not
-    where = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
+    band_words = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
     spoken = listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from") if bands else ""
     long = shape_factors(ratio)[1] > 0
     tau = abs(B3 / B2)
-    near = tau <= FAR
+    is_shown = tau <= FAR
     return Scene(
         caption=(
-            (f"Here inside the shaded bands {where}. " if bands else "On the whole curve it is positive. ")
+            (f"Here inside the shaded bands {band_words}. " if bands else "On the whole curve it is positive. ")
             + r"(a) The nutation frequency squared, $\nu_n^2=-Q''(\omega_3)/2$, theorem-quartic, along the hyperbola "
             rf"(67) of {tex_setting(ratio, field)}. "
             r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "
             r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; "
-            + ("upright and dotted: the field of (a). " if near else rf"the field of (a) has $\tau={tex(tau)}$. ")
+            + ("upright and dotted: the field of (a). " if is_shown else rf"the field of (a) has $\tau={tex(tau)}$. ")
             + (r"Shaded: unstable." if long else r"For $I\ge1$ all motions of the hyperbola are stable.")
         ),
         alt=(
@@ -67,7 +67,7 @@ def scene(
         ),
         panels=(course(ratio, (B2, B3), bands, reach, unit), chart(ratio, tau, levels)),
         columns=2,
-        named={"shaded": "unstable_region"} | ({"dotted": "limit"} if near else {}),
+        named={"shaded": "unstable_region"} | ({"dotted": "limit"} if is_shown else {}),
         size=(WIDTH, HEIGHT),
     )
 
@@ -80,9 +80,9 @@ def course(
     I, one_less, two_less = shape_factors(ratio)
     tau2 = (B3 / B2) ** 2
     # at rest x = 1 and nu^2 = I B2^2 + (2-I)^2 B3^2; the least value is at x^2 = tau |1-I|/sqrt(1 + tau^2)
-    rest = I + tau2 * two_less**2
+    rest_square = I + tau2 * two_less**2
     least = one_less * (2 * tau2 - 1) + 2 * abs(one_less) * float(np.sqrt(tau2 * (1 + tau2)))
-    top = B2 * B2 * 2.5 * max(rest, abs(least))
+    top = B2 * B2 * 2.5 * max(rest_square, abs(least))
     view = Window((-B2 - reach * abs(B2), -B2 + reach * abs(B2)), (min(1.5 * B2 * B2 * least, -0.12 * top), top))
     pole = abs(one_less) * float(np.sqrt(tau2 / (2 * (top / (B2 * B2) + 1))))
     layers: list[Layer] = [Region(view.band(*interval), "unstable_region") for interval in bands]
@@ -98,8 +98,8 @@ def course(
         layers.append(Points(np.array([[edge, 0.0] for interval in bands for edge in interval]), "point"))
         layers += [Label(np.array([sum(band) / 2, view.y[0]]), "unstable", "unstable", (0.0, 6.0)) for band in bands]
     layers += [
-        Points(np.array([[0.0, B2 * B2 * rest]]), "rest"),
-        Label(np.array([0.0, B2 * B2 * rest]), "rest", "label", (float(np.copysign(6.0, B2)), -2.0)),
+        Points(np.array([[0.0, B2 * B2 * rest_square]]), "rest"),
+        Label(np.array([0.0, B2 * B2 * rest_square]), "rest", "label", (float(np.copysign(6.0, B2)), -2.0)),
         Label(np.array([-B2, view.y[1]]), r"$\omega_2=-B'_2$", "note", (4.0, -6.0)),
     ]
     return Plane(
@@ -158,4 +158,4 @@ def level(value: float, one_less: float, view: Window) -> list[FloatArray]:
     size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     ends = ((0.0, gap * (1 - 1e-6)), (gap * (1 + 1e-6) or 1e-9, np.pi / 2))
     pieces = [flat(point, *pair, (view.x, view.y), size, pieces=32) for pair in ends if pair[1] > pair[0]]
-    return [piece[shown] for piece in pieces if (shown := seen(piece, view)).any()]
+    return [piece[visible] for piece in pieces if (visible := visible_mask(piece, view)).any()]

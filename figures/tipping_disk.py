@@ -21,7 +21,7 @@ from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.arrange import stacked
 from atlas.pictures.bodies import drawn_body, row
 from atlas.pictures.captions import plain, quotient, tex
-from atlas.pictures.movement import along, riding, turned
+from atlas.pictures.movement import body_path, riding, translations
 from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.pictures.sample import flat
 
@@ -56,13 +56,13 @@ def scene(
     times = moments(motion, count)
     places = row(count, STEP, azimuth)
     cells, below = strip(motion, I, times, places), course(motion, times, unit)
-    far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
+    largest_angle = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
     return Scene(
         caption=(
             (
                 "Its axis goes round in one sense, through both ends of the field's. "
                 if omega3 == -B3
-                else rf"Its axis reaches {far:.0f} degrees and comes back. "
+                else rf"Its axis reaches {largest_angle:.0f} degrees and comes back. "
             )
             + f"(a) {count} moments of half a period. (b) The angle of axis and field, with these moments as "
             rf"numbered dots. $I={tex(quotient(ratio))}$, $B'_3={tex(B3)}$, $\omega_3={tex(omega3)}$; "
@@ -70,7 +70,7 @@ def scene(
         ),
         alt=(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
-            f"time, three times from zero to {plain(round(far))} degrees and back."
+            f"time, three times from zero to {plain(round(largest_angle))} degrees and back."
         ),
         panels=(*stacked(cells, 1, azimuth, elevation, title="(a) moments"), below),
         narrow=(*stacked(cells, 2, azimuth, elevation, title="(a) moments"), below),
@@ -79,15 +79,15 @@ def scene(
         paths={
             f"{layer_name} {i}": partial(path, motion, time, place)
             for i, (time, place) in enumerate(zip(times, places, strict=True))
-            for layer_name, path in (("body", turned), ("dot", moved))
+            for layer_name, path in (("body", body_path), ("dot", dot_path))
         },
         lasts=float(motion.period),
     )
 
 
-def moved(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+def dot_path(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how its dot goes on along the curve."""
-    return along(point(motion, start + t), point(motion, np.array([start]))[0])
+    return translations(point(motion, start + t), point(motion, np.array([start]))[0])
 
 
 def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
@@ -103,18 +103,18 @@ def angle(axis: FloatArray) -> FloatArray:
 def moments(motion: GeneralMotion, count: int) -> FloatArray:
     """Return times, shape (count,), at which the angle has grown by equal steps from its least to its greatest."""
     t = np.linspace(0.0, motion.period / 2, 2001)
-    grown = np.maximum.accumulate(angle(motion.third_axis(t)))
-    return np.interp(np.linspace(grown[0], grown[-1], count), grown, t)
+    angles = np.maximum.accumulate(angle(motion.third_axis(t)))
+    return np.interp(np.linspace(angles[0], angles[-1], count), angles, t)
 
 
 def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray) -> list[list[Layer]]:
     """Return the layers of the body at each of these times, in its place."""
-    fine = tolerance(STEP * len(times) / 2)
+    resolution = tolerance(STEP * len(times) / 2)
     cells: list[list[Layer]] = []
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
         cells.append(
             [
-                *riding([*drawn_body(I, R, centre, 1.0, fine)], f"body {i}"),
+                *riding([*drawn_body(I, R, centre, 1.0, resolution)], f"body {i}"),
                 Arrow(centre, centre + 1.15 * R[:, 2], "body_axis", rides=f"body {i}"),
                 Arrow(centre, centre + 1.5 * E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
                 Label(centre - 1.15 * E3, f"{i + 1}", "note", (0.0, -4.0)),

@@ -29,12 +29,12 @@ def scene(
     moment, words = any_motion.start(omega)
     has = [
         text
-        for text, there in (
+        for text, is_present in (
             (rf"$(k_2,k_3)=({tex(coupling[0])},{tex(coupling[1])})$", any(coupling)),
             (rf"$a_0={tex(linear)}$", linear),
             (rf"$A_0={tex(quadratic)}$", quadratic),
         )
-        if there
+        if is_present
     ]
     ratio = inertia[1] / inertia[0]
     setting = (

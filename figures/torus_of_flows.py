@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 from atlas.pictures import Arrow, Curve, Label, Points, Scene, Space, solids
 from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 from atlas.pictures.quadric_panel import O, tolerance
-from atlas.pictures.torus import VIEW, net, on_torus, seen
+from atlas.pictures.torus import VIEW, net, on_torus, visible_parts
 
 ROW = "three moments"
 SEEN = "The motion winds round a torus."
@@ -32,9 +32,11 @@ def scene(
     stop: float | None = None,
 ) -> Scene:
     """Draw the motion from ``omega`` for ``turns`` or up to the time ``stop``, and one way back to its start."""
-    first, second = periods(inertia, field, omega)
-    area = first[0] * second[1] - first[1] * second[0]
-    rates = np.array([[second[1], -first[1]], [-second[0], first[0]]]) * 2 * np.pi / area  # of both angles, H and F/2
+    first_period, second_period = periods(inertia, field, omega)
+    area = first_period[0] * second_period[1] - first_period[1] * second_period[0]
+    rates = (
+        np.array([[second_period[1], -first_period[1]], [-second_period[0], first_period[0]]]) * 2 * np.pi / area
+    )  # of both angles, H and F/2
     fastest = float(np.abs(rates[0]).max()) / (2 * np.pi)
     stop = positive(turns, "turns") / fastest if stop is None else stop
     if not 0 < stop <= MAX_TURNS / fastest:
@@ -45,21 +47,21 @@ def scene(
     K = vector(field, "field")
     W, I = vector(omega, "omega") + K, vector(inertia, "inertia")
     orbit = flow(I, W, K, 1.0, 0.0, np.linspace(0.0, stop, int(POINTS_PER_TURN * fastest * stop) + 2))[1]
-    there = np.linspace(0.0, 1.0, 3 * POINTS_PER_TURN)
-    out = flow(I, W, K, first[0], 0.0, there)
-    back = flow(I, out[0][-1], out[1][-1], 0.0, first[1], there)[1]
+    shares = np.linspace(0.0, 1.0, 3 * POINTS_PER_TURN)
+    out = flow(I, W, K, first_period[0], 0.0, shares)
+    back = flow(I, out[0][-1], out[1][-1], 0.0, first_period[1], shares)[1]
     angles = (
         np.linspace(0.0, stop, 2 * len(orbit))[:, None] * rates[0],
-        there[:, None] * first[0] * rates[0],
-        first[0] * rates[0] + there[:, None] * first[1] * rates[1],
+        shares[:, None] * first_period[0] * rates[0],
+        first_period[0] * rates[0] + shares[:, None] * first_period[1] * rates[1],
     )
     return Scene(
         caption=(
             rf"The motion (thin line) of a body with $I_i={tex_vector(inertia)}$ "
             rf"from $\boldsymbol{{\omega}}={tex_vector(omega)}$ in $\mathbf{{B}}'={tex_vector(field)}$ up to "
             rf"$t={tex(stop)}$: (a) by the angles of its two periods, (b) as the way of $\mathbf{{K}}$ in the body. "
-            rf"From the start, $T_H={tex(round(first[0], 4))}$ along the motion (teal) and "
-            rf"$T_F={tex(round(first[1], 4))}$ along the other flow (plum) lead back."
+            rf"From the start, $T_H={tex(round(first_period[0], 4))}$ along the motion (teal) and "
+            rf"$T_F={tex(round(first_period[1], 4))}$ along the other flow (plum) lead back."
         ),
         alt=(
             f"A torus with a line wound round it many times, and a sphere with the trace that the same motion of a "
@@ -95,9 +97,9 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     roles = ("fine_trajectory", "trajectory", "turn")
     layers = net()
     for line, role in zip((orbit, out, back), roles, strict=True):
-        layers += seen(on_torus(*line.T), role)
+        layers += visible_parts(on_torus(*line.T), role)
     for line, role, name in ((out, "trajectory", "$T_H$"), (back, "turn", "$T_F$")):
-        longest = max((part.points for part in seen(on_torus(*line.T), role) if isinstance(part, Curve)), key=len)
+        longest = max((arc.points for arc in visible_parts(on_torus(*line.T), role) if isinstance(arc, Curve)), key=len)
         layers.append(Label(middle(longest), name, role, (-5.0, -5.0)))
     return Space((*layers, Points(on_torus(*orbit[:1].T), "start")), *VIEW, title="(a) torus of the motion")
 
@@ -105,9 +107,9 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
 def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     """Return the sphere of K with the same lines."""
     b = float(np.linalg.norm(orbit[0]))
-    fine = tolerance(1.4)
+    resolution = tolerance(1.4)
     layers = [
-        solids.sphere(O, 1.0, fine),
+        solids.sphere(O, 1.0, resolution),
         Curve(orbit / b, "fine_trajectory"),
         Curve(out / b, "trajectory"),
         Curve(back / b, "turn"),

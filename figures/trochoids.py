@@ -31,12 +31,12 @@ def scene(
     unit: str = "length",
 ) -> Scene:
     """Draw one panel for each of ``speeds``, the speeds a omega of the turning in units of the drift's."""
-    still = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), c)
-    plane, v, omega = still.axes[:2], float(np.linalg.norm(still.drift)), abs(still.cyclotron_frequency)
+    guide = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), c)
+    plane, v, omega = guide.axes[:2], float(np.linalg.norm(guide.drift)), abs(guide.cyclotron_frequency)
     turns = positive(turns, "turns")
     if not speeds or min(speeds) < 0:
         raise DomainError(f"speeds must hold at least one number, and none below zero, not {speeds}.")
-    period = still.period
+    period = guide.period
     span, height = turns * period * v, max(1.0, *speeds) * v / omega
     paths = []
     for speed in speeds:
@@ -48,15 +48,15 @@ def scene(
         tolerance = quarter_pixel(1.1 * span, 0.9 * WIDTH)
         points = curve(path, 0.0, turns * period, tolerance, pieces=max(8, round(8 * turns)))
         paths.append((speed, points, path(period * np.arange(1.0, turns + 0.5))))
-    left = min(0.0, *(float(points[:, 0].min()) for _, points, _ in paths))
-    right = max(span, *(float(points[:, 0].max()) for _, points, _ in paths))
-    limits = room((left, right), 0.05)
+    x_low = min(0.0, *(float(points[:, 0].min()) for _, points, _ in paths))
+    x_high = max(span, *(float(points[:, 0].max()) for _, points, _ in paths))
+    limits = room((x_low, x_high), 0.05)
     panels = tuple(
         Plane(
             (
                 Curve(np.array([[0.0, 0.0], [span, 0.0]]), "reference"),
                 Curve(points, "trajectory"),
-                Points(whole, "sample"),
+                Points(turn_points, "sample"),
                 Points(points[:1], "start"),
             ),
             x_label=f"$x$ ({unit})" if row == len(paths) - 1 else "",
@@ -66,7 +66,7 @@ def scene(
             equal=True,
             title=f"({chr(ord('a') + row)}) {name(speed)}, {turning(speed)}",
         )
-        for row, (speed, points, whole) in enumerate(paths)
+        for row, (speed, points, turn_points) in enumerate(paths)
     )
     return Scene(
         caption=(

@@ -43,9 +43,11 @@ def scene(
     b = float(np.linalg.norm(field))
     curves = [(push, departure(inertia, field, push, reach)) for push in pushes]
     farthest = float(dict(curves)[smallest][:, 1].max())
-    drawn = [(role, rf"$s={tex(push)}$", push, points) for role, (push, points) in zip(ROLES, curves, strict=False)]
-    in_time = [Curve(points[1:] * (b / abs(push), 1.0), role, name) for role, name, push, points in drawn]
-    in_turns = [Curve(points, role, name) for role, name, _, points in reversed(drawn)]  # the least push on top
+    named_curves = [
+        (role, rf"$s={tex(push)}$", push, points) for role, (push, points) in zip(ROLES, curves, strict=False)
+    ]
+    in_time = [Curve(points[1:] * (b / abs(push), 1.0), role, name) for role, name, push, points in named_curves]
+    in_turns = [Curve(points, role, name) for role, name, _, points in reversed(named_curves)]  # the least push on top
     over_time, over_turns = (0.01 * reach * b / abs(largest), reach * b / abs(smallest)), (0.0, reach)
     return Scene(
         caption=(

@@ -53,7 +53,7 @@ def scene(
     )
 
 
-def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float, ...], reach: float) -> Plane:
+def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[float, ...], reach: float) -> Plane:
     """Return the plane of one momentum, in units of p."""
     edge = clipped(envelope(M3, reach), reach)
     lines = {nu: within(float(rest(M3, 1.0, np.array([nu]))[0]), nu, reach) for nu in cosines}
@@ -83,15 +83,15 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
     layers.append(Curve(envelope(M3, reach), "main"))
     if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
         layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))
-    if first:
+    if is_first:
         layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note", (0.0, 2.0)))
-    if last:
+    if is_last:
         layers += [
             Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", offset=(0.0, 2.0)),
             Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", offset=(0.0, 2.0)),
         ]
     return Plane(
-        tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),
+        tuple(layers), r"$a/p^2$", r"$A/p^2$" if is_first else "", (-reach, reach), (-reach, reach),
         title=f"({letter}) $M_3={times(M3)}$",
     )  # fmt: skip
 
@@ -105,13 +105,13 @@ def envelope(M3: float, reach: float) -> FloatArray:
     """Return the border (N, 2) as far as it is near the view; with |M3| = p it goes on along the line of a spin."""
     nu = np.tanh(np.linspace(-9.0, 9.0, 1201))
     points = border(M3, 1.0, nu)
-    near = np.abs(points).max(axis=1) < 40 * reach
-    points = points[near]
+    is_near = np.abs(points).max(axis=1) < 40 * reach
+    points = points[is_near]
     if abs(M3) == 1:  # nu = e is a double root: e a + A = M3^2/4
         e = np.copysign(1.0, M3)
-        last = points[-1] if e > 0 else points[0]
-        far = last + 40 * reach * np.array([e, -1.0])
-        points = np.concatenate([points, [far]] if e > 0 else [[far], points])
+        end_point = points[-1] if e > 0 else points[0]
+        far_point = end_point + 40 * reach * np.array([e, -1.0])
+        points = np.concatenate([points, [far_point]] if e > 0 else [[far_point], points])
     return points
 
 
@@ -133,13 +133,13 @@ def clipped(polygon: FloatArray, reach: float) -> FloatArray:
             break
         inside = sign * polygon[:, axis] <= reach
         corners = []
-        for corner, other, here, there in zip(
+        for corner, neighbour, is_corner_inside, is_neighbour_inside in zip(
             polygon, np.roll(polygon, -1, 0), inside, np.roll(inside, -1), strict=True
         ):
-            if here:
+            if is_corner_inside:
                 corners.append(corner)
-            if here != there:
-                share = (sign * reach - corner[axis]) / (other[axis] - corner[axis])
-                corners.append(corner + share * (other - corner))
+            if is_corner_inside != is_neighbour_inside:
+                share = (sign * reach - corner[axis]) / (neighbour[axis] - corner[axis])
+                corners.append(corner + share * (neighbour - corner))
         polygon = np.array(corners).reshape(-1, 2)
     return polygon

@@ -43,16 +43,17 @@ def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, c
 def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float, columns: int) -> tuple[Plane, ...]:
     """Draw the runs of each case up to the horizon."""
     layers = {
-        case: tuple(drawn([run for run in benchmark.runs_of(record, case) if run.horizon == horizon])) for case in cases
+        case: tuple(run_lines([run for run in benchmark.runs_of(record, case) if run.horizon == horizon]))
+        for case in cases
     }
     if not any(layers.values()):
-        known = dict.fromkeys(f"{run.horizon:g}" for run in record.runs)
-        raise AtlasError(f"The benchmark record has no horizon {horizon:g}; it has {', '.join(known)}.")
+        horizons = dict.fromkeys(f"{run.horizon:g}" for run in record.runs)
+        raise AtlasError(f"The benchmark record has no horizon {horizon:g}; it has {', '.join(horizons)}.")
     labels = f"largest error up to $t = {benchmark.power(horizon)}$", "time for one sample (µs)"
     return benchmark.panels(layers, labels, ROOM, columns)
 
 
-def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:
+def run_lines(runs: list[benchmark.Run]) -> Iterator[Layer]:
     """Yield the line of each integrator and the mark of each closed form."""
     for method, group in benchmark.by_method(runs).items():
         points = benchmark.pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)

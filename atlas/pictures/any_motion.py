@@ -43,8 +43,8 @@ def course(
     pad = (0.14 if level is None else 0.2) * (high - low) or 0.5 * abs(high) or 1.0
     limits = (low - pad, high + pad)
     wide, high = (size[0] - MARGIN) / stop, (size[1] - MARGIN) / (limits[1] - limits[0])
-    scale, fine = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
-    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, fine, pieces=pieces, scale=scale)
+    scale, resolution = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
+    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, resolution, pieces=pieces, scale=scale)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
     if level is not None:
         layers.append(Curve(np.array([[0.0, level], [stop, level]]), "reference"))
@@ -77,7 +77,7 @@ class Upright:
     role: str = "field"
 
     @classmethod
-    def of(cls, motion: Any) -> "Upright":
+    def of_motion(cls, motion: Any) -> "Upright":
         """Return the direction of a top, else the field; without one the angular momentum; of a body at rest e3."""
         if hasattr(motion, "direction"):
             return cls((0.0, *motion.direction), r"\mathbf{n}", "n", "direction")
@@ -108,10 +108,10 @@ def picture(
     period, empty if there is none. An infinite or zero period is replaced by one turn at the start.
     `upright` is that of the motion. Where the axis would not be seen to move, it is followed for one precession.
     """
-    upright = upright or Upright.of(motion)
-    first = turns(motion, 0.0)
+    upright = upright or Upright.of_motion(motion)
+    turn_rate = turns(motion, 0.0)
     steady = not (isfinite(period) and period > 0)
-    unit_of_time = period if not steady else 1 / first if first else 1.0
+    unit_of_time = period if not steady else 1 / turn_rate if turn_rate else 1.0
     length = positive(periods, "periods") * unit_of_time
     rate = turns(motion, min(length, unit_of_time))
     length = min(length, MAX_AXIS_TURNS / rate) if rate else length
@@ -158,18 +158,18 @@ def slow_turn(motion: Any, length: float) -> float:
 def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
     """Return the third axis over time as it is after each whole nutation: turned with the mean rate of precession."""
     n, start = np.asarray(upright) / np.linalg.norm(upright), motion.third_axis(0.0)
-    along, rate = n * (n @ start), float(motion.precession_rate)
+    parallel_part, rate = n * (n @ start), float(motion.precession_rate)
 
     def axis(t: FloatArray) -> FloatArray:
         angle = rate * np.asarray(t)[..., None]
-        return np.asarray(along + np.cos(angle) * (start - along) + np.sin(angle) * np.cross(n, start))
+        return np.asarray(parallel_part + np.cos(angle) * (start - parallel_part) + np.sin(angle) * np.cross(n, start))
 
     return axis
 
 
 def scene_at(motion: Any, t: float, begin: float) -> Scene:
     """Return a motion at the time t: the body, the trace of its axis since the time `begin`, the field."""
-    R, upright = np.asarray(motion.rotation(t)), Upright.of(motion)
+    R, upright = np.asarray(motion.rotation(t)), Upright.of_motion(motion)
     layers: list[Layer] = [
         *body_of(motion, R, _FINE),
         Arrow(O, _AXIS * R[:, 2], "body_axis", r"$\mathbf{R}_3$"),
@@ -177,15 +177,15 @@ def scene_at(motion: Any, t: float, begin: float) -> Scene:
     if t > begin:
         layers.append(Curve(curve(lambda s: _AXIS * motion.third_axis(s), begin, t, _FINE, pieces=_PIECES), "trace"))
     if upright.role:
-        along = np.array(upright.vector) / np.abs(upright.vector).max()
-        along /= np.linalg.norm(along)
-        layers.append(Arrow(O, _UP * along, upright.role, f"${upright.letter}$"))
+        direction = np.array(upright.vector) / np.abs(upright.vector).max()
+        direction /= np.linalg.norm(direction)
+        layers.append(Arrow(O, _UP * direction, upright.role, f"${upright.letter}$"))
     layers.append(Label(_UP * np.concatenate([np.eye(3), -np.eye(3)]), ""))  # as far as it reaches at any time
     vector_name = {"momentum": "angular momentum", "": ""}.get(upright.role, "field")
-    beside = f", and the direction of the {vector_name}" if vector_name else ""
+    vector_words = f", and the direction of the {vector_name}" if vector_name else ""
     return Scene(
         title="A motion",
-        caption=rf"The body, its axis $\mathbf{{R}}_3$ with the trace of its tip{beside}.",
+        caption=rf"The body, its axis $\mathbf{{R}}_3$ with the trace of its tip{vector_words}.",
         alt="A body with its axis, the line that the tip of that has drawn"
         f"{f', and an arrow along the {vector_name}' if vector_name else ''}.",
         panels=(Space(tuple(layers), azimuth=20.0, elevation=15.0, span=(2.0 * _UP, 2.0 * _UP)),),
@@ -200,8 +200,8 @@ def period(motion: Any) -> float:
     """
     if motion.shape:
         raise AtlasError(f"one motion can be drawn at a time, not an array of the shape {motion.shape}.")
-    own, first = axis_period(motion), turns(motion, 0.0)
-    return own if 0 < own < _LONG else 1 / first if first else 1.0
+    axis_time, turn_rate = axis_period(motion), turns(motion, 0.0)
+    return axis_time if 0 < axis_time < _LONG else 1 / turn_rate if turn_rate else 1.0
 
 
 def axis_period(motion: Any) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.pictures.captions import listed
-from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, seen
+from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, panel_points
 from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.35
@@ -54,15 +54,15 @@ def arranged(scene: Scene, target: Target) -> Scene:
 
 def _reduced(scene: Scene) -> Scene:
     """Return a scene without the panels that can be spared, the others in a row with all their labels."""
-    kept = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
+    remaining = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
     letters = listed([scene.panels[k].title.partition(" ")[0] for k in scene.spare])
     return replace(
         scene,
         caption=f"{scene.caption} Left out at this size: {letters}.",
-        panels=kept,
-        columns=len(kept),
-        size=(len(kept) * cell[0], cell[1]),
+        panels=remaining,
+        columns=len(remaining),
+        size=(len(remaining) * cell[0], cell[1]),
         narrow=(),
         narrowest=0.0,
     )
@@ -72,7 +72,7 @@ def _arranged(scene: Scene, target: Target) -> Scene:
     """Return a scene with all its panels in the rows and columns that leave them largest."""
     width = target.width / target.zoom
     if width < scene.narrowest:
-        wide = [name for name, one in TARGETS.items() if one.width / one.zoom >= scene.narrowest]
+        wide = [name for name, candidate in TARGETS.items() if candidate.width / candidate.zoom >= scene.narrowest]
         needs = target.zoom * scene.narrowest
         larger = f" with type of {target.type:g} points" if target.zoom != 1 else ""
         raise AtlasError(
@@ -81,10 +81,11 @@ def _arranged(scene: Scene, target: Target) -> Scene:
         )
     height = min(target.height / target.zoom, _TALL * width)
     best = max(
-        _arrangements(scene, width, height), key=lambda one: log(min(one.scale, 1.0)) - _PAPER * sum(one.rows) / width
+        _arrangements(scene, width, height),
+        key=lambda candidate: log(min(candidate.scale, 1.0)) - _PAPER * sum(candidate.rows) / width,
     )
     if best.scale < _SMALLEST:
-        tall = max(one.scale for one in _arrangements(scene, width, len(scene.panels) * _TALL * width))
+        tall = max(candidate.scale for candidate in _arrangements(scene, width, len(scene.panels) * _TALL * width))
         side = f"height of {target.height:g}" if tall >= _SMALLEST else f"width of {target.width:g}"
         complaint = f"its panels would have only {best.scale:.2f} of their size"
         raise AtlasError(f"{scene.title}: it can't be read at a {side} mm; {complaint}.")
@@ -117,13 +118,15 @@ def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
     Without columns each panel has both labels.
     """
     panels = list(scene.panels)
-    for k, one in enumerate(scene.panels):
-        if isinstance(one, Plane):
-            left = [panel.y_label for panel in scene.panels[k - k % scene.columns : k + 1] if isinstance(panel, Plane)]
-            below = [panel.x_label for panel in scene.panels[k :: scene.columns] if isinstance(panel, Plane)]
-            y_label = one.y_label if columns and k % columns else next(filter(None, reversed(left)), "")
-            x_label = one.x_label if columns and k + columns < len(panels) else next(filter(None, below), "")
-            panels[k] = replace(one, x_label=x_label, y_label=y_label)
+    for k, plane in enumerate(scene.panels):
+        if isinstance(plane, Plane):
+            row_labels = [
+                panel.y_label for panel in scene.panels[k - k % scene.columns : k + 1] if isinstance(panel, Plane)
+            ]
+            column_labels = [panel.x_label for panel in scene.panels[k :: scene.columns] if isinstance(panel, Plane)]
+            y_label = plane.y_label if columns and k % columns else next(filter(None, reversed(row_labels)), "")
+            x_label = plane.x_label if columns and k + columns < len(panels) else next(filter(None, column_labels), "")
+            panels[k] = replace(plane, x_label=x_label, y_label=y_label)
     return tuple(panels)
 
 
@@ -139,20 +142,20 @@ def _fitted(
     share = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
     rows = [word + share * (row - word) for row, word in zip(rows, words, strict=True)]
     scale = min(_scale(panel, (wide, rows[k // columns]), before) for k, panel in enumerate(panels))
-    shown = [
+    unkeyed = [
         replace(panel, legend=False) if isinstance(panel, Plane) and panel.legend == "beside" else panel
         for panel in panels
     ]
-    return Arrangement(tuple(panels if wide >= before[0] else shown), columns, tuple(rows), scale)
+    return Arrangement(tuple(panels if wide >= before[0] else unkeyed), columns, tuple(rows), scale)
 
 
 def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
     """Return how high a panel would be at its best; drawings in space and equal scales keep their shape."""
     high = before[1] * wide / before[0]
     if not isinstance(panel, Plane):
-        right, up = extent(panel)
-        beside, below = _words(panel)
-        high = min(high, (wide - beside) * float(up / right) + below) if right > 0.0 else high
+        width, height = extent(panel)
+        side_room, foot_room = _words(panel)
+        high = min(high, (wide - side_room) * float(height / width) + foot_room) if width > 0.0 else high
     elif not panel.equal:
         return min(before[1], max(high, _LOW * wide))
     return min(high, _LARGER * before[1])
@@ -202,15 +205,15 @@ def stacked(
 
     Each group has at least so much ``room`` to the right.
     """
-    each = -(-len(cells) // rows)
+    row_count = -(-len(cells) // rows)
     panels = [
-        Space(tuple(chain(*cells[i : i + each])), azimuth, elevation, "" if i else title)
-        for i in range(0, len(cells), each)
+        Space(tuple(chain(*cells[i : i + row_count])), azimuth, elevation, "" if i else title)
+        for i in range(0, len(cells), row_count)
     ]
     span = np.max([extent(panel) for panel in panels], axis=0)
-    return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
+    return tuple(replace(group, span=(max(span[0], row_count * room), span[1])) for group in panels)
 
 
 def extent(panel: Space) -> FloatArray:
     """Return how much of the plane of view (right, up) the layers of a panel cover."""
-    return np.asarray(np.ptp(seen(panel) @ frame(panel)[:2].T, axis=0))
+    return np.asarray(np.ptp(panel_points(panel) @ frame(panel)[:2].T, axis=0))

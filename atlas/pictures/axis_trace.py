@@ -27,26 +27,29 @@ def sphere(
     `upright` has its components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
     to `length` in so many pieces at first.
     """
-    fine = tolerance(1.4)
-    trace = curve(lambda t: turned(third_axis(t), upright), 0.0, length, fine, pieces=pieces)
-    return drawn(name, trace, label=label, elevation=elevation, role=role)
+    resolution = tolerance(1.4)
+    trace = curve(lambda t: erected(third_axis(t), upright), 0.0, length, resolution, pieces=pieces)
+    return traced_sphere(name, trace, label=label, elevation=elevation, role=role)
 
 
-def turned(points: FloatArray, upright: Sequence[float]) -> FloatArray:
+def erected(points: FloatArray, upright: Sequence[float]) -> FloatArray:
     """Return points (N, 3) turned so that a vector, of components along e2 and e3 or all three, stands upright."""
     return np.asarray(points @ _turn(*(upright if len(upright) == 3 else (0.0, *upright))).T)
 
 
-def drawn(
+def traced_sphere(
     name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float, role: str = "field"
 ) -> Space:
     """Return the sphere with a trace (N, 3) that is turned already."""
-    fine = tolerance(1.4)
+    resolution = tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, fine),
+        solids.sphere(O, 1.0, resolution),
         Arrow(O, 1.45 * E3, role, label),
-        *(Curve(solids.circle(z * E3, E3, float(np.sqrt(max(0.0, 1 - z * z))), fine), "reference") for z in height),
+        *(
+            Curve(solids.circle(z * E3, E3, float(np.sqrt(max(0.0, 1 - z * z))), resolution), "reference")
+            for z in height
+        ),
         Curve(trace, "trace"),
         Points(trace[:1], "start"),
     ]
@@ -57,7 +60,7 @@ def _turn(x: float, y: float, z: float) -> FloatArray:
     """Return the rotation that takes a vector to e3: about e3 into the plane of e2 and e3, then about e1."""
     level = float(np.hypot(x, y))
     cos, sin = (y / level, x / level) if level and x else (1.0, 0.0)
-    across, along = np.array((level if x else y, z)) / np.hypot(level, z)
-    first = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    second = np.array([[1.0, 0.0, 0.0], [0.0, along, -across], [0.0, across, along]])
-    return second @ first if x else second
+    tilt_sine, tilt_cosine = np.array((level if x else y, z)) / np.hypot(level, z)
+    z_rotation = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    x_rotation = np.array([[1.0, 0.0, 0.0], [0.0, tilt_cosine, -tilt_sine], [0.0, tilt_sine, tilt_cosine]])
+    return x_rotation @ z_rotation if x else x_rotation

@@ -31,8 +31,8 @@ def proportions(I: float, *, solid: bool = False) -> tuple[float, float]:
 
 def row(count: int, step: float, azimuth: float) -> FloatArray:
     """Return centres (count, 3) at equal steps on a line that runs to the right for an eye at ``azimuth`` (degrees)."""
-    right = frame(Space((), azimuth=azimuth))[0]
-    return np.asarray(step * (np.arange(count) - (count - 1) / 2)[:, None] * right)
+    rightward = frame(Space((), azimuth=azimuth))[0]
+    return np.asarray(step * (np.arange(count) - (count - 1) / 2)[:, None] * rightward)
 
 
 def drawn_body(
@@ -44,11 +44,11 @@ def drawn_body(
     `atlas.pictures.sample.curve`. It is a cylindrical shell with ``lids`` of that role and a painted seam around R_1,
     the last layer; for I = 2 a disk with a radius along R_1.
     """
-    first, second, axis = np.asarray(attitude).T
+    R1, R2, axis = np.asarray(attitude).T
     radius, height = (size * length for length in proportions(I))
     if height < _FLAT * size:
         disk = solids.disk(centre, axis, radius, tolerance, role="solid")
-        return [disk, Curve(np.stack([centre, centre + radius * first]), "seam_line")]
+        return [disk, Curve(np.stack([centre, centre + radius * R1]), "seam_line")]
     side = solids.cylinder(centre, axis, radius, height, tolerance, role="solid")
     ends = [
         solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role=lids)
@@ -56,8 +56,8 @@ def drawn_body(
     ]
     angle = np.linspace(-_SEAM, _SEAM, 5) * np.pi
     v, w = np.meshgrid(angle, [-0.5 * height, 0.5 * height])
-    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
-    edge = np.array([*(-first), -float(first @ centre) - radius * np.cos(angle[-1])])
+    ring = radius * (np.cos(v)[..., None] * R1 + np.sin(v)[..., None] * R2)
+    edge = np.array([*(-R1), -float(R1 @ centre) - radius * np.cos(angle[-1])])
     seam = replace(
         side, clip=np.vstack([side.clip, edge]), grids=(centre + ring + w[..., None] * axis,), rims=(), role="seam"
     )
@@ -91,7 +91,7 @@ def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, to
     axis = np.asarray(attitude)[:, 2]
     radius, height = (size * length for length in proportions(I))
     places = np.linspace(-0.5, 0.5, max(3, round(_WINDINGS * height / radius)) + 1)[1:-1]
-    u, v = (radius * direction for direction in solids.across(axis))
+    u, v = (radius * direction for direction in solids.transverse_axes(axis))
     angles = sample.knots(solids.ellipse(centre, u, v), 0.0, solids.TURN, tolerance)
     coils = [Curve(solids.ellipse(centre + h * height * axis, u, v)(angles), "coil") for h in places]
     return [*shell, *coils, seam]

@@ -43,9 +43,9 @@ def plain_vector(components: Iterable[float]) -> str:
     return "(" + ", ".join(map(plain, components)) + ")"
 
 
-def listed(items: Sequence[str], last: str = "and") -> str:
+def listed(items: Sequence[str], conjunction: str = "and") -> str:
     """Return 'a', 'a and b', 'a, b and c'."""
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {conjunction} {items[-1]}"
 
 
 def quotient(ratio: Any) -> float:
@@ -69,15 +69,15 @@ def body_role(ratio: Any) -> str:
     return f"{body_name(ratio).partition(' ')[0]}_body"
 
 
-def tex_setting(ratio: Any, field: Sequence[float], *, first: str = "a") -> str:
+def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> str:
     """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3), free where it is zero.
 
     ``first`` is its first word: 'A' where a sentence begins with it.
     """
     body = f"{body_name(ratio)} with $I={tex(quotient(ratio))}$"
     if not any(field):
-        return f"{first} free {body}"
-    return rf"{first} {body} in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$"
+        return f"{article} free {body}"
+    return rf"{article} {body} in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$"
 
 
 def plain_setting(ratio: Any, field: Sequence[float]) -> str:

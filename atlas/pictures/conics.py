@@ -33,15 +33,15 @@ def section(
     centre, radius = ball
     n = normal / np.linalg.norm(normal)
     foot = centre + (distance / float(np.linalg.norm(normal)) - n @ centre) * n
-    across = np.linalg.svd(n[None])[2][1:]
+    plane_axes = np.linalg.svd(n[None])[2][1:]
     T = np.zeros((4, 3))
-    T[:3, :2], T[:3, 2], T[3, 2] = across.T, foot, 1.0
+    T[:3, :2], T[:3, 2], T[3, 2] = plane_axes.T, foot, 1.0
     form = T.T @ quadric @ T
     lengths, turn = np.linalg.eigh(form[:2, :2])
     order = np.argsort(-np.abs(lengths))
     l1, l2 = (float(v) for v in lengths[order])
     m1, m2 = (float(v) for v in (form[2, :2] @ turn)[order])
-    axes = (turn.T @ across)[order]
+    axes = (turn.T @ plane_axes)[order]
     curves = []
     for arc, start, stop in _arcs(l1, l2, m1, m2, float(form[2, 2]), radius):
 
@@ -83,10 +83,10 @@ def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> lis
         return _line(m1, m2, c, r) if size else []
     x0 = -m1 / l1
     if abs(l2) * r * r <= _FLAT * size:
-        rest = c - m1 * m1 / l1
+        constant = c - m1 * m1 / l1
         if abs(m2) * r > _FLAT * size:
-            return [(lambda s: (x0 + s, -(rest + l1 * s * s) / (2.0 * m2)), -2.0 * r, 2.0 * r)]
-        return _parallels(x0, rest / l1, r)
+            return [(lambda s: (x0 + s, -(constant + l1 * s * s) / (2.0 * m2)), -2.0 * r, 2.0 * r)]
+        return _parallels(x0, constant / l1, r)
     y0 = -m2 / l2
     k = m1 * m1 / l1 + m2 * m2 / l2 - c
     if abs(k) <= _FLAT * size:

@@ -37,8 +37,8 @@ def table(scene: Scene) -> str:
                 type(layer).__name__.lower(),
                 " ".join((layer.text if isinstance(layer, Label) else layer.label).split()),
             )
-            first = (number, place, kind, getattr(layer, "role", "map"), label)
-            writer.writerows((*first, part, *row) for part, rows in _parts(layer) for row in rows)
+            prefix = (number, place, kind, getattr(layer, "role", "map"), label)
+            writer.writerows((*prefix, piece, *row) for piece, rows in _pieces(layer) for row in rows)
     return out.getvalue()
 
 
@@ -52,7 +52,7 @@ def _heading(scene: Scene) -> Iterator[str]:
         yield f"panel {number}: {f'{panel.title}; ' if panel.title else ''}{axes}"
 
 
-def _parts(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:
+def _pieces(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:
     """Return the pieces of a layer, each with its rows x, y, z, value."""
     match layer:
         case Curve() | Points() | Region():

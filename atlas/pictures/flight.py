@@ -13,7 +13,7 @@ from atlas.motions.particle.flight import Flight
 from atlas.pictures.any_motion import turns as turns_of
 from atlas.pictures.captions import plain_vector, tex_equals, tex_vector
 from atlas.pictures.layers import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, frame
-from atlas.pictures.movement import along
+from atlas.pictures.movement import translations
 from atlas.pictures.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 178.0, 60.0
@@ -68,8 +68,8 @@ def picture(
             f"up to {MAX_TURNS * stop / spun:.3g}."
         )
     B = particle.B
-    axes, view = across(flight, B), beside(flight, stop)
-    drawn = paths(flight, axes, view, stop)
+    axes, view = panel_axes(flight, B), side_view(flight, stop)
+    path_points = paths(flight, axes, view, stop)
     return Scene(
         caption=(
             rf"The point is $\mathbf{{x}}_N={tex_vector(point)}$ of {setting[0]}; the centre circles with "
@@ -80,26 +80,26 @@ def picture(
             f"Two panels with the path of a point of {setting[1]}: a curve that winds round the path of the centre of "
             "mass, drawn in space and projected on the plane across the magnetic field."
         ),
-        panels=(space(flight, B, view, drawn, unit), projection(flight, axes, drawn, unit)),
+        panels=(space(flight, B, view, path_points, unit), projection(flight, axes, path_points, unit)),
         columns=2,
         named={"Thin lines": "guide"},
         size=(WIDTH, HEIGHT),
         paths={
-            "centre": partial(carried, particle.position, np.eye(3)),
-            "point": partial(carried, flight.position, np.eye(3)),
-            "centre below": partial(carried, particle.position, axes),
-            "point below": partial(carried, flight.position, axes),
+            "centre": partial(mark_path, particle.position, np.eye(3)),
+            "point": partial(mark_path, flight.position, np.eye(3)),
+            "centre below": partial(mark_path, particle.position, axes),
+            "point below": partial(mark_path, flight.position, axes),
             "arm": partial(swung, flight),
         },
         lasts=stop,
     )
 
 
-def carried(
+def mark_path(
     position: Callable[[FloatArray], FloatArray], axes: FloatArray, t: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return how a mark goes along a path, as it is seen along these axes (columns)."""
-    return along(position(t) @ axes, position(np.zeros(1))[0] @ axes)
+    return translations(position(t) @ axes, position(np.zeros(1))[0] @ axes)
 
 
 def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -109,14 +109,14 @@ def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     return turns, flight.particle.position(t) - turns @ start
 
 
-def across(flight: Flight, B: FloatArray) -> FloatArray:
+def panel_axes(flight: Flight, B: FloatArray) -> FloatArray:
     """Return the axes of panel (b) as columns: x along the drift [E, B], or along e1 where there is none."""
     drifts = bool(flight.particle.drift.any())
-    first = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
-    return np.stack([first, np.cross(B / np.linalg.norm(B), first)], axis=1)
+    x_axis = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
+    return np.stack([x_axis, np.cross(B / np.linalg.norm(B), x_axis)], axis=1)
 
 
-def beside(flight: Flight, stop: float) -> Space:
+def side_view(flight: Flight, stop: float) -> Space:
     """Return the view of panel (a): nearly across the way that the centre of mass goes, so that it fills the panel."""
     way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
     return (
@@ -130,26 +130,26 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
     They are as fine as the panel asks for in which they are larger.
     """
     rough = flight.position(np.linspace(0.0, stop, 257))
-    extents = (np.ptp(rough @ seen, axis=0) / [WIDTH / 2, HEIGHT] for seen in (frame(view)[:2].T, axes))
-    fine = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
-    centre = curve(flight.particle.position, 0.0, stop, fine, pieces=64)
-    point = curve(flight.position, 0.0, stop, fine, pieces=64)
+    extents = (np.ptp(rough @ plane, axis=0) / [WIDTH / 2, HEIGHT] for plane in (frame(view)[:2].T, axes))
+    resolution = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
+    centre = curve(flight.particle.position, 0.0, stop, resolution, pieces=64)
+    point = curve(flight.position, 0.0, stop, resolution, pieces=64)
     times = np.linspace(0.0, stop, 33)
     return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
 
 
-def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths, unit: str) -> Space:
+def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: str) -> Space:
     """Panel (a): the paths in space, with the directions of the fields to the left of them."""
-    layers = bundle(*drawn)
-    layers.append(Curve(drawn[2][0], "velocity", rides="arm"))
+    layers = bundle(*path_points)
+    layers.append(Curve(path_points[2][0], "velocity", rides="arm"))
     eye = frame(view)
-    flat = np.concatenate(drawn[:2]) @ eye.T
+    flat = np.concatenate(path_points[:2]) @ eye.T
     length = 0.25 * float(np.ptp(flat, axis=0).max())
     named = ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$"))
     arrows = [(length * field / np.linalg.norm(field), role, name) for field, role, name in named if np.any(field)]
     ends = np.array([eye @ arrow for arrow, _, _ in arrows])
-    left, low = flat.min(axis=0)[:2]
-    corner = np.array([left - max(0.0, *ends[:, 0]) - CLEAR * length, low - min(0.0, *ends[:, 1]), 0.0]) @ eye
+    x_low, y_low = flat.min(axis=0)[:2]
+    corner = np.array([x_low - max(0.0, *ends[:, 0]) - CLEAR * length, y_low - min(0.0, *ends[:, 1]), 0.0]) @ eye
     layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
     size = 10.0 ** np.floor(np.log10(length))
     size *= max(step for step in (1, 2, 5) if step * size <= length)
@@ -158,30 +158,30 @@ def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths, unit: str) -
     return replace(view, layers=tuple(layers))
 
 
-def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Plane:
+def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) -> Plane:
     """Panel (b): the paths on the plane across B."""
-    centre, point, arms = (path @ axes for path in drawn)
+    centre, point, arms = (path @ axes for path in path_points)
     layers = bundle(centre, point, arms, ("centre of mass", "point"), " below")
     drifts = bool(flight.particle.drift.any())
-    along = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
-    across = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
+    x_name = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
+    y_name = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
     return Plane(
         tuple(layers),
-        rf"along ${along}$ ({unit})",
-        rf"along ${across}$ ({unit})",
+        rf"along ${x_name}$ ({unit})",
+        rf"along ${y_name}$ ({unit})",
         equal=True,
         title=r"(b) across $\mathbf{B}$",
     )
 
 
 def bundle(
-    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), where: str = ""
+    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), suffix: str = ""
 ) -> list[Layer]:
     """Return the layers of the two paths and the arms between them."""
     return [
         *(Curve(arm, "guide") for arm in arms),
         Curve(centre, "fourth", names[0]),
         Curve(point, "trajectory", names[1]),
-        Points(point[:1], "start", rides=f"point{where}"),
-        Points(centre[:1], "fourth", rides=f"centre{where}"),
+        Points(point[:1], "start", rides=f"point{suffix}"),
+        Points(centre[:1], "fourth", rides=f"centre{suffix}"),
     ]

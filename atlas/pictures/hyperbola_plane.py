@@ -47,9 +47,9 @@ class Window:
         """Return the corners of the upright band between two values of omega2, shape (4, 2)."""
         return np.vstack([self.upright(start), self.upright(stop)[::-1]])
 
-    def panel(self, layers: Iterable[Layer], unit: str, **more: Any) -> Plane:
+    def panel(self, layers: Iterable[Layer], unit: str, **options: Any) -> Plane:
         """Return the panel of (omega2, omega3), in 1 over ``unit``, with other arguments of `Plane`."""
-        return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **more)
+        return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **options)
 
 
 def components(field: Any) -> tuple[float, float]:
@@ -84,27 +84,27 @@ def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, flo
         return (pole,)
     if B3 == 0 or one_less == 0:
         return view.level(0.0) * [1.0, 0.0] + np.outer(view.x, [0.0, B3 / B2]), pole
-    far, rise = view.half[0] / abs(B2), view.half[1] * I / abs(B3)
+    reach, rise = view.half[0] / abs(B2), view.half[1] * I / abs(B3)
     hyperbola = Hyperbola(ratio, field)
 
     def ordinate(x: FloatArray) -> FloatArray:
         omega2 = B2 * (x - 1)
-        beside = np.nextafter(-B2, np.copysign(np.inf, B2 * x))  # x may be too small for a float omega2 to tell
-        return np.asarray(hyperbola.omega3(np.where(omega2 == -B2, beside, omega2)))
+        neighbour = np.nextafter(-B2, np.copysign(np.inf, B2 * x))  # x may be too small for a float omega2 to tell
+        return np.asarray(hyperbola.omega3(np.where(omega2 == -B2, neighbour, omega2)))
 
-    return graph(ordinate, B2, view, abs(one_less) / (rise + far), millimetres)
+    return graph(ordinate, B2, view, abs(one_less) / (rise + reach), millimetres)
 
 
 def graph(
-    function: Callable[[FloatArray], Any], B2: float, view: Window, near: float, millimetres: tuple[float, float]
+    function: Callable[[FloatArray], Any], B2: float, view: Window, inner: float, millimetres: tuple[float, float]
 ) -> tuple[FloatArray, ...]:
     """Return the pieces (N, 2) that the window shows of a graph over omega2 with the pole -B2.
 
     ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``near``, where the graph has left the
     window at the pole.
     """
-    far = max(abs(edge + B2) for edge in view.x) / abs(B2)
-    near = min(near, far / 2)
+    outer = max(abs(edge + B2) for edge in view.x) / abs(B2)
+    inner = min(inner, outer / 2)
     pieces = []
     for side in (1.0, -1.0):
 
@@ -112,12 +112,12 @@ def graph(
             x = side * np.exp(s)
             return np.stack([B2 * (x - 1), function(x)], axis=1)
 
-        curve = flat(points, float(np.log(near)), float(np.log(far)), (view.x, view.y), millimetres, pieces=16)
-        pieces.append(curve[seen(curve, view)])
+        curve = flat(points, float(np.log(inner)), float(np.log(outer)), (view.x, view.y), millimetres, pieces=16)
+        pieces.append(curve[visible_mask(curve, view)])
     return tuple(piece for piece in pieces if len(piece))
 
 
-def seen(points: FloatArray, view: Window) -> NDArray[np.bool_]:
+def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
     """Tell which points (N, 2) of a polyline are in the window, or next to one that is."""
     low, high = view.box
     inside = np.asarray(((points >= low) & (points <= high)).all(axis=1))
@@ -145,10 +145,10 @@ def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
     """Return the asymptote through the centre -B' along I^-1 B' as far as the window goes, shape (2, 2)."""
     I, _, _ = shape_factors(ratio)
     B2, B3 = components(field)
-    along = np.array([I * B2, B3])
+    direction = np.array([I * B2, B3])
     with np.errstate(divide="ignore"):
-        reach = float(np.min(np.array(view.half) / np.abs(along)))
-    return np.array([-B2, -B3]) + np.outer([-reach, reach], along)
+        reach = float(np.min(np.array(view.half) / np.abs(direction)))
+    return np.array([-B2, -B3]) + np.outer([-reach, reach], direction)
 
 
 @dataclass(frozen=True)
@@ -157,7 +157,7 @@ class Place:
 
     text: str
     words: str
-    at: tuple[float, float]
+    point: tuple[float, float]
     role: str
 
 
@@ -184,10 +184,10 @@ def marked(named: Sequence[Place], field: Any) -> list[Layer]:
     centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
     return [
         Points(centre[None], "centre"),
-        *(Points(np.array([place.at]), place.role) for place in named),
+        *(Points(np.array([place.point]), place.role) for place in named),
         Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
         *(
-            Label(np.array(place.at), place.text, place.role, (x * s2, y * s3))
+            Label(np.array(place.point), place.text, place.role, (x * s2, y * s3))
             for place, (x, y) in zip(named, ((-5, 5), (-5, 4), (0, -8)), strict=False)
         ),
     ]

@@ -192,12 +192,12 @@ def frame(space: Space) -> FloatArray:
     """Return the rows right, up, towards the eye, in (e1, e2, e3); shape (3, 3)."""
     a, e = np.radians(space.azimuth), np.radians(space.elevation)
     towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
-    right = (-np.sin(a), np.cos(a), 0.0)
+    rightward = (-np.sin(a), np.cos(a), 0.0)
     up = (-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e))
-    return np.array([right, up, towards])
+    return np.array([rightward, up, towards])
 
 
-def seen(space: Space) -> FloatArray:
+def panel_points(space: Space) -> FloatArray:
     """Return all the points (N, 3) of a panel that must be seen. Raises AtlasError for a layer without a depth."""
     return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in points_of(layer)])
 
@@ -221,19 +221,19 @@ _SIDES = np.array([1.0, 1.0, 1.0, -1.0])
 """A half space n . x <= d is one linear form of (x, 1), (n, -d)."""
 
 
-def moved(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
+def transformed(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
     """Return a layer under the map x -> A x + s, A (D, D) regular; a region or a map stays as it is."""
 
-    def at(points: FloatArray) -> FloatArray:
+    def image(points: FloatArray) -> FloatArray:
         return np.asarray(np.asarray(points, dtype=float) @ A.T + s)
 
     match layer:
         case Curve() | Points():
-            return replace(layer, points=at(layer.points))
+            return replace(layer, points=image(layer.points))
         case Arrow():
-            return replace(layer, tail=at(layer.tail), tip=at(layer.tip))
+            return replace(layer, tail=image(layer.tail), tip=image(layer.tip))
         case Label():
-            return replace(layer, at=at(layer.at))
+            return replace(layer, at=image(layer.at))
         case Surface():
             return moved_surface(layer, A, s)
     return layer

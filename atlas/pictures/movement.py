@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from atlas.motions.base import Motion
-from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, moved, points_of
+from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, points_of, transformed
 
 SEAM = 0.01
 """Distance, in units of the extent of the moving layers, below which the seam of a loop is not seen."""
@@ -16,29 +16,29 @@ def scene_at(scene: Scene, t: float) -> Scene:
     """Return a scene at the time t; at t = 0 it is the scene itself."""
     moves = {name: tuple(values[0] for values in path(np.array([t]))) for name, path in scene.paths.items()}
 
-    def carried(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
+    def advanced(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
         return tuple(
-            moved(layer, *moves[rides]) if (rides := getattr(layer, "rides", "")) else layer for layer in layers
+            transformed(layer, *moves[rides]) if (rides := getattr(layer, "rides", "")) else layer for layer in layers
         )
 
     wide, small = (
-        tuple(replace(panel, layers=carried(panel.layers)) for panel in panels)
+        tuple(replace(panel, layers=advanced(panel.layers)) for panel in panels)
         for panels in (scene.panels, scene.narrow)
     )
     return replace(scene, panels=wide, narrow=small)
 
 
-def about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, FloatArray]:
+def rotations_about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the rigid motions of a body that turns by ``turns`` (N, 3, 3) about a point (3,)."""
     return turns, centre - turns @ centre
 
 
-def turned(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+def body_path(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how a body about a centre (3,) goes on from the time ``start`` of its motion, at which it is drawn."""
-    return about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
+    return rotations_about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
 
 
-def along(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
+def translations(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return identity matrices (N, D, D) and the translations (N, D) from a point (D,) to others."""
     return np.broadcast_to(np.eye(len(start)), (*places.shape, len(start))), places - start
 
@@ -60,5 +60,5 @@ def closes(scene: Scene) -> bool:
 def _riders(panel: Panel) -> FloatArray:
     """Return the points (N, 2) or (N, 3) of a panel that ride on a path."""
     flat = 2 if isinstance(panel, Plane) else 3
-    found = [points for layer in panel.layers if getattr(layer, "rides", "") for points in points_of(layer)]
-    return np.concatenate([np.empty((0, flat)), *(np.reshape(points, (-1, flat)) for points in found)])
+    point_sets = [points for layer in panel.layers if getattr(layer, "rides", "") for points in points_of(layer)]
+    return np.concatenate([np.empty((0, flat)), *(np.reshape(points, (-1, flat)) for points in point_sets)])

@@ -76,15 +76,15 @@ def described(hint: Any, default: Any) -> str:
     kind = _kind(default) if hint is None else hint
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
-        return described(next(one for one in inner if one is not NoneType), None)
+        return described(next(option for option in inner if option is not NoneType), None)
     if origin is Literal:
         return " or ".join(map(str, inner))
     if origin is tuple:
-        free, plain = inner[-1] is Ellipsis, inner[0] in _PLAIN and len({*inner} - {Ellipsis}) == 1
+        is_open, plain = inner[-1] is Ellipsis, inner[0] in _PLAIN and len({*inner} - {Ellipsis}) == 1
         many = _PLURAL[inner[0]].partition(",")[0] if plain else "values"
-        if free and get_origin(inner[0]) is tuple:
+        if is_open and get_origin(inner[0]) is tuple:
             return f"lists of {described(inner[0], None)}, one after the other"
-        return f"a list of {many}" if free else f"{COUNTS.get(len(inner), len(inner))} {many}"
+        return f"a list of {many}" if is_open else f"{COUNTS.get(len(inner), len(inner))} {many}"
     return _PLAIN[float if kind is Any else kind][0].partition(",")[0] if kind in {Any, *_PLAIN} else "a value"
 
 
@@ -114,8 +114,8 @@ def _fit(value: Any, kind: Any) -> Any:
         value = value.tolist()
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
-        missing = value is None and NoneType in inner
-        return None if missing else _fit(value, next(kind for kind in inner if kind is not NoneType))
+        is_missing = value is None and NoneType in inner
+        return None if is_missing else _fit(value, next(kind for kind in inner if kind is not NoneType))
     if origin is Literal and value not in inner:
         raise _Unfit(" or ".join(map(str, inner)))
     if origin is tuple:
@@ -134,21 +134,23 @@ def _fit(value: Any, kind: Any) -> Any:
 
 def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return a list of a fixed or of any length."""
-    free = inner[-1] is Ellipsis
+    is_open = inner[-1] is Ellipsis
     kinds = set(inner) - {Ellipsis}
     plural = _PLURAL.get(inner[0], "values") if len(kinds) == 1 else "values"
-    if free and not isinstance(value, list | tuple):
+    if is_open and not isinstance(value, list | tuple):
         value = (value,)
     lists = get_args(inner[0]) if get_origin(inner[0]) is tuple else ()
-    if free and lists and Ellipsis not in lists:
+    if is_open and lists and Ellipsis not in lists:
         plural = f"lists of {described(inner[0], None)}"
         if not any(isinstance(item, list | tuple) for item in value):
             value = [value[i : i + len(lists)] for i in range(0, len(value), len(lists))]
-    many = f"a list of 1 to {MAX_VALUES} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
-    if not isinstance(value, list | tuple) or not (0 < len(value) <= MAX_VALUES if free else len(value) == len(inner)):
+    many = f"a list of 1 to {MAX_VALUES} {plural}" if is_open else f"{COUNTS.get(len(inner), len(inner))} {plural}"
+    if not isinstance(value, list | tuple) or not (
+        0 < len(value) <= MAX_VALUES if is_open else len(value) == len(inner)
+    ):
         raise _Unfit(many)
     try:
-        return tuple(map(_fit, value, inner[:1] * len(value) if free else inner))
+        return tuple(map(_fit, value, inner[:1] * len(value) if is_open else inner))
     except _Unfit as wrong:
         raise _Unfit(many) from wrong
 

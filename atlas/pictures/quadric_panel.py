@@ -11,7 +11,19 @@ import numpy as np
 
 from atlas.pictures import quadrics, solids
 from atlas.pictures.captions import quotient
-from atlas.pictures.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Scene, Space, Surface, frame, seen
+from atlas.pictures.layers import (
+    Arrow,
+    Curve,
+    FloatArray,
+    Label,
+    Layer,
+    Points,
+    Scene,
+    Space,
+    Surface,
+    frame,
+    panel_points,
+)
 from atlas.pictures.sample import quarter_pixel
 from atlas.surfaces.kernel import Quadric
 
@@ -49,7 +61,7 @@ def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) ->
     It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
     panel = Space(tuple(layers), *view)
-    points = seen(panel)
+    points = panel_points(panel)
     flat = points / np.abs(points).max() @ frame(panel)[:2].T
     span = np.ptp(flat, axis=0)
     filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
@@ -78,17 +90,17 @@ def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
     return min(high, origin + width), min(high, width)
 
 
-def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = "both") -> list[Surface]:
+def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str = "both") -> list[Surface]:
     """Return the drawn sheets of a hyperboloid or cone (51), one surface each: 'both', or only that of the 'origin'.
 
     ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
     """
     high, low = extent(quadric, field)
-    fine = tolerance(high if which == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
+    resolution = tolerance(high if choice == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
     upwards = rises(quadric, field)
     span = (-low, high) if upwards else (-high, low)
-    pieces = quadrics.sheets(quadric, quadrics.quadric_matrix(I, field), *span, fine)[:: 1 if upwards else -1]
-    return pieces if which == "both" else pieces[:1]
+    pieces = quadrics.sheets(quadric, quadrics.quadric_matrix(I, field), *span, resolution)[:: 1 if upwards else -1]
+    return pieces if choice == "both" else pieces[:1]
 
 
 def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
@@ -101,13 +113,13 @@ def planes(field: tuple[float, float]) -> list[Layer]:
     B2, reach = field[0], 1.6 * abs(field[0])
     corner = in_plane(-B2, 0.0)
     layers: list[Layer] = []
-    for along, name in ((E2, r"$\omega_3=0$"), (E3, r"$\omega_2=-B'_2$")):
-        layers.append(solids.rectangle(corner, reach * along, reach * E1, role="surface", label=name))
-        layers.append(Curve(np.stack([corner - reach * along, corner + reach * along]), "hyperbola"))
+    for direction, name in ((E2, r"$\omega_3=0$"), (E3, r"$\omega_2=-B'_2$")):
+        layers.append(solids.rectangle(corner, reach * direction, reach * E1, role="surface", label=name))
+        layers.append(Curve(np.stack([corner - reach * direction, corner + reach * direction]), "hyperbola"))
     return layers
 
 
-def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
+def surface_layers(ratio: Any, field: tuple[float, float], choice: str = "both") -> list[Layer]:
     """Return the surface (51) with the hyperbola (67) on it and, for hyperboloids and cones, the canonical axes omega'.
 
     ``ratio`` is I = I3/I2 or a body, ``field`` (B2, B3) of B'; ``which`` is as for `sheets`. A pair of planes and a
@@ -122,19 +134,19 @@ def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
         return [Curve(line, "hyperbola"), Points(-in_plane(*field)[None], "centre", r"$-\mathbf{B}'$")]
     if quadric.kind == "all space":
         return []
-    pieces = sheets(I, quadric, field, which)
-    above = which != "origin" or rises(quadric, field)
+    pieces = sheets(I, quadric, field, choice)
+    above = choice != "origin" or rises(quadric, field)
     reach = 1.14 * extent(quadric, field)[0] if above else 0.75 * b
     return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, reach, 0.75 * b)]
 
 
-def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
+def quadric_layers(ratio: Any, field: tuple[float, float], choice: str = "both") -> list[Layer]:
     """Return the layers of the paper's Figure Hyp: the quadric (51), the laboratory axes, B', I^-1 B' and beta.
 
     Arguments are those of `surface_layers`. Raises AtlasError where the ratio or the field is not valid.
     """
     b = float(np.hypot(*field)) or 1.0
-    axes, surface = basis((0.9 * b, 1.15 * b, 1.4 * b)), surface_layers(ratio, field, which)
+    axes, surface = basis((0.9 * b, 1.15 * b, 1.4 * b)), surface_layers(ratio, field, choice)
     if not any(field):
         note = Label(0.55 * (E2 + E3), "every $\\omega$ keeps $\\Omega_3$ constant", "note")
         return [*axes, Points(O[None], "origin", r"$O$"), note]
@@ -146,8 +158,8 @@ def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
     """Return the section omega_1 = 0 of the surfaces, (67), as curves (N, 3)."""
     Q = quadrics.quadric_matrix(I, field)
-    fine = tolerance(float(np.hypot(*field)))
-    return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, fine)]
+    resolution = tolerance(float(np.hypot(*field)))
+    return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, resolution)]
 
 
 def basis(lengths: tuple[float, float, float]) -> list[Layer]:
@@ -179,13 +191,13 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
 def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[Layer]:
     """Return the arc of an angle (radians, from e2 towards e3) in the plane omega_1 = 0, with its name."""
     arc = solids.arc(centre, radius * E2, radius * E3, 0.0, value, tolerance(2.0 * radius))
-    along = [in_plane(float(np.cos(share * value)), float(np.sin(share * value))) for share in (0.5, 0.25, 0.0)]
-    offset = (4.0 * float(along[0][1]), 4.0 * float(along[0][2]))
-    label = Label(centre + radius * np.array(along), name, offset=offset)
+    directions = [in_plane(float(np.cos(share * value)), float(np.sin(share * value))) for share in (0.5, 0.25, 0.0)]
+    offset = (4.0 * float(directions[0][1]), 4.0 * float(directions[0][2]))
+    label = Label(centre + radius * np.array(directions), name, offset=offset)
     return [Curve(arc, "angle"), label]
 
 
-def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
+def canonical(quadric: Quadric, reach: float, side_length: float) -> list[Layer]:
     """Return the canonical axes omega'_1..3 through -B', (53), and the angle beta/2 + pi/4 from e2 to omega'_2.
 
     The axis of the sheets is ``reach`` long, the others ``across``.
@@ -194,11 +206,11 @@ def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
     w = quadrics.sheet_axis(quadric)
     layers: list[Layer] = []
     for k in range(3):
-        length = reach if k == w else across
-        back = 0.35 * across
+        length = reach if k == w else side_length
+        back = 0.35 * side_length
         layers.append(Arrow(centre - back * axes[k], centre + length * axes[k], "canonical", rf"$\omega'_{k + 1}$"))
     layers.append(Points(centre[None], "centre", r"$-\mathbf{B}'$"))
-    radius = 0.5 * across
+    radius = 0.5 * side_length
     layers.append(Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"))
     layers += angle(centre, float(np.arctan2(axes[1, 2], axes[1, 1])), radius, r"$\beta/2+\pi/4$")
     return layers

@@ -42,8 +42,8 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     w = sheet_axis(quadric)
     i, j = (k for k in range(3) if k != w)
     centre, axes = quadric.centre, quadric.axes
-    rest = 0.0 if quadric.kind == "cone" else -float(centre_value(Q, centre))
-    radius, height, parameter = profile(rest, float(D[w]), 1.0 if high > -low else -1.0)
+    constant = 0.0 if quadric.kind == "cone" else -float(centre_value(Q, centre))
+    radius, height, parameter = profile(constant, float(D[w]), 1.0 if high > -low else -1.0)
 
     def point(s: FloatArray, v: FloatArray) -> FloatArray:
         canonical = np.zeros((*np.broadcast_shapes(s.shape, v.shape), 3))
@@ -60,11 +60,11 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     def ring(s: float) -> _Line:
         return lambda v: point(np.full_like(v, s), v)
 
-    if rest == 0.0:  # straight, but the apex has no normal: it colours a speck only
+    if constant == 0.0:  # straight, but the apex has no normal: it colours a speck only
         u = np.unique(np.clip([a, -tolerance, 0.0, tolerance, b], a, b))
     else:
         u = sample.cuts(Q, [meridian(0.0), meridian(0.25 * solids.TURN)], a, b, tolerance)
-    rings = [ring(s) for s in (a, 0.0, b) if a <= s <= b and (s or rest > 0.0)]
+    rings = [ring(s) for s in (a, 0.0, b) if a <= s <= b and (s or constant > 0.0)]
     v = sample.cuts(Q, rings, 0.0, solids.TURN, tolerance)
     grid = point(u[:, None], v[None, :])
     angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
@@ -81,19 +81,19 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     return Surface(Q, clip, (grid,), (*meridians, *parallels), tuple(rims), role=role)
 
 
-def profile(rest: float, slope: float, sign: float) -> tuple[_Line, _Line, Callable[[float], float]]:
+def profile(constant: float, slope: float, sign: float) -> tuple[_Line, _Line, Callable[[float], float]]:
     """Return radius and height along a sheet by its parameter s, and s at a height; radius^2 = rest - slope height^2.
 
     Of two sheets it is the one on the side of ``sign``; where it is within rounding of its vertex, s is 0.
     """
-    r, h = float(np.sqrt(abs(rest))), float(np.sqrt(abs(rest / slope)))
-    if rest < 0.0:
+    r, h = float(np.sqrt(abs(constant))), float(np.sqrt(abs(constant / slope)))
+    if constant < 0.0:
 
         def parameter(height: float) -> float:
             return 0.0 if abs(height) <= h * (1.0 + 1e-9) else sign * float(np.arccosh(abs(height) / h))
 
         return lambda s: r * np.sinh(sign * s), lambda s: sign * h * np.cosh(s), parameter
-    if rest > 0.0:
+    if constant > 0.0:
         return lambda s: r * np.cosh(s), lambda s: h * np.sinh(s), lambda height: float(np.arcsinh(height / h))
     return lambda s: np.sqrt(-slope) * s, lambda s: s, lambda height: height
 
@@ -101,10 +101,10 @@ def profile(rest: float, slope: float, sign: float) -> tuple[_Line, _Line, Calla
 def top_matrix(I: float, quadric: TopQuadric) -> FloatArray:
     """Return the (4, 4) matrix of the quadric of a top, theorem-top-quadric, divided by n3, which is not zero."""
     n2, n3 = quadric.direction
-    across, c = n2 / float(np.hypot(n2, n3)), np.asarray(quadric.centre)
+    sine, c = n2 / float(np.hypot(n2, n3)), np.asarray(quadric.centre)
     form = np.diag([1.0, 1.0, 0.0])
     form[1, 2] = form[2, 1] = -0.5 * I * n2 / n3
-    return solids.matrix(form, -2.0 * form @ c, float(c @ form @ c) + across * across * float(quadric.D))
+    return solids.matrix(form, -2.0 * form @ c, float(c @ form @ c) + sine * sine * float(quadric.D))
 
 
 def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:

@@ -80,8 +80,8 @@ class Recipe:
             raise _broken(self.source, error) from error
         if not isinstance(scene, Scene):
             raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
-        if missing := [name for name in ("caption", "alt", "panels") if not getattr(scene, name)]:
-            raise AtlasError(f"{_short(self.source)}: the Scene has no {' and no '.join(missing)}")
+        if empty_fields := [name for name in ("caption", "alt", "panels") if not getattr(scene, name)]:
+            raise AtlasError(f"{_short(self.source)}: the Scene has no {' and no '.join(empty_fields)}")
         caption = f"{self.seen} {scene.caption}".lstrip()
         title = scene.title or self.title
         return replace(scene, title=title, caption=caption, parameters=used, narrowest=self.narrowest)
@@ -146,10 +146,10 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
     records = tuple(map(str, _declared("RECORDS", source, tree, ())))
     ranges = {**RANGES, **_declared("RANGES", source, tree, {})}
     narrowest = _declared("NARROWEST", source, tree, 0.0)
-    seen, row = (_declared(constant, source, tree, "") for constant in ("SEEN", "ROW"))
+    statement, row = (_declared(constant, source, tree, "") for constant in ("SEEN", "ROW"))
     if row not in {"", *ROWS}:
         raise AtlasError(f"ROW in {_short(source)} is not a row of the gallery: {row!r}; take one of {', '.join(ROWS)}")
-    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges, narrowest, seen, row)
+    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges, narrowest, statement, row)
 
 
 def _tree(source: Path) -> ast.Module:
@@ -230,8 +230,8 @@ def _broken(source: Path, error: Exception) -> AtlasError:
         lines, error_text = [error.lineno], error.msg
     else:
         error_text = str(error)
-    where = f", line {lines[-1]}" if lines and lines[-1] else ""
-    return AtlasError(f"{_short(source)}{where}: {type(error).__name__}: {error_text}")
+    line_words = f", line {lines[-1]}" if lines and lines[-1] else ""
+    return AtlasError(f"{_short(source)}{line_words}: {type(error).__name__}: {error_text}")
 
 
 def _short(source: Path) -> str:
@@ -239,7 +239,7 @@ def _short(source: Path) -> str:
     return f"figures/{source.name}" if source.parent == folder("figures") else source.name
 
 
-def _unknown(noun: str, name: str, known: Iterable[str], where: str) -> AtlasError:
+def _unknown(noun: str, name: str, choices: Iterable[str], owner: str) -> AtlasError:
     """Say which names there are, and which one is meant most likely."""
-    options = list(known)
-    return AtlasError(f"no {noun} {name!r} in {where}{nearest(name, options)}; known: {', '.join(options) or 'none'}")
+    options = list(choices)
+    return AtlasError(f"no {noun} {name!r} in {owner}{nearest(name, options)}; known: {', '.join(options) or 'none'}")

@@ -47,8 +47,8 @@ def curve(
 def room(values: Collection[float], share: float) -> tuple[float, float]:
     """Return limits with all the values between them, and so much of their extent free on either side."""
     low, high = min(values), max(values)
-    free = share * (high - low)
-    return float(low - free), float(high + free)
+    margin = share * (high - low)
+    return float(low - margin), float(high + margin)
 
 
 def flat(
@@ -103,31 +103,31 @@ def _cut(
         sag, bend = sags.max(axis=0), sags / (_LOOKS * (1.0 - _LOOKS))
         plain = bend.max(axis=0) < _EVEN * bend.min(axis=0)
         plain &= sag < _ARC * np.linalg.norm(b - a, axis=1)
-        seen = np.ones(i.size, dtype=bool)
+        in_view = np.ones(i.size, dtype=bool)
         if box is not None:
             corners = np.concatenate([x[None, i], inner, x[None, i + 1]])
             out = np.all(corners < box[0], axis=0) | np.all(corners > box[1], axis=0)
-            seen = ~np.any(out, axis=1)
-        curved = seen & ~(sag <= _LEAVE * tolerance)
-        wanted = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
+            in_view = ~np.any(out, axis=1)
+        curved = in_view & ~(sag <= _LEAVE * tolerance)
+        aims = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
         if (
-            not wanted[curved & plain].sum() + _FEW * curved.sum() + len(s) < MAX_POINTS
-            or not np.isfinite(sag[seen]).all()
+            not aims[curved & plain].sum() + _FEW * curved.sum() + len(s) < MAX_POINTS
+            or not np.isfinite(sag[in_view]).all()
         ):
             raise DomainError(
                 f"A curve needs more than {MAX_POINTS} points to be drawn to {tolerance:g}: its sizes or its turns are "
                 "too far from the view; choose parameters nearer to one another."
             )
-        parts = np.ones(len(open_), dtype=int)
-        parts[i[curved]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[curved], 2)
-        owner = np.repeat(np.arange(len(parts)), parts)
-        number = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
+        piece_counts = np.ones(len(open_), dtype=int)
+        piece_counts[i[curved]] = np.maximum(np.where(plain, aims, np.minimum(aims, _FEW))[curved], 2)
+        owner = np.repeat(np.arange(len(piece_counts)), piece_counts)
+        number = np.arange(len(owner)) - np.repeat(np.cumsum(piece_counts) - piece_counts, piece_counts)
         fresh = np.flatnonzero(number)
-        places = s[owner] + number / parts[owner] * (s[owner + 1] - s[owner])
+        places = s[owner] + number / piece_counts[owner] * (s[owner + 1] - s[owner])
         points = np.concatenate([x[owner], x[-1:]])
         if fresh.size:
             points[fresh] = function(places[fresh])
-        s, x, open_ = np.append(places, s[-1]), points, parts[owner] > 1
+        s, x, open_ = np.append(places, s[-1]), points, piece_counts[owner] > 1
     return s, x
 
 
@@ -135,8 +135,8 @@ def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
     """Distance of the points ``y`` from the segments ``a b``, row by row."""
     chord = b - a
     length = np.einsum("ij,ij->i", chord, chord)
-    along = np.einsum("ij,ij->i", y - a, chord) / np.where(length > 0.0, length, 1.0)
-    nearest = a + np.clip(along, 0.0, 1.0)[:, None] * chord
+    shares = np.einsum("ij,ij->i", y - a, chord) / np.where(length > 0.0, length, 1.0)
+    nearest = a + np.clip(shares, 0.0, 1.0)[:, None] * chord
     distance: FloatArray = np.linalg.norm(y - nearest, axis=1)
     return distance
 

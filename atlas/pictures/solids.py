@@ -11,37 +11,37 @@ TURN = 2.0 * np.pi
 _FLAT = 1e-6
 
 
-def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
+def transverse_axes(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return two unit vectors (3,) that make a right-handed frame with the unit vector ``axis``."""
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    first = np.cross(axis, helper)
-    first /= np.linalg.norm(first)
-    return first, np.cross(axis, first)
+    east = np.cross(axis, helper)
+    east /= np.linalg.norm(east)
+    return east, np.cross(axis, east)
 
 
 def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
     """Return the circle around ``axis`` (unit vector), shape (N, 3), sampled to a tolerance."""
-    first, second = across(axis)
-    return arc(centre, radius * first, radius * second, 0.0, TURN, tolerance)
+    east, north = transverse_axes(axis)
+    return arc(centre, radius * east, radius * north, 0.0, TURN, tolerance)
 
 
 def arc(
-    centre: FloatArray, first: FloatArray, second: FloatArray, start: float, stop: float, tolerance: float
+    centre: FloatArray, east: FloatArray, north: FloatArray, start: float, stop: float, tolerance: float
 ) -> FloatArray:
     """Return centre + first cos s + second sin s for s from start to stop, shape (N, 3), sampled to a tolerance."""
-    return sample.curve(ellipse(centre, first, second), start, stop, tolerance)
+    return sample.curve(ellipse(centre, east, north), start, stop, tolerance)
 
 
-def ellipse(centre: FloatArray, first: FloatArray, second: FloatArray) -> Callable[[FloatArray], FloatArray]:
+def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable[[FloatArray], FloatArray]:
     """Return the function centre + first cos s + second sin s of s (N,), with values (N, 3)."""
-    return lambda s: centre + np.cos(s)[:, None] * first + np.sin(s)[:, None] * second
+    return lambda s: centre + np.cos(s)[:, None] * east + np.sin(s)[:, None] * north
 
 
 def around(
-    quadric: FloatArray, centre: FloatArray, first: FloatArray, second: FloatArray, tolerance: float
+    quadric: FloatArray, centre: FloatArray, east: FloatArray, north: FloatArray, tolerance: float
 ) -> FloatArray:
     """Return the angles (N,) at which a round surface is cut along its axis; the ellipse given is its widest."""
-    return sample.cuts(quadric, [ellipse(centre, first, second)], 0.0, TURN, tolerance)
+    return sample.cuts(quadric, [ellipse(centre, east, north)], 0.0, TURN, tolerance)
 
 
 def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
@@ -79,12 +79,12 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
     c, s = float(np.cos(angle)), float(np.sin(angle))
     if abs(c) < _FLAT:
         return disk(apex, axis, length, tolerance, role="cone")
-    first, second = across(axis)
+    east, north = transverse_axes(axis)
     form = c * c * np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ apex, float(apex @ form @ apex))
-    angles = around(Q, apex + c * length * axis, s * length * first, s * length * second, tolerance)
+    angles = around(Q, apex + c * length * axis, s * length * east, s * length * north, tolerance)
     v, w = np.meshgrid(angles, [0.0, tolerance, length])  # the apex has no normal: it colours a speck only
-    direction = c * axis + s * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    direction = c * axis + s * (np.cos(v)[..., None] * east + np.sin(v)[..., None] * north)
     height = float(axis @ apex)
     sign = 1.0 if c >= 0.0 else -1.0
     clip = np.array([[*(-sign * axis), -sign * height], [*(sign * axis), sign * (height + c * length)]])
@@ -94,11 +94,11 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
 
 def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
     """Return a disk whose outer side is the one that ``axis`` points to."""
-    first, second = across(axis)
+    east, north = transverse_axes(axis)
     ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
-    v, r = np.meshgrid(around(Q, centre, radius * first, radius * second, tolerance), [0.0, radius])
-    grid = centre + r[..., None] * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    v, r = np.meshgrid(around(Q, centre, radius * east, radius * north, tolerance), [0.0, radius])
+    grid = centre + r[..., None] * (np.cos(v)[..., None] * east + np.sin(v)[..., None] * north)
     rim = circle(centre, axis, radius, tolerance)
     return Surface(Q, np.empty((0, 4)), (grid,), (), (rim,), (ball,), role=role)
 
@@ -107,31 +107,29 @@ def cylinder(
     centre: FloatArray, axis: FloatArray, radius: float, height: float, tolerance: float, role: str = "body"
 ) -> Surface:
     """Return the side of a cylinder around the unit vector ``axis``."""
-    first, second = across(axis)
+    east, north = transverse_axes(axis)
     form = np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)
-    v, w = np.meshgrid(around(Q, centre, radius * first, radius * second, tolerance), [-0.5 * height, 0.5 * height])
-    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    v, w = np.meshgrid(around(Q, centre, radius * east, radius * north, tolerance), [-0.5 * height, 0.5 * height])
+    ring = radius * (np.cos(v)[..., None] * east + np.sin(v)[..., None] * north)
     middle = float(axis @ centre)
     clip = np.array([[*axis, middle + 0.5 * height], [*(-axis), -middle + 0.5 * height]])
     rims = tuple(circle(centre + s * height * axis, axis, radius, tolerance) for s in (-0.5, 0.5))
     return Surface(Q, clip, (centre + ring + w[..., None] * axis,), (), rims, role=role)
 
 
-def rectangle(
-    centre: FloatArray, first: FloatArray, second: FloatArray, role: str = "plane", label: str = ""
-) -> Surface:
+def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str = "plane", label: str = "") -> Surface:
     """Return the rectangle centre + a first + b second with a, b in [-1, 1]; first and second are orthogonal."""
-    units = [v / np.linalg.norm(v) for v in (first, second)]
+    units = [v / np.linalg.norm(v) for v in (east, north)]
     normal = np.cross(units[0], units[1])
     sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
-    rim = centre + sides[:, :1] * first + sides[:, 1:] * second
+    rim = centre + sides[:, :1] * east + sides[:, 1:] * north
     b, a = np.meshgrid([-1.0, 1.0], [-1.0, 1.0])
-    grid = centre + a[..., None] * first + b[..., None] * second
+    grid = centre + a[..., None] * east + b[..., None] * north
     clip = np.array(
         [
             [*(g * unit), g * float(unit @ centre) + float(np.linalg.norm(v))]
-            for unit, v in zip(units, (first, second), strict=True)
+            for unit, v in zip(units, (east, north), strict=True)
             for g in (1.0, -1.0)
         ]
     )
@@ -139,7 +137,7 @@ def rectangle(
     return Surface(Q, clip, (grid,), (), (rim,), role=role, label=label)
 
 
-def extent(surfaces: Sequence[Surface], along: FloatArray) -> tuple[float, float]:
+def extent(surfaces: Sequence[Surface], direction: FloatArray) -> tuple[float, float]:
     """Return the least and the largest coordinate of surfaces along the unit vector ``along`` (3,)."""
-    heights = np.concatenate([np.ravel(grid @ along) for surface in surfaces for grid in surface.grids])
+    heights = np.concatenate([np.ravel(grid @ direction) for surface in surfaces for grid in surface.grids])
     return float(heights.min()), float(heights.max())

@@ -18,8 +18,8 @@ from atlas.errors import AtlasError, unknown
 from atlas.pictures import any_motion, movement, recipes
 from atlas.pictures.drawing.panels import laid_out, to_figure
 from atlas.pictures.drawing.style import context
-from atlas.pictures.drawing.view import Held, hold, named
-from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, frame, seen
+from atlas.pictures.drawing.view import Placement, hold, named
+from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, frame, panel_points
 
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
@@ -49,12 +49,12 @@ class Frames:
                 raise AtlasError("the panels of this figure change, so that it can't be one that moves")
             progress(k + 1, 2 * count, "view")
         self.figure = to_figure(self._scene(0), style)
-        self._held: dict[tuple[int, tuple[float, float]], Held] = {}
+        self._placements: dict[tuple[int, tuple[float, float]], Placement] = {}
 
     def draw(self, k: int) -> None:
         """Draw a frame."""
         self.figure.clear()
-        to_figure(self._scene(k), self.style, figure=self.figure, held=self._hold)
+        to_figure(self._scene(k), self.style, figure=self.figure, hold=self._hold)
         self.progress(self.count + k + 1, 2 * self.count, "frames")
 
     def _scene(self, k: int) -> Scene:
@@ -69,11 +69,11 @@ class Frames:
         x, y = ((float(ends[:, j].min()), float(ends[:, j].max())) for j in (0, 1))
         return replace(panel, x_limits=x, y_limits=y)
 
-    def _hold(self, i: int, window: tuple[float, float]) -> Held:
+    def _hold(self, i: int, window: tuple[float, float]) -> Placement:
         """Return the view of a panel in space that all frames have."""
-        if (i, window) not in self._held:
-            self._held[i, window] = hold([extent[i] for extent in self.extents], window)
-        return self._held[i, window]
+        if (i, window) not in self._placements:
+            self._placements[i, window] = hold([extent[i] for extent in self.extents], window)
+        return self._placements[i, window]
 
 
 class Moving(FuncAnimation):
@@ -95,9 +95,9 @@ class Moving(FuncAnimation):
 
 def _extents(scene: Scene) -> Iterator[Extent]:
     """Yield the extent of each panel, which decides its view; limits left open are Matplotlib's."""
-    free = any(isinstance(one, Plane) and not (one.x_limits and one.y_limits) for one in scene.panels)
-    drawn = [axes for axes, _ in laid_out(scene)[1]] if free else [None] * len(scene.panels)
-    for panel, axes in zip(scene.panels, drawn, strict=True):
+    is_open = any(isinstance(plane, Plane) and not (plane.x_limits and plane.y_limits) for plane in scene.panels)
+    all_axes = [axes for axes, _ in laid_out(scene)[1]] if is_open else [None] * len(scene.panels)
+    for panel, axes in zip(scene.panels, all_axes, strict=True):
         if isinstance(panel, Space):
             yield _reduced(panel)
         else:
@@ -107,12 +107,12 @@ def _extents(scene: Scene) -> Iterator[Extent]:
 def _reduced(panel: Space) -> Space:
     """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
     eye = frame(panel)
-    points = seen(panel)
-    along = points @ np.concatenate([np.eye(3), eye[:2]]).T
-    far = points[np.unique(np.concatenate([along.argmin(axis=0), along.argmax(axis=0)]))]
+    points = panel_points(panel)
+    heights = points @ np.concatenate([np.eye(3), eye[:2]]).T
+    extremes = points[np.unique(np.concatenate([heights.argmin(axis=0), heights.argmax(axis=0)]))]
     names = filter(None, (named(layer, eye) for layer in panel.layers))
     labels = (Label(place, text, role, offset) for text, place, offset, role in names)
-    return replace(panel, layers=(Points(far, "origin"), *labels))
+    return replace(panel, layers=(Points(extremes, "origin"), *labels))
 
 
 def animation(
@@ -128,8 +128,8 @@ def animation(
         raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
     fps = positive(fps, "fps")
     frames = Frames(make, count, style, progress or (lambda _done, _total, _what: None))
-    more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
-    moving = Moving(frames.figure, frames.draw, frames=count, **more)
+    options = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
+    moving = Moving(frames.figure, frames.draw, frames=count, **options)
     moving.fps = fps
     return moving
 

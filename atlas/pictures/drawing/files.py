@@ -114,15 +114,15 @@ def _short(svg: str) -> str:
 
     def path(matched: re.Match[str]) -> str:
         place = begun = (0, 0)
-        last, steps = "", list[str]()
+        letter_before, steps = "", list[str]()
         for letter, numbers in re.findall(r"([MLQCz])([^MLQCz]*)", matched[1]):
             to = [round(100 * float(number)) for number in numbers.split()]
             if letter == "L" and tuple(to) == place:
                 continue
             step = "".join(_hundredths(n - place[k % 2]) for k, n in enumerate(to))
-            steps.append(step if letter == last else letter.lower() + step.lstrip())
+            steps.append(step if letter == letter_before else letter.lower() + step.lstrip())
             place = (to[-2], to[-1]) if to else begun
-            begun, last = (place, "L") if letter == "M" else (begun, letter)
+            begun, letter_before = (place, "L") if letter == "M" else (begun, letter)
         return f' d="{"".join(steps)}"'
 
     return re.sub(r' d="([^"]+)"', path, svg)
@@ -131,8 +131,8 @@ def _short(svg: str) -> str:
 @lru_cache(1 << 16)
 def _hundredths(number: int) -> str:
     """Return a number of hundredths with the sign or the space that parts it from the one before."""
-    shown = re.sub(r"^(-?)0\.", r"\1.", str(number / 100).removesuffix(".0"))
-    return shown if number < 0 else f" {shown}"
+    digits = re.sub(r"^(-?)0\.", r"\1.", str(number / 100).removesuffix(".0"))
+    return digits if number < 0 else f" {digits}"
 
 
 def _opaque(path: Path) -> None:

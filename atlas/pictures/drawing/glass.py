@@ -46,25 +46,25 @@ def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[
     return forms, numbers
 
 
-def cut(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: FloatArray) -> FloatArray:
+def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
     """Return triangles (T, 3, K) cut so that each has one place in front of every quadric.
 
     The first three of the K numbers of a corner are a point of the quadric number ``own``; the others come along.
     """
     for number, form in enumerate(forms):
         corners = _cut(corners, lambda x, form=form: facing(form, x, towards))
-        if number != own:
+        if number != owner:
             corners = _cut(corners, lambda x, form=form: values(form, x))
     return corners
 
 
-def places(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: FloatArray) -> FloatArray:
+def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
     """Return the sum of the places (T,) of triangles that `cut` has made."""
     total = np.zeros(len(corners))
     for number, form in enumerate(forms):
         sign = 1.0 if towards @ form[:3, :3] @ towards >= 0.0 else -1.0
         before = sign * (facing(form, corners[..., :3], towards) @ _ALL) > 0.0
-        inside = np.zeros(len(corners)) if number == own else sign * (_snapped(values(form, corners[..., :3])) @ _ALL)
+        inside = np.zeros(len(corners)) if number == owner else sign * (_snapped(values(form, corners[..., :3])) @ _ALL)
         total += np.where(inside == 0.0, before + 0.5, np.where(inside < 0.0, 1.0, 2.0 * before))
     return total
 
@@ -81,14 +81,14 @@ def _cut(corners: FloatArray, field: Field) -> FloatArray:
     split = (above[:, 0] | above[:, 1] | above[:, 2]) & (below[:, 0] | below[:, 1] | below[:, 2])
     if not split.any():
         return corners
-    alone = np.where((above[split].sum(axis=1) == 1)[:, None], above[split], below[split])
-    turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
+    is_lone = np.where((above[split].sum(axis=1) == 1)[:, None], above[split], below[split])
+    turn = (np.argmax(is_lone, axis=1)[:, None] + np.arange(3)) % 3
     row = np.arange(len(turn))[:, None]
     a, b, c = (corners[split][row, turn][:, k] for k in range(3))
     u, v, w = height[split][row, turn].T
     p, q = _between(a, b, u, v, field), _between(a, c, u, w, field)
-    parts = [np.stack(part, axis=1) for part in ((a, p, q), (p, b, c), (p, c, q))]
-    return np.concatenate([corners[~split], *parts])
+    triangles = [np.stack(vertices, axis=1) for vertices in ((a, p, q), (p, b, c), (p, c, q))]
+    return np.concatenate([corners[~split], *triangles])
 
 
 def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: Field) -> FloatArray:
@@ -97,8 +97,8 @@ def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: 
     square, slope = 2.0 * (u - 2.0 * middle + v), 4.0 * middle - 3.0 * u - v
     with np.errstate(all="ignore"):
         half = -0.5 * (slope + np.copysign(np.sqrt(slope * slope - 4.0 * square * u), slope))
-        first, second = half / square, u / half
-    share = np.where((first >= 0.0) & (first <= 1.0), first, second)
+        root, conjugate = half / square, u / half
+    share = np.where((root >= 0.0) & (root <= 1.0), root, conjugate)
     share = np.where(v == 0.0, 1.0, np.clip(share, 0.0, 1.0))
     return a + share[:, None] * (b - a)
 
@@ -122,22 +122,22 @@ def glass(view: View, pixel: float) -> Triangles:
     ``pixel`` is the size of one in the panel's unit. The side of a triangle that is seen has its corners anticlockwise.
     """
     forms, numbers = distinct_forms(view.surfaces)
-    parts, ranks = [], []
-    for surface, own in zip(view.surfaces, numbers, strict=True):
+    painted, ranks = [], []
+    for surface, owner in zip(view.surfaces, numbers, strict=True):
         for corners, wire in _pieces(surface, view, pixel):
-            pieces = cut(corners, forms, own, view.towards)
-            parts.append(_painted(pieces, surface, view, wire=wire))
-            ranks.append(places(pieces, forms, own, view.towards) + (_ON_TOP if wire else 0.0))
+            pieces = cut(corners, forms, owner, view.towards)
+            painted.append(_painted(pieces, surface, view, wire=wire))
+            ranks.append(places(pieces, forms, owner, view.towards) + (_ON_TOP if wire else 0.0))
     order = np.argsort(np.concatenate(ranks), kind="stable")
-    points, normals, colours = (np.concatenate([piece[k] for piece in parts])[order] for k in range(3))
+    points, normals, colours = (np.concatenate([piece[k] for piece in painted])[order] for k in range(3))
     return points.reshape(-1, 3), normals.reshape(-1, 3), colours.reshape(-1, 4)
 
 
 def lattice(rows: int, columns: int) -> NDArray[np.int64]:
     """Return the triangles (T, 3) of a mesh of rows x columns corners, anticlockwise from where that product points."""
     corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
-    below, right, across = corner + columns, corner + 1, corner + columns + 1
-    return np.stack([corner, below, across, corner, across, right], axis=1).reshape(-1, 3)
+    lower, neighbour, diagonal = corner + columns, corner + 1, corner + columns + 1
+    return np.stack([corner, lower, diagonal, corner, diagonal, neighbour], axis=1).reshape(-1, 3)
 
 
 def distinct(points: FloatArray) -> FloatArray:
@@ -145,7 +145,7 @@ def distinct(points: FloatArray) -> FloatArray:
     return points[np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])]
 
 
-def thinned(curve: FloatArray, near: float) -> FloatArray:
+def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
     """Return a line without every second point where that is as near as that to the chord, three times over."""
     for _ in range(3):
         before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
@@ -153,7 +153,7 @@ def thinned(curve: FloatArray, near: float) -> FloatArray:
         share = np.sum((middle - before) * chord, axis=1) / np.maximum(np.sum(chord * chord, axis=1), 1e-300)
         off = np.linalg.norm(middle - before - np.clip(share, 0.0, 1.0)[:, None] * chord, axis=1)
         keep = np.ones(len(curve), dtype=bool)
-        keep[1:-1:2] = off > near
+        keep[1:-1:2] = off > tolerance
         curve = curve[keep]
     return curve
 
@@ -189,12 +189,12 @@ def _ribbon(line: FloatArray, width: float, view: View, pixel: float) -> FloatAr
 
     One that is thinner than a pixel is drawn as wide as that, and fainter.
     """
-    right, up = view.frame[:2]
+    rightward, up = view.frame[:2]
     step = np.diff(line @ view.frame[:2].T, axis=0)
     step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
-    along = np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
-    along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-12)
-    side = along[:, :1] * up - along[:, 1:] * right
+    tangent = np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
+    tangent /= np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), 1e-12)
+    side = tangent[:, :1] * up - tangent[:, 1:] * rightward
     middle, fade = 0.5 * max(width, pixel), 0.5 * pixel if width > pixel else 0.0
     reach = np.array([-middle - fade, fade - middle, middle - fade, middle + fade])
     cover = np.array([0.0, 1.0, 1.0, 0.0]) * min(1.0, width / pixel)
@@ -214,19 +214,19 @@ def _painted(
     """
     on = corners[..., :3]
     outer = facing(surface.quadric, on, view.towards) @ _ALL > 0.0
-    turned = normals(surface.quadric, on) * np.where(outer, 1.0, -1.0)[:, None, None]
+    side_normals = normals(surface.quadric, on) * np.where(outer, 1.0, -1.0)[:, None, None]
     if wire:  # not lit: it keeps its colour
-        turned = np.broadcast_to(UNLIT @ view.frame, on.shape)
+        side_normals = np.broadcast_to(UNLIT @ view.frame, on.shape)
         tint, dense = np.tile(_rgb(style_of("wire").colour) / AMBIENT, (len(on), 1)), corners[..., 6]
     else:
         look = style_of(surface.role)
         tint = np.where(outer[:, None], _rgb(look.colour), _rgb(look.back or look.colour))
-        slant = np.clip(np.abs(turned @ view.towards), 0.0, 1.0)
+        slant = np.clip(np.abs(side_normals @ view.towards), 0.0, 1.0)
         dense = look.glass + (_DENSEST - look.glass) * (1.0 - slant) ** _GRAZE
     paint = np.empty((*dense.shape, 4))
     paint[..., :3] = tint[:, None]
     paint[..., 3] = 255.0 * dense
-    return _to_the_eye(on + corners[..., 3:6], turned, np.round(paint).astype(np.uint8), view)
+    return _to_the_eye(on + corners[..., 3:6], side_normals, np.round(paint).astype(np.uint8), view)
 
 
 def _rgb(colour: str) -> FloatArray:
@@ -235,11 +235,11 @@ def _rgb(colour: str) -> FloatArray:
 
 
 def _to_the_eye(
-    points: FloatArray, turned: FloatArray, paint: NDArray[np.uint8], view: View
+    points: FloatArray, side_normals: FloatArray, paint: NDArray[np.uint8], view: View
 ) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
     """Return the triangles with their corners anticlockwise as seen."""
     flat = points @ view.frame[:2].T
     a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     way = np.where((a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0])[:, None], np.array([2, 1, 0]), np.array([0, 1, 2]))
     row = np.arange(len(points))[:, None]
-    return points[row, way], turned[row, way], paint[row, way]
+    return points[row, way], side_normals[row, way], paint[row, way]

@@ -53,11 +53,11 @@ def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) 
     answers = np.zeros(len(row), dtype=bool)
     for surface, on in zip(surfaces, touching, strict=True):
         answers |= _hides(surface, middle, towards, (on[:-1] & on[1:])[row])
-    first, last = start[row] + low * step[row], start[row] + high * step[row]
+    begins, finishes = start[row] + low * step[row], start[row] + high * step[row]
     ends = np.concatenate([np.flatnonzero(np.diff(answers)) + 1, [len(answers)]])
     pieces, begin = [], 0
     for end in ends:
-        pieces.append((np.concatenate([first[begin:end], last[end - 1 : end]]), not answers[begin]))
+        pieces.append((np.concatenate([begins[begin:end], finishes[end - 1 : end]]), not answers[begin]))
         begin = end
     return pieces
 
@@ -72,17 +72,17 @@ def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray)
 
 def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[Surface]:
     """Return the surfaces that may hide some of the points: those whose images overlap with that of the points."""
-    across = np.linalg.svd(towards[None])[2][1:]
-    flat = points @ across.T
+    plane_axes = np.linalg.svd(towards[None])[2][1:]
+    flat = points @ plane_axes.T
     low, high = flat.min(axis=0), flat.max(axis=0)
-    boxes = [_image(surface, across.tobytes()) for surface in surfaces]
+    boxes = [_image(surface, plane_axes.tobytes()) for surface in surfaces]
     return [
         s for s, (least, most) in zip(surfaces, boxes, strict=True) if (least <= high).all() and (low <= most).all()
     ]
 
 
 @lru_cache(maxsize=4096)
-def _image(surface: Surface, across: bytes) -> tuple[FloatArray, FloatArray]:
+def _image(surface: Surface, plane_axes: bytes) -> tuple[FloatArray, FloatArray]:
     """Return the corners of a rectangle that holds the image of a surface: that of its mesh and a little more.
 
     Without a mesh it is the whole plane.
@@ -90,7 +90,7 @@ def _image(surface: Surface, across: bytes) -> tuple[FloatArray, FloatArray]:
     if not surface.grids:
         return np.full(2, -np.inf), np.full(2, np.inf)
     mesh = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
-    flat = mesh @ np.frombuffer(across).reshape(2, 3).T
+    flat = mesh @ np.frombuffer(plane_axes).reshape(2, 3).T
     low, high = flat.min(axis=0), flat.max(axis=0)
     margin = _MARGIN * float(np.max(high - low))
     return low - margin, high + margin
@@ -102,9 +102,9 @@ def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
     return np.einsum("...i,...i->...", (x.reshape(-1, 4) @ quadric).reshape(x.shape), x)  # in a sixth of `_form`'s time
 
 
-def _lift(x: FloatArray, last: float = 1.0) -> FloatArray:
+def _lift(x: FloatArray, weight: float = 1.0) -> FloatArray:
     """Homogeneous coordinates: (x, 1) of a point, (x, 0) of a direction."""
-    return np.concatenate([x, np.full((*x.shape[:-1], 1), last)], axis=-1)
+    return np.concatenate([x, np.full((*x.shape[:-1], 1), weight)], axis=-1)
 
 
 def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
@@ -165,7 +165,7 @@ def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: Flo
     a, b = _lift(start), _lift(step, 0.0)
     A = float(_form(quadric, d, d))
     B0, B1 = 2.0 * _form(quadric, a, d), 2.0 * _form(quadric, b, d)
-    F0, F1, F2 = _along(quadric, a, b)
+    F0, F1, F2 = _coefficients(quadric, a, b)
     cuts = [*_roots(F2, F1, F0)]
     flat = _is_flat(quadric)
     if not flat:
@@ -178,22 +178,22 @@ def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: Flo
             cuts.append(_ratio(distance - start @ n, step @ n))
             continue
         # where the ray meets the edge of the half space, and whether that point is on the surface
-        moved = a + ((distance - start @ n) / facing)[:, None] * d
+        base = a + ((distance - start @ n) / facing)[:, None] * d
         drift = b - ((step @ n) / facing)[:, None] * d
-        G0, G1, G2 = _along(quadric, moved, drift)
+        G0, G1, G2 = _coefficients(quadric, base, drift)
         cuts += _roots(G2, G1, G0)
         if not flat and A != 0.0:  # from a point on the surface the other root is t = -B / A
             cuts.append(_ratio(distance - start @ n + B0 / A * facing, step @ n - B1 / A * facing))
     if flat and surface.within:
         with np.errstate(all="ignore"):
-            moved, drift = a - (F0 / B0)[:, None] * d, b - (F1 / B0)[:, None] * d
-        for other in surface.within:
-            G0, G1, G2 = _along(other, moved, drift)
+            base, drift = a - (F0 / B0)[:, None] * d, b - (F1 / B0)[:, None] * d
+        for form in surface.within:
+            G0, G1, G2 = _coefficients(form, base, drift)
             cuts += _roots(G2, G1, G0)
     return np.stack(cuts, axis=1)
 
 
-def _along(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _coefficients(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Coefficients of F(a + s b) = c0 + c1 s + c2 s^2."""
     return _form(quadric, a, a), 2.0 * _form(quadric, a, b), _form(quadric, b, b)
 
@@ -219,13 +219,13 @@ def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> Floa
 def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
     """Return (near?, outer side seen?, edge) of the surface's parts, the far ones first."""
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
-    parts = []
+    sides = []
     for sign in (1.0, -1.0):
         edges = [_edge(grid, sign * facing(surface.quadric, grid, towards)) for grid in surface.grids]
         edge = _joined(edges)
         if len(edge[0]):
-            parts.append((bend * sign >= 0.0, sign > 0.0, edge))
-    return sorted(parts, key=lambda area: area[0])
+            sides.append((bend * sign >= 0.0, sign > 0.0, edge))
+    return sorted(sides, key=lambda area: area[0])
 
 
 def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:

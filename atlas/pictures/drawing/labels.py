@@ -47,12 +47,12 @@ class Tag:
     owner: int = -1
 
 
-def stand(tag: Tag) -> FloatArray:
+def preferred_centre(tag: Tag) -> FloatArray:
     """Return the centre (2,) of the text where it would like to stand, in points."""
-    return _stands(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
+    return _candidate_centres(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
 
-def _stands(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
+def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
     """Return the centres (N, 2) of the text beside anchors (N, 2) when its offset is turned and lengthened."""
     length = float(np.hypot(*tag.offset))
     if length == 0.0:
@@ -65,57 +65,61 @@ def _stands(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray)
     return anchors + (length + steps + reach)[:, None] * u
 
 
-def place(tags: Sequence[Tag], drawn: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
+def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
     """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
 
     Tags keep clear of the ink ``drawn``; ``window`` is (left, bottom, right, top).
     """
-    parts, *about = zip((np.empty((0, 2)), 0.0, NOBODY), *drawn, strict=True)
-    ink, counts = np.concatenate(parts), list(map(len, parts))
-    weights, owners = (np.repeat(values, counts) for values in about)
-    centres = np.array([stand(tag) for tag in tags]).reshape(-1, 2)
+    point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
+    ink, counts = np.concatenate(point_sets), list(map(len, point_sets))
+    weights, owners = (np.repeat(values, counts) for values in attributes)
+    centres = np.array([preferred_centre(tag) for tag in tags]).reshape(-1, 2)
     sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
     fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
-    settled = fixed.copy()
-    alone = {}
+    is_placed = fixed.copy()
+    choices = {}
     for i in np.flatnonzero(~fixed):
         tag, anchors = tags[i], np.array([tags[i].anchor, *tags[i].elsewhere])
-        where, steps, turns = (g.ravel() for g in np.meshgrid(np.arange(len(anchors)), _STEPS, _TURNS, indexing="ij"))
-        candidates = _stands(tag, anchors[where], turns, steps)
-        cost = _TURN * np.abs(turns) + _STEP * steps + _ELSEWHERE * where
-        beside = np.split(candidates, len(anchors))  # about one anchor there is little ink
-        cost += np.concatenate([_covers(some, tag.extent, ink, weights, window) for some in beside])
+        anchor_index, steps, turns = (
+            g.ravel() for g in np.meshgrid(np.arange(len(anchors)), _STEPS, _TURNS, indexing="ij")
+        )
+        candidates = _candidate_centres(tag, anchors[anchor_index], turns, steps)
+        cost = _TURN * np.abs(turns) + _STEP * steps + _ELSEWHERE * anchor_index
+        groups = np.split(candidates, len(anchors))  # about one anchor there is little ink
+        cost += np.concatenate([_covers(group, tag.extent, ink, weights, window) for group in groups])
         best = np.argsort(cost, kind="stable")[:_KEPT]
         candidates, cost = candidates[best], cost[best]
         if tag.owner >= 0:
             named = owners != NOBODY
             cost += _doubt(candidates, tag.extent, ink[named], owners[named] == tag.owner)
-        alone[i] = candidates, cost
+        choices[i] = candidates, cost
     for _ in range(2):
-        for i, (candidates, cost) in alone.items():
-            settled[i] = False
-            total = cost + _meets(candidates, tags[i].extent, centres[settled], sizes[settled])
+        for i, (candidates, cost) in choices.items():
+            is_placed[i] = False
+            total = cost + _meets(candidates, tags[i].extent, centres[is_placed], sizes[is_placed])
             centres[i] = candidates[int(np.argmin(total))]
-            settled[i] = True
+            is_placed[i] = True
     return list(centres)
 
 
-def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, own: NDArray[np.bool_]) -> FloatArray:
+def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_]) -> FloatArray:
     """Return how doubtful it is, at each of the centres (N, 2), to which ink a text belongs."""
-    if not own.any() or own.all():
+    if not owned.any() or owned.all():
         return np.zeros(len(centres))
     half = 0.5 * np.array(extent)
-    mine, foreign = (_gap(centres, half, ink[which]) for which in (own, ~own))
-    return _DOUBT * np.clip(1.0 - (foreign + 1.0) / (mine + 4.0), 0.0, 1.0) + _ELSEWHERE * np.maximum(mine - _FAR, 0.0)
+    own_gap, other_gap = (_gap(centres, half, ink[mask]) for mask in (owned, ~owned))
+    return _DOUBT * np.clip(1.0 - (other_gap + 1.0) / (own_gap + 4.0), 0.0, 1.0) + _ELSEWHERE * np.maximum(
+        own_gap - _FAR, 0.0
+    )
 
 
 def _gap(centres: FloatArray, half: FloatArray, ink: FloatArray) -> FloatArray:
     """Return the distance of the nearest ink from a box about each of the centres (N, 2)."""
     reach = half + _SIGHT
-    near = ((ink > centres.min(axis=0) - reach) & (ink < centres.max(axis=0) + reach)).all(axis=1)
-    if not near.any():
+    is_near = ((ink > centres.min(axis=0) - reach) & (ink < centres.max(axis=0) + reach)).all(axis=1)
+    if not is_near.any():
         return np.full(len(centres), _SIGHT)
-    beyond = [np.maximum(np.abs(ink[near, k] - centres[:, k, None]) - half[k], 0.0) for k in range(2)]
+    beyond = [np.maximum(np.abs(ink[is_near, k] - centres[:, k, None]) - half[k], 0.0) for k in range(2)]
     return np.minimum(np.sqrt(beyond[0] ** 2 + beyond[1] ** 2).min(axis=1), _SIGHT)
 
 
@@ -129,24 +133,24 @@ def _covers(
     """Return how much ink a text covers at each of the centres (N, 2), and how far it leaves the window."""
     half = 0.5 * np.array(extent) + _AIR
     low, high = centres - half, centres + half
-    near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
-    x, y = ink[near].T
+    is_near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
+    x, y = ink[is_near].T
     covered = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
     outside = np.maximum(0.0, np.concatenate([window[:2] - low, high - window[2:]], axis=1)).sum(axis=1)
-    cost: FloatArray = covered @ weights[near] + 40.0 * outside
+    cost: FloatArray = covered @ weights[is_near] + 40.0 * outside
     return cost
 
 
-def _meets(centres: FloatArray, extent: tuple[float, float], others: FloatArray, sizes: FloatArray) -> FloatArray:
+def _meets(centres: FloatArray, extent: tuple[float, float], obstacles: FloatArray, sizes: FloatArray) -> FloatArray:
     """Return how much a text at each of the centres (N, 2) covers of other texts (M, 2) of their sizes."""
     half, reach = 0.5 * np.array(extent) + _AIR, 0.5 * sizes + _APART
-    high = np.minimum((centres + half)[:, None], others + reach)
-    overlap = high - np.maximum((centres - half)[:, None], others - reach)
+    high = np.minimum((centres + half)[:, None], obstacles + reach)
+    overlap = high - np.maximum((centres - half)[:, None], obstacles - reach)
     cost: FloatArray = np.where((overlap > 0.0).all(axis=2), 30.0 + overlap.prod(axis=2), 0.0).sum(axis=1)
     return cost
 
 
-def along(points: FloatArray, step: float = 2.0) -> FloatArray:
+def ink_points(points: FloatArray, step: float = 2.0) -> FloatArray:
     """Return points no further than ``step`` apart on a polyline (N, 2): its ink."""
     finite = points[np.isfinite(points).all(axis=1)]
     if len(finite) < 2:

@@ -43,12 +43,12 @@ class Texts(RendererBase):
 
 def unreadable(figure: Figure) -> str:
     """Return in words which texts of a figure stand on one another, or which leaves the page; empty where none do."""
-    drawn = Texts(figure)
-    for (one, a), (other, b) in combinations(drawn.texts, 2):
-        size = drawn.points_to_pixels(min(one.get_fontsize(), other.get_fontsize()))
-        across, up = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
-        if across > _ACROSS * size and up > _UP * size:
-            return f"{one.get_text()!r} and {other.get_text()!r} would stand on one another"
-    page = figure.bbox.padded(drawn.points_to_pixels(1.0))
-    beyond = (text for text, box in drawn.texts if min(*(box.p0 - page.p0), *(page.p1 - box.p1)) < 0.0)
+    page_texts = Texts(figure)
+    for (lower_text, a), (upper_text, b) in combinations(page_texts.texts, 2):
+        size = page_texts.points_to_pixels(min(lower_text.get_fontsize(), upper_text.get_fontsize()))
+        overlap_x, overlap_y = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+        if overlap_x > _ACROSS * size and overlap_y > _UP * size:
+            return f"{lower_text.get_text()!r} and {upper_text.get_text()!r} would stand on one another"
+    page = figure.bbox.padded(page_texts.points_to_pixels(1.0))
+    beyond = (text for text, box in page_texts.texts if min(*(box.p0 - page.p0), *(page.p1 - box.p1)) < 0.0)
     return next((f"{text.get_text()!r} would leave the page" for text in beyond), "")

@@ -62,8 +62,8 @@ def _riders(panel: Any) -> Iterator[Any]:
 def _steps(path: Path, lasts: float) -> int:
     """Return how many steps of `_TURN` a path makes."""
     R, _ = path(np.linspace(0.0, lasts, _LOOKS))
-    turned = np.einsum("nij,nij->n", R[1:], R[:-1])
-    angle = np.arccos(np.clip(0.5 * (turned - 1.0), -1.0, 1.0))
+    traces = np.einsum("nij,nij->n", R[1:], R[:-1])
+    angle = np.arccos(np.clip(0.5 * (traces - 1.0), -1.0, 1.0))
     return int(min(_MOST, np.ceil(angle.sum() / _TURN)))
 
 
@@ -107,10 +107,10 @@ def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
     counts: Counter[str] = Counter()
     riding = []
     for layer in view.panel.layers:
-        own = Counter(_kinds(layer, view))
+        layer_counts = Counter(_kinds(layer, view))
         if getattr(layer, "rides", ""):
-            riding += [[kind, counts[kind], counts[kind] + count, layer.rides] for kind, count in own.items()]
-        counts += own
+            riding += [[kind, counts[kind], counts[kind] + count, layer.rides] for kind, count in layer_counts.items()]
+        counts += layer_counts
     return [[*(float(f"{x:.7g}") for x in (*view.centre, view.size))], riding]
 
 

@@ -17,13 +17,13 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.transforms import Bbox
 
 from atlas.errors import AtlasError
-from atlas.pictures.drawing.labels import NOBODY, Ink, Tag, along, place
+from atlas.pictures.drawing.labels import NOBODY, Ink, Tag, ink_points, place
 from atlas.pictures.drawing.labels import write as write_tags
 from atlas.pictures.drawing.plane import draw_plane, marker
 from atlas.pictures.drawing.space import draw_shaded, draw_space, window
 from atlas.pictures.drawing.style import context, style_of, zoom
 from atlas.pictures.drawing.text import extent, points, typeset
-from atlas.pictures.drawing.view import Held
+from atlas.pictures.drawing.view import Placement
 from atlas.pictures.layers import (
     Arrow,
     Curve,
@@ -45,7 +45,7 @@ _INCH, _SCREEN = 25.4, 96
 _KEPT = ("pdf.fonttype", "ps.fonttype")
 _WIDER = (1.15, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0)
 """Widths, over that of a target, at which a figure that can't be read there is tried."""
-Hold: TypeAlias = Callable[[int, tuple[float, float]], Held]
+Hold: TypeAlias = Callable[[int, tuple[float, float]], Placement]
 
 
 class SceneFigure(Figure):
@@ -77,7 +77,7 @@ def to_figure(
     shaded: bool = False,
     target: Target | None = None,
     figure: Figure | None = None,
-    held: Hold | None = None,
+    hold: Hold | None = None,
 ) -> Figure:
     """Return a scene as a figure of its size, or laid out anew for a target, with one ordinary axes for each panel.
 
@@ -86,13 +86,13 @@ def to_figure(
     VTK with its names over it. Names are annotations. The group id of a layer's artist, ``artist.get_gid()``,
     is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
     picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for
-    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if one is given, and ``held`` tells the view of a
+    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if one is given, and ``hold`` tells the view of a
     panel in space in a window. Raises AtlasError where a panel cannot hold one of its layers, and for a scene that
     can't be read at the target.
     """
     if target:
         return _readable(scene, style, target, shaded=shaded, figure=figure)
-    return _drawn(scene, style, shaded=shaded, figure=figure, held=held)
+    return _drawing(scene, style, shaded=shaded, figure=figure, hold=hold)
 
 
 def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
@@ -100,26 +100,28 @@ def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figur
     from atlas.pictures.arrange import arranged
     from atlas.pictures.drawing.meeting import unreadable
 
-    drawn = _drawn(arranged(scene, target), style, target, **options)
-    fault = unreadable(drawn)
+    drawing = _drawing(arranged(scene, target), style, target, **options)
+    fault = unreadable(drawing)
     if not fault:
-        return drawn
+        return drawing
     wider = (replace(target, width=share * target.width) for share in _WIDER)
-    wide = (one for one in wider if not unreadable(_drawn(arranged(scene, one), style, one)))
-    needed = next((f"it can be from about {one.width:.0f} mm on" for one in wide), "draw it without a target")
+    wide = (candidate for candidate in wider if not unreadable(_drawing(arranged(scene, candidate), style, candidate)))
+    advice = next(
+        (f"it can be from about {candidate.width:.0f} mm on" for candidate in wide), "draw it without a target"
+    )
     raise AtlasError(
-        f"{scene.title}: it can't be read at {target.width:g} mm x {target.height:g} mm, for {fault}; {needed}."
+        f"{scene.title}: it can't be read at {target.width:g} mm x {target.height:g} mm, for {fault}; {advice}."
     )
 
 
-def _drawn(
+def _drawing(
     scene: Scene,
     style: Any,
     target: Target | None = None,
     *,
     shaded: bool = False,
     figure: Figure | None = None,
-    held: Hold | None = None,
+    hold: Hold | None = None,
 ) -> Figure:
     """Return a scene as a figure of its size, with the type and the lines of a target."""
     with context(style, target):
@@ -130,7 +132,7 @@ def _drawn(
             if isinstance(panel, Space) and shaded:
                 draw_shaded(axes, panel)
             else:
-                _complete(axes, panel, number, held)
+                _complete(axes, panel, number, hold)
     return figure
 
 
@@ -155,12 +157,12 @@ def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
         axes.set_axis_off()
 
 
-def _complete(axes: Axes, panel: Panel, number: int = 1, held: Hold | None = None) -> None:
+def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = None) -> None:
     """Draw the rest of a panel whose axes have their place."""
     if isinstance(panel, Plane):
         write_names(axes, panel)
     else:
-        draw_space(axes, panel, number, held and held(number - 1, window(axes)))
+        draw_space(axes, panel, number, hold and hold(number - 1, window(axes)))
 
 
 def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[tuple[Axes, Panel]]]:
@@ -234,9 +236,9 @@ def write_names(axes: Axes, panel: Plane) -> None:
     for owner, layer in enumerate(panel.layers):
         for text, anchors, offset, role in _requests(size, layer, places, bool(panel.legend)):
             high = points("xtick.labelsize" if role == "note" else "axes.labelsize")
-            first, *elsewhere = [(float(x), float(y)) for x, y in np.atleast_2d(anchors)]
+            anchor, *elsewhere = [(float(x), float(y)) for x, y in np.atleast_2d(anchors)]
             colour = readable(style_of(role).colour)
-            tags.append(Tag(text, first, offset, extent(text, high), colour, high, tuple(elsewhere), owner))
+            tags.append(Tag(text, anchor, offset, extent(text, high), colour, high, tuple(elsewhere), owner))
     if tags:
         window = (_FRAME, _FRAME, size[0] - _FRAME, size[1] - _FRAME)
         boxed = any(isinstance(layer, Image) for layer in panel.layers)
@@ -259,11 +261,11 @@ def _requests(
         yield layer.label, places(layer.points)[:1], (4.0, 4.0), layer.role
     elif isinstance(layer, Curve):
         pixels = places(layer.points)
-        seen = pixels[((pixels >= -_EDGE) & (pixels <= np.array(size) + _EDGE)).all(axis=1)]
-        if len(seen):
+        visible = pixels[((pixels >= -_EDGE) & (pixels <= np.array(size) + _EDGE)).all(axis=1)]
+        if len(visible):
             yield (
                 layer.label,
-                along(seen)[:-_BACK:-_EVERY],
+                ink_points(visible)[:-_BACK:-_EVERY],
                 (-4.0, 4.0),
                 layer.role,
             )  # its last point, and some before it
@@ -278,14 +280,14 @@ def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[In
     """
     for owner, layer in enumerate(panel.layers):
         if isinstance(layer, Curve):
-            points = along(places(layer.points))
+            points = ink_points(places(layer.points))
         elif isinstance(layer, Points):
             points = places(layer.points)
             if len(points) <= _FEW:
                 rims = points[:, None] + 0.5 * marker(layer.role)["ms"] / zoom() * _RIM
                 yield rims.reshape(-1, 2), 1.5, owner
         elif isinstance(layer, Arrow):
-            points = along(places(np.stack([layer.tail, layer.tip])))
+            points = ink_points(places(np.stack([layer.tail, layer.tip])))
         else:
             continue
         inside = ((points >= -_OVER) & (points <= np.array(size) + _OVER)).all(axis=1)

@@ -52,7 +52,7 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
     )
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
-    _whole(axes)
+    _unclip_marks(axes)
     _ticks(axes)
     above = _factor(axes.yaxis) or mpl.rcParams["xtick.labeltop"]
     axes.set_title(typeset(panel.title), y=None if above else 1.0)  # None: the numbers above the axes are measured
@@ -62,7 +62,7 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
         axes.legend(handles=entries, loc="best").set_in_layout(False)
 
 
-def _whole(axes: Axes) -> None:
+def _unclip_marks(axes: Axes) -> None:
     """Draw marks on the frame whole, where none is outside."""
     for line in axes.lines:
         away = np.abs((axes.transData - axes.transAxes).transform(line.get_xydata()) - 0.5)
@@ -135,8 +135,8 @@ def _map(axes: Axes, image: Image) -> Any:
     norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
     ends = [(edges[0], edges[-1]) for edges in (image.x, image.y)]
     axes.set(xlim=ends[0], ylim=ends[1])
-    (left, bottom), (right, top) = axes.transScale.transform(np.transpose(ends))
-    place = {"extent": (left, right, bottom, top), "transform": axes.transLimits + axes.transAxes}
+    (x_low, y_low), (x_high, y_high) = axes.transScale.transform(np.transpose(ends))
+    place = {"extent": (x_low, x_high, y_low, y_high), "transform": axes.transLimits + axes.transAxes}
     mesh = axes.imshow(image.values, norm=norm, origin="lower", aspect="auto", interpolation="none", **place)
     if image.label:
         bar = axes.figure.colorbar(mesh, cax=axes.inset_axes(_BAR), label=typeset(image.label))
@@ -164,7 +164,7 @@ def _factor(axis: Axis) -> str:
 
 def _threshold(panel: Plane, column: int) -> float:
     """Return where a symmetric logarithm turns linear: the power of ten below the smallest value."""
-    drawn = [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
-    sizes = np.abs(np.concatenate([np.empty(0), *drawn]))
+    columns = [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
+    sizes = np.abs(np.concatenate([np.empty(0), *columns]))
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
     return float(10.0 ** np.floor(np.log10(sizes.min()))) if sizes.size else 1.0

@@ -39,7 +39,7 @@ _OFF = 0.1
 _SHARP = float(np.cos(np.radians(25.0)))
 
 
-def still(view: View, width: int, height: int) -> NDArray[np.uint8]:
+def still_picture(view: View, width: int, height: int) -> NDArray[np.uint8]:
     """Return a picture (height, width, 3) of a panel, antialiased, with its surfaces in exact order."""
     view = replace(view, centre=np.zeros(3), size=1.0)
     plotter = pv.Plotter(off_screen=True, window_size=[width, height], lighting="none")
@@ -96,16 +96,16 @@ def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterato
         return
     radius = 0.5 * look.tube / view.scale
     for dash in dashes(points, look, view):
-        fine = distinct(dash)
-        if len(fine) < 2:
+        polyline = distinct(dash)
+        if len(polyline) < 2:
             continue
-        step = np.diff(fine, axis=0)
+        step = np.diff(polyline, axis=0)
         step /= np.linalg.norm(step, axis=1, keepdims=True)
         corners = np.flatnonzero(np.sum(step[1:] * step[:-1], axis=1) < _SHARP) + 1
-        for piece_indices in np.split(np.arange(len(fine)), corners):
-            piece = thinned(fine[piece_indices[0] : piece_indices[-1] + 2], _OFF * pixel)
+        for piece_indices in np.split(np.arange(len(polyline)), corners):
+            piece = thinned(polyline[piece_indices[0] : piece_indices[-1] + 2], _OFF * pixel)
             yield pv.lines_from_points(piece).tube(radius=radius, n_sides=_sides(radius / pixel))
-        for corner in fine[corners]:
+        for corner in polyline[corners]:
             yield _ball(corner, look, view, pixel)
 
 

@@ -15,10 +15,10 @@ from matplotlib.path import Path
 
 from atlas.pictures import conics
 from atlas.pictures.drawing.hidden import Edge, areas, facing, hidden, shadows, split
-from atlas.pictures.drawing.labels import NOBODY, along, place, write
+from atlas.pictures.drawing.labels import NOBODY, ink_points, place, write
 from atlas.pictures.drawing.plane import gid, marker
 from atlas.pictures.drawing.style import HEAD_WIDTH, dashes, head_base, stroke, style_of, zoom
-from atlas.pictures.drawing.view import Held, View, fit
+from atlas.pictures.drawing.view import Placement, View, fit
 from atlas.pictures.layers import Arrow, Curve, FloatArray, Layer, Points, Space, Surface
 from atlas.pictures.style import Style
 
@@ -33,12 +33,12 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 """Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
 
 
-def draw_space(axes: Axes, panel: Space, number: int = 1, held: Held | None = None) -> None:
+def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement | None = None) -> None:
     """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure.
 
-    Its scale is the largest at which it fits, or the one that is `held`.
+    Its scale is the largest at which it fits, or the one that is a given placement.
     """
-    view = fit(panel, window(axes), held)
+    view = fit(panel, window(axes), placement)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
     drawing = _Drawing(axes, view)
     for order, layer in enumerate(view.panel.layers):
@@ -65,7 +65,7 @@ def window(axes: Axes) -> tuple[float, float]:
 def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]]) -> None:
     """Write the names of a panel clear of the ink: points (N, 2) and how much it hurts to cover one of them."""
     edges = (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0)
-    write(axes, view.tags, place(view.tags, [(*part, NOBODY) for part in ink], edges))
+    write(axes, view.tags, place(view.tags, [(*strokes, NOBODY) for strokes in ink], edges))
 
 
 class _Drawing:
@@ -98,12 +98,12 @@ class _Drawing:
         """
         look, view = style_of(surface.role), self.view
         opaque = look.fill == 1.0
-        parts = [area for area in areas(surface, view.towards) if area[0] or not opaque]
-        for near, outer, edge in parts:
+        sides = [area for area in areas(surface, view.towards) if area[0] or not opaque]
+        for is_near, outer, edge in sides:
             colour = look.colour if outer or not look.back else look.back
-            opacity = look.fill * (1.0 if near else max(0.5, look.fill))  # so that a dense tint is the same inside
-            self._area(edge, colour, opacity, _TINT if near and (outer or not opaque) else _INSIDE)
-        if not opaque or any(outer for _, outer, _ in parts):
+            opacity = look.fill * (1.0 if is_near else max(0.5, look.fill))  # so that a dense tint is the same inside
+            self._area(edge, colour, opacity, _TINT if is_near and (outer or not opaque) else _INSIDE)
+        if not opaque or any(outer for _, outer, _ in sides):
             light = _LIGHT @ view.frame
             for edge, shade in zip(shadows(surface, view.towards, light, _LEVELS), cycle(_SHADES), strict=False):
                 self._area(edge, shade, _DEPTH)
@@ -116,17 +116,21 @@ class _Drawing:
 
     def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
         """Draw a polyline: visible parts in its own style, hidden parts thin and dashed, or not at all."""
-        for piece, seen in split(points, self.view.surfaces, self.view.towards):
+        for piece, is_visible in split(points, self.view.surfaces, self.view.towards):
             length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
-            if length < _SPECK or not (seen or look.hidden):
+            if length < _SPECK or not (is_visible or look.hidden):
                 continue
             flat = self.view.on_paper(piece)
             hidden_width = max(0.4, 0.6 * look.width)
-            key = (look.width, look.dash, height + self.rise) if seen else (hidden_width, _DASH, _HIDDEN + self.rise)
+            key = (
+                (look.width, look.dash, height + self.rise)
+                if is_visible
+                else (hidden_width, _DASH, _HIDDEN + self.rise)
+            )
             if (look.colour, *key) not in self._name:
                 self._name[look.colour, *key] = next(self._names)
             self._lines[look.colour, *key].append(flat)
-            self.ink.append((along(flat), weight if seen else 0.4 * weight))
+            self.ink.append((ink_points(flat), weight if is_visible else 0.4 * weight))
 
     def arrow(self, arrow: Arrow) -> None:
         """Draw shaft and head; a hidden head is a pale one."""
@@ -134,14 +138,14 @@ class _Drawing:
         tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
         base = head_base(tail, tip, look, view.scale)
         self.line(np.stack([tail, base]), look)
-        self.ink.append((along(view.on_paper(np.stack([base, tip])), 1.0), 2.5))
+        self.ink.append((ink_points(view.on_paper(np.stack([base, tip])), 1.0), 2.5))
         point, foot = view.on_paper(tip), view.on_paper(base)
         run = point - foot
         length = float(np.linalg.norm(tip - base)) * view.scale
         side = np.array([-run[1], run[0]]) / max(float(np.hypot(*run)), 1e-9) * HEAD_WIDTH * length
         corners = np.stack([point, foot + side, foot + 0.12 * run, foot - side])
-        seen = not hidden(tip[None], view.surfaces, view.towards)[0]
-        face, width = (look.colour, 0.3) if seen else ("#ffffff", 0.5)
+        is_visible = not hidden(tip[None], view.surfaces, view.towards)[0]
+        face, width = (look.colour, 0.3) if is_visible else ("#ffffff", 0.5)
         head = {"fc": face, "ec": look.colour, "lw": stroke(width), "joinstyle": "miter", "clip_on": False}
         head["gid"] = next(self._names)
         self.axes.add_artist(Polygon(corners, zorder=_HEAD + self.rise, **head))
@@ -182,15 +186,18 @@ def silhouette(surface: Surface, view: View) -> list[FloatArray]:
 
 def draw_shaded(axes: Axes, panel: Space) -> None:
     """Draw a panel as a picture by VTK, of the resolution in which the figure is saved, with its names over it."""
-    from atlas.pictures.drawing.shaded import still
+    from atlas.pictures.drawing.shaded import still_picture
 
     view = fit(panel, window(axes))
     dpi = mpl.rcParams["savefig.dpi"]
     dpi = zoom() * (axes.figure.dpi if dpi == "figure" else float(dpi))
     width, height = (max(1, round(length * dpi / 72.0)) for length in view.window)
-    right, top = width * 72.0 / dpi, height * 72.0 / dpi  # so that a pixel of the picture is one of the file
-    picture = still(replace(view, window=(right, top)), width, height)
-    axes.imshow(picture, extent=(0.0, right, 0.0, top), aspect="auto", interpolation="none")
+    page_width, page_height = (
+        width * 72.0 / dpi,
+        height * 72.0 / dpi,
+    )  # so that a pixel of the picture is one of the file
+    picture = still_picture(replace(view, window=(page_width, page_height)), width, height)
+    axes.imshow(picture, extent=(0.0, page_width, 0.0, page_height), aspect="auto", interpolation="none")
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
     write_names(axes, view, _ink(view))
 
@@ -199,11 +206,11 @@ def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
     """Yield the points that names should not cover in a shaded picture, with their weights."""
     for layer in view.panel.layers:
         if isinstance(layer, Curve):
-            yield along(view.on_paper(layer.points)), 3.0
+            yield ink_points(view.on_paper(layer.points)), 3.0
         elif isinstance(layer, Arrow):
-            yield along(view.on_paper(np.stack([layer.tail, layer.tip]))), 2.0
+            yield ink_points(view.on_paper(np.stack([layer.tail, layer.tip]))), 2.0
         elif isinstance(layer, Points):
             yield view.on_paper(np.atleast_2d(layer.points)), 8.0
         elif isinstance(layer, Surface):
             for rim in layer.rims:
-                yield along(view.on_paper(rim)), 3.0
+                yield ink_points(view.on_paper(rim)), 3.0

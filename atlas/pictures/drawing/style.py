@@ -69,7 +69,7 @@ def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
             _use([style] if isinstance(style, Path | dict) else style)
         token = _TARGET.set(target)
         try:
-            mpl.rcParams.update(_asked(target) if target else {})
+            mpl.rcParams.update(_target_settings(target) if target else {})
             yield
         except RuntimeError as error:
             if not mpl.rcParams["text.usetex"]:
@@ -86,7 +86,7 @@ def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
             _TARGET.reset(token)
 
 
-def _asked(target: Target) -> dict[str, Any]:
+def _target_settings(target: Target) -> dict[str, Any]:
     """Return the settings that a target asks for, from those that are."""
     now = mpl.rcParams
     return {
@@ -163,8 +163,8 @@ def _apply(style: Any) -> None:
 
 def _use(styles: Sequence[Any]) -> None:
     """Apply a user's styles one after the other."""
-    for own in styles:
-        _apply(own)
+    for sheet in styles:
+        _apply(sheet)
     for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend
         if isinstance(value, float) and not isfinite(value):
             raise AtlasError(f"the style sets {name} to {value}, which is no number to draw with.")
@@ -175,7 +175,7 @@ def _use(styles: Sequence[Any]) -> None:
 def ground(face: Any = None) -> str:
     """Return the colour that panels are drawn upon, or that of this ``face`` if it is not transparent."""
     faces = mpl.rcParams["axes.facecolor"] if face is None else face, mpl.rcParams["figure.facecolor"]
-    return next((to_hex(one) for one in faces if to_rgba(one)[3]), WHITE)
+    return next((to_hex(colour) for colour in faces if to_rgba(colour)[3]), WHITE)
 
 
 def style_of(role: str) -> Style:

@@ -5,10 +5,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from atlas.pictures.drawing.labels import Tag, stand
+from atlas.pictures.drawing.labels import Tag, preferred_centre
 from atlas.pictures.drawing.style import style_of
 from atlas.pictures.drawing.text import extent, points
-from atlas.pictures.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface, frame, moved, seen
+from atlas.pictures.layers import (
+    Arrow,
+    Curve,
+    FloatArray,
+    Label,
+    Layer,
+    Points,
+    Space,
+    Surface,
+    frame,
+    panel_points,
+    transformed,
+)
 from atlas.pictures.style import Style, readable
 
 
@@ -18,7 +30,7 @@ def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
 
 
 def _scaled(layer: Layer, centre: FloatArray, size: float) -> Layer:
-    layer_scaled = moved(layer, np.eye(3) / size, -centre / size)
+    layer_scaled = transformed(layer, np.eye(3) / size, -centre / size)
     if isinstance(layer_scaled, Surface):
         forms = [form / np.abs(form).max() for form in (layer_scaled.quadric, *layer_scaled.within)]
         layer_scaled = replace(layer_scaled, quadric=forms[0], within=tuple(forms[1:]), clip=layer_scaled.clip / size)
@@ -30,7 +42,7 @@ _BEYOND = 4.5
 
 
 @dataclass(frozen=True)
-class Held:
+class Placement:
     """The scale of a panel and the place of its origin on paper, which all pictures of one movement share.
 
     A panel is in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one; ``scale`` is in
@@ -44,7 +56,7 @@ class Held:
 
 
 @dataclass(frozen=True)
-class View(Held):
+class View(Placement):
     """Where things of a panel appear on paper.
 
     ``panel`` is the panel in these coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
@@ -71,16 +83,16 @@ class View(Held):
         return self.scale * (points @ self.frame[:2].T) + self.shift
 
 
-def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
+def hold(panels: Sequence[Space], window: tuple[float, float]) -> Placement:
     """Fit panels into one window (width, height) in points: the largest scale at which each stays inside, names too."""
-    low = np.min([seen(panel).min(axis=0) for panel in panels], axis=0)
-    high = np.max([seen(panel).max(axis=0) for panel in panels], axis=0)
+    low = np.min([panel_points(panel).min(axis=0) for panel in panels], axis=0)
+    high = np.max([panel_points(panel).max(axis=0) for panel in panels], axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
     flats, tags = [], []
-    for one in panels:
-        panel = scaled(one, centre, size)
+    for unscaled in panels:
+        panel = scaled(unscaled, centre, size)
         eye = frame(panel)
-        flat = seen(panel) @ eye[:2].T
+        flat = panel_points(panel) @ eye[:2].T
         wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
         middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
         flats += [flat, np.stack([middle - wide, middle + wide])]
@@ -89,23 +101,23 @@ def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
     flat = np.concatenate(flats)
     boxes = _boxes(tags)
     scale = _fit(flat, boxes, np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN]))
-    left, right = _reach(flat, boxes, scale)
-    return Held(centre, size, scale, 0.5 * (np.array([width, height]) - left - right))
+    low_corner, high_corner = _reach(flat, boxes, scale)
+    return Placement(centre, size, scale, 0.5 * (np.array([width, height]) - low_corner - high_corner))
 
 
-def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> View:
+def fit(panel: Space, window: tuple[float, float], placement: Placement | None = None) -> View:
     """Return a panel as it appears in a window (width, height) in points: as it fits there best, or as it is held."""
-    held = held or hold([panel], window)
-    panel = scaled(panel, held.centre, held.size)
+    placement = placement or hold([panel], window)
+    panel = scaled(panel, placement.centre, placement.size)
     eye = frame(panel)
 
     def on_paper(place: tuple[float, float]) -> tuple[float, float]:
-        x, y = held.scale * np.array(place) + held.shift
+        x, y = placement.scale * np.array(place) + placement.shift
         return float(x), float(y)
 
     tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
     placed = (replace(tag, anchor=on_paper(tag.anchor), elsewhere=tuple(map(on_paper, tag.elsewhere))) for tag in tags)
-    return View(held.centre, held.size, held.scale, held.shift, panel, eye, window, tuple(placed))
+    return View(placement.centre, placement.size, placement.scale, placement.shift, panel, eye, window, tuple(placed))
 
 
 def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
@@ -114,8 +126,8 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
     if request is not None:
         text, place, offset, role = request
         size = points("axes.labelsize" if role == "note" else "font.size")
-        first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(place) @ eye[:2].T)
-        yield Tag(text, first, offset, extent(text, size), readable(style_of(role).colour), size, tuple(elsewhere))
+        anchor, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(place) @ eye[:2].T)
+        yield Tag(text, anchor, offset, extent(text, size), readable(style_of(role).colour), size, tuple(elsewhere))
 
 
 def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
@@ -152,14 +164,16 @@ def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
 
 def _boxes(tags: list[Tag]) -> FloatArray:
     """Return anchor at scale 1, middle from there, and half the extent of each name, (3, N, 2)."""
-    boxes = [(tag.anchor, stand(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
+    boxes = [
+        (tag.anchor, preferred_centre(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags
+    ]
     return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
 
 
 def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
     """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
-    anchors, beside, half = boxes
-    centres = scale * anchors + beside
+    anchors, middles, half = boxes
+    centres = scale * anchors + middles
     low = np.concatenate([scale * flat, centres - half]).min(axis=0)
     high = np.concatenate([scale * flat, centres + half]).max(axis=0)
     return low, high

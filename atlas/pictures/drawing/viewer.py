@@ -24,7 +24,7 @@ from atlas.pictures.drawing.panels import places
 from atlas.pictures.drawing.style import HEAD_LENGTH, HEAD_WIDTH, context, style_of
 from atlas.pictures.drawing.text import extent, line, points, typeset
 from atlas.pictures.drawing.view import View, dashes, fit, named
-from atlas.pictures.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, seen
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, panel_points
 from atlas.pictures.style import Style, readable
 
 STEPS, GRID = 16000, 16
@@ -78,14 +78,14 @@ def _laid_out(
 
 def _deep(panel: Space) -> bool:
     """Tell whether a panel is more than a drawing across the direction of view."""
-    depth = seen(panel) @ frame(panel)[2]
+    depth = panel_points(panel) @ frame(panel)[2]
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 
 
 def _place(box: Bbox, view: View) -> list[float]:
     """Return left, top, width and height as shares of the figure; its size, scale and shift in points."""
-    left, bottom, right, top = box.extents
-    return [*map(_short, (left, 1.0 - top, right - left, top - bottom, *view.window, view.scale, *view.shift))]
+    x_low, y_low, x_high, y_high = box.extents
+    return [*map(_short, (x_low, 1.0 - y_high, x_high - x_low, y_high - y_low, *view.window, view.scale, *view.shift))]
 
 
 def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
@@ -104,15 +104,15 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
             size = points("axes.labelsize" if role == "note" else "font.size")
             number = texts.setdefault((text, size), len(texts))
             beyond = isinstance(layer, Arrow) and not layer.offset
-            stands = _list(layer.tail) if beyond else [*map(_short, offset)]
-            record["names"].append([number, readable(style_of(role).colour), _list(np.atleast_2d(place)), stands])
+            origin = _list(layer.tail) if beyond else [*map(_short, offset)]
+            record["names"].append([number, readable(style_of(role).colour), _list(np.atleast_2d(place)), origin])
     return record
 
 
 def _surface(surface: Surface) -> list[Any]:
     """Return quadric, half spaces, quadrics within which it lies, both colours, opacity, and the corners of a box."""
     look = style_of(surface.role)
-    points = seen(Space((surface,)))
+    points = panel_points(Space((surface,)))
     box = points.min(axis=0) - 1e-3, points.max(axis=0) + 1e-3
     within = [_form(quadric) for quadric in surface.within]
     return [
@@ -152,9 +152,9 @@ def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
 def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, list[Any]]]:
     """Yield a line, or its dashes."""
     for dash in dashes(curve, look, view) if look.tube > 0.0 else ():
-        fine = distinct(dash)
-        if len(fine) > 1:
-            yield "lines", [look.colour, look.tube, _packed(thinned(fine, _NEAR / view.scale))]
+        polyline = distinct(dash)
+        if len(polyline) > 1:
+            yield "lines", [look.colour, look.tube, _packed(thinned(polyline, _NEAR / view.scale))]
 
 
 def _packed(curve: FloatArray) -> str:
@@ -189,15 +189,15 @@ def _outlined(text: str, size: float, family: tuple[str, ...], formulas: str) ->
     font = FontProperties(family=list(family), math_fontfamily=formulas)
     path = TextPath((0.0, 0.0), typeset(text), size=size, prop=font)
     width, ascent, descent = line(text, size)
-    parts, start, pen = [], np.zeros(2, dtype=int), np.zeros(2, dtype=int)
+    commands, start, pen = [], np.zeros(2, dtype=int), np.zeros(2, dtype=int)
     for vertices, code in path.iter_segments(curves=True, simplify=False):
         if code == Path.CLOSEPOLY:
-            parts.append("z")
+            commands.append("z")
             pen = start
             continue
         x, y = np.reshape(vertices, (-1, 2)).T
         places = np.round(GRID * np.stack([x - 0.5 * width, 0.5 * (ascent - descent) - y], axis=1)).astype(int)
-        parts.append(_WORDS[code] + " ".join(map(str, (places - pen).ravel())).replace(" -", "-"))
+        commands.append(_WORDS[code] + " ".join(map(str, (places - pen).ravel())).replace(" -", "-"))
         pen = places[-1]
         start = pen if code == Path.MOVETO else start
-    return "".join(parts)
+    return "".join(commands)

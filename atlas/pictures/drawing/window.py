@@ -134,14 +134,14 @@ def document(scene: Scene) -> str:
     """Return the document: it asks for nothing else, and its policy lets it ask for nothing."""
     file = BytesIO()
     to_figure(scene).savefig(file, format="png", dpi=_STILL)
-    still = b64encode(file.getvalue()).decode()
+    picture = b64encode(file.getvalue()).decode()
     viewer = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
     content = json.dumps(data(scene), ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
     return "\n".join(
         (
             f'<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
             f"<title>{escape(scene.title)}</title><style>{_STYLE}</style>",
-            f'<div class="turned"><img alt="{escape(scene.alt)}" src="data:image/png;base64,{still}"></div>',
+            f'<div class="turned"><img alt="{escape(scene.alt)}" src="data:image/png;base64,{picture}"></div>',
             f'<script type="application/json" id="data">{content}</script>',
             f"<script>{viewer}</script><script>{_START}</script>",
         )
