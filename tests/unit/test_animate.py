@@ -258,8 +258,8 @@ def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
 
 def test_upwards_is_the_direction_or_the_field_or_the_momentum() -> None:
     """Of a free body, I2 = 1 across the axis, whichever way it turns; of a body at rest the axis itself."""
-    free = Upright.of(atlas.FreeMotion(1.5, (0.3, -0.7, 0.2)))
+    free = Upright.of_motion(atlas.FreeMotion(1.5, (0.3, -0.7, 0.2)))
     np.testing.assert_allclose(free.vector, (0.3, -0.7, 0.2 * 1.5), rtol=1e-15)
     assert free.letter == r"\mathbf{m}"
-    assert Upright.of(atlas.FreeMotion(1.5, (0.0, 0.0, 0.0))).vector == (0.0, 0.0, 1.0)
-    assert Upright.of(atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)).vector == (0.0, 1.0, 2.0)
+    assert Upright.of_motion(atlas.FreeMotion(1.5, (0.0, 0.0, 0.0))).vector == (0.0, 0.0, 1.0)
+    assert Upright.of_motion(atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)).vector == (0.0, 1.0, 2.0)

@@ -218,10 +218,10 @@ def test_named_points_lie_on_the_curve(ratio: float) -> None:
     """Rest, -2B' and the second zero of omega3 satisfy (67); phi vanishes at the first two."""
     field = (1.0, 2.0)
     named = places(ratio, field)
-    assert [place.at for place in named[:2]] == [(0.0, 0.0), (-2.0, -4.0)]
+    assert [place.point for place in named[:2]] == [(0.0, 0.0), (-2.0, -4.0)]
     for place in named:
-        assert residual(ratio, field, np.array(place.at)) <= EPS
-    assert [Hyperbola(ratio, field).frequencies(place.at[0])[1] for place in named[:2]] == [0.0, 0.0]
+        assert residual(ratio, field, np.array(place.point)) <= EPS
+    assert [Hyperbola(ratio, field).frequencies(place.point[0])[1] for place in named[:2]] == [0.0, 0.0]
     assert len(named) == (3 if ratio not in {1.0, 2.0} else 2)
 
 
