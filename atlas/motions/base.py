@@ -87,9 +87,9 @@ class Motion(CarriesUncertainty, Shown, Generic[Single]):
         return super().__new__(cls, *inputs, **arguments)
 
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
-        self._make, self._inputs = make, inputs
-        self._made: dict[int, Single] = {}
-        self.shape = common_shape(*(getattr(x, "shape", ()) for x in inputs))
+        shape = common_shape(*(getattr(x, "shape", ()) for x in inputs))
+        made: dict[int, Single] = {}
+        self._make, self._inputs, self._made, self.shape = make, inputs, made, shape
 
     def _single(self, i: int = 0) -> Single:
         """Return the i-th motion, made by itself."""

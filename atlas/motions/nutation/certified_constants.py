@@ -7,8 +7,6 @@ a sphere are imaginary; of the two zeros ± i y at a pole alpha (beta) has the o
 that is, the sign of the torque says.
 """
 
-from dataclasses import dataclass
-
 from flint import acb, arb, fmpq
 
 from atlas.lazy import cached_property
@@ -25,36 +23,24 @@ from atlas.motions.nutation.certified_quartic import Quartic, Root
 from atlas.motions.nutation.certified_spheres import Sphere
 
 
-@dataclass(frozen=True)
 class TurningPoint:
-    """A simple turning point e, the other roots of Q, each as often as it counts, and w at each of them."""
+    """A simple turning point u = e, the places of the other roots of Q, each as often as it counts, and w there.
 
-    quartic: Quartic
-    roots: tuple[Root, ...]
-    place: int
+    `quarter_slope` is Q'(e)/4, as a product over the other roots.
+    """
 
-    @cached_property
-    def u(self) -> arb:
-        """The turning point."""
-        return self.roots[self.place].value.real
-
-    @cached_property
-    def quarter_slope(self) -> arb:
-        """Q'(e)/4, as a product over the other roots."""
-        product = acb(arb(self.quartic.leading) / 4)
-        for i in self.other_roots:
-            if not self.roots[i].is_infinite:
-                product *= self.u - self.roots[i].value
-        return product.real
+    def __init__(self, quartic: Quartic, roots: tuple[Root, ...], place: int) -> None:
+        self.quartic, self.roots, self.place = quartic, roots, place
+        self.u = roots[place].value.real
+        self.other_roots = [i for i, r in enumerate(roots) for _ in range(r.multiplicity) if i != place]
+        slope = acb(arb(quartic.leading) / 4)
+        for root in (roots[i] for i in self.other_roots):
+            slope *= acb(1) if root.is_infinite else self.u - root.value
+        self.quarter_slope = slope.real
 
     def w(self, place: int) -> acb:
         """Return w at another root."""
         return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
-
-    @cached_property
-    def other_roots(self) -> list[int]:
-        """Places of the other three roots."""
-        return [i for i, r in enumerate(self.roots) for _ in range(r.multiplicity) if i != self.place]
 
     def real_time(self, u: arb) -> arb:
         """Return the time from e to u, between the turning points."""
@@ -131,7 +117,9 @@ class Nutation:
 
     def turning(self, place: int) -> TurningPoint:
         """Return a simple real root as a turning point."""
-        return self.turnings.setdefault(place, TurningPoint(self.quartic, self.roots, place))
+        if place not in self.turnings:
+            self.turnings[place] = TurningPoint(self.quartic, self.roots, place)
+        return self.turnings[place]
 
     def _start(self) -> TurningPoint:
         """Return the turning point next to which the motion is fast: near a separatrix, the one it comes back from."""
@@ -140,25 +128,24 @@ class Nutation:
             return self.turning(high)
         if self.roots[high].multiplicity > 1:
             return self.turning(low)
-        real = self.real
-        if self.quartic.bend < 0:
+        real, bend = self.real, self.quartic.bend
+        if bend < 0:
             if len(real) > 2:
                 return self.turning(high if high == len(real) - 1 else low)
             upper = self.turning(high)
             inner = 2 * upper.imaginary_time_to_infinity.mid() <= upper.lattice.imaginary.mid()
             return upper if inner else self.turning(low)
-        if self.quartic.bend == 0:  # no other root lies between the turning point and infinity
+        if bend == 0:  # no other root lies between the turning point and infinity
             return self.turning(low if high < len(real) - 1 else high)
         return self.turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
 
     def _origin(self) -> arb:
         """Return the time since the turning point, positive where Omega3 moves away from it."""
-        q = self.quartic
-        if q.sense == 0:
-            return arb(0) if self.start.u.overlaps(arb(q.u.value)) else self.lattice.half
-        away = (q.sense > 0) == (self.start.place == q.low)
-        time = self.start.real_time(arb(q.u.value))
-        return time if away else -time
+        q, sense, u = self.quartic, self.quartic.sense, arb(self.quartic.u.value)
+        if sense == 0:
+            return arb(0) if self.start.u.overlaps(u) else self.lattice.half
+        time = self.start.real_time(u)
+        return time if (sense > 0) == (self.start.place == q.low) else -time
 
     def _parameter(self, pole: int, origin: arb, initial: acb) -> Parameter:
         """Return alpha (pole -1) or beta (pole 1)."""

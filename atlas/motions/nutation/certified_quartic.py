@@ -101,7 +101,7 @@ class Quartic:
         """Q''(u) at t = 0."""
         return evaluated(derivative(derivative(self.polynomial)), self.u).value
 
-    @cached_property
+    @property
     def is_constant(self) -> bool:
         """Whether u is constant."""
         return self.rate.is_zero and self.slope.is_zero

@@ -80,14 +80,13 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
     def __init__(self, ratio: BodyLike, field: FieldLike, omega: RealArrayLike) -> None:
         I2, I3 = exact_moments(ratio)
-        self.ratio = kept_ratio(ratio, plain(I3))
         B = field_components(field)
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
+        I, *vectors = plain(I3), tuple(map(plain, B)), tuple(map(plain, omega))
+        kept = {"field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega))}
+        rounded, exact = (kept_ratio(ratio, x) for x in (I, I3))
         super().__init__(standing, I2, I3, *[0.0] * (3 - len(B)), *B, *omega)
-        self.field, self.omega = tuple(map(plain, B)), tuple(map(plain, omega))
-        self.arguments = {
-            "ratio": kept_ratio(ratio, I3), "field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega)),
-        }  # fmt: skip
+        self.ratio, (self.field, self.omega), self.arguments = rounded, vectors, {"ratio": exact, **kept}
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]

@@ -56,37 +56,26 @@ class SingleMotion:
         return pair
 
     @cached_property
-    def _tilt(self) -> list[float]:
-        """Cosine and sine of theta(0), and of chi(0)."""
+    def sides(self) -> tuple[FloatArray, FloatArray]:
+        """Factors (3, 3) left and right of the matrix of (alpha, beta); the right one turns about e3."""
         # at the precision of the other constants, which share the sphere
         c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST_BITS - 64)
         with workprec(2 * BITS):  # else it would be that of the caller
-            return [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
-
-    @cached_property
-    def after(self) -> FloatArray:
-        """The turn about the body's axis at t = 0."""
-        _, _, C, S = self._tilt
-        return np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
-
-    @cached_property
-    def before(self) -> FloatArray:
-        """Constant left factor of the matrix of (alpha, beta)."""
-        cos, sin, _, _ = self._tilt
-        tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
-        return np.asarray(self.after.T @ tilt)
+            cos, sin, C, S = [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
+        right = np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
+        return np.asarray(right.T @ np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])), right
 
     @cached_property
     def entries(self) -> FloatArray:
         """Weights of the products in the entries of R, (10, 9)."""
-        return entries(self.before, self.after)
+        return entries(*self.sides)
 
     @cached_property
     def field(self) -> FloatArray:
         """Weights of the products in K, (10, 3)."""
         with workprec(2 * BITS):
             b = nearest(arb(self.exact.b))
-        return np.asarray(b * VECTOR @ self.after)
+        return np.asarray(b * VECTOR @ self.sides[1])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -106,18 +95,18 @@ class SingleMotion:
             def fill(times: FloatArray, rows: FloatArray) -> None:
                 q = evaluation.components(times)
                 q /= np.sqrt((q * q).sum(axis=0))
-                np.matmul(q.T, self._sides, out=rows)
+                np.matmul(q.T, self._to_quaternion, out=rows)
 
             return fill
 
         return evaluate(real(t, "The time"), (4,), out, prepare)
 
     @cached_property
-    def _sides(self) -> FloatArray:
-        """Matrix from the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
-        sides = between(self.before, self.after)[[3, 0, 2, 1]]
-        start = Evaluation(self.pair, 1, signed=True).components(np.zeros(1))[:, 0] @ sides
-        return np.asarray(-sides if start[3] < 0 else sides)
+    def _to_quaternion(self) -> FloatArray:
+        """Matrix (4, 4) from the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
+        matrix = between(*self.sides)[[3, 0, 2, 1]]
+        start = Evaluation(self.pair, 1, signed=True).components(np.zeros(1))[:, 0] @ matrix
+        return np.asarray(-matrix if start[3] < 0 else matrix)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t), shape (..., 3)."""
@@ -240,7 +229,7 @@ class SingleTop(SingleMotion):
                 up, down = w * w + z * z, x * x + y * y
                 turn = turning_rate((w, x, y, z), tuple(q[[4, 5, 7, 6]]))
                 turn[2] += kappa * (up - down) / (up + down)
-                np.matmul(np.array(turn).T, self.after, out=rows)
+                np.matmul(np.array(turn).T, self.sides[1], out=rows)
 
             return fill
 

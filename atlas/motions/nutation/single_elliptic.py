@@ -22,13 +22,11 @@ class SingleElliptic(SingleMotion):
 
     exact: EllipticMotion
 
-    def __init__(self, exact: EllipticMotion) -> None:
-        super().__init__(exact)
-
     @cached_property
-    def after(self) -> FloatArray:
-        """The turn about the body's axis at t = 0, after its axes have changed their places."""
-        return np.asarray(super().after @ np.eye(3)[list(self.exact.places)])
+    def sides(self) -> tuple[FloatArray, FloatArray]:
+        """Constant factors, (3, 3) each, left and right of the matrix of (alpha, beta), of axes in their own order."""
+        (left, right), axes = super().sides, np.eye(3)[list(self.exact.places)]
+        return axes.T @ left, np.asarray(right @ axes)
 
     @cached_property
     def _rates(self) -> FloatArray:
