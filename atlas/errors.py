@@ -11,6 +11,11 @@ MAX_LISTED_NAMES = 30
 class AtlasError(ValueError):
     """An input for which there is no answer; the command line prints the sentence and ends with status 2."""
 
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """Sentences of the message, one a line of the command line."""
+        return (str(self),)
+
 
 class DomainError(AtlasError):
     """A physical argument outside the domain of the formula."""

@@ -73,6 +73,16 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
     return exact, None if angle else value
 
 
+def in_unit(number: Fraction, unit: str, wanted: str) -> float:
+    """Return a number of units in a unit wanted. Raises AtlasError for a unit of another quantity."""
+    (factor, powers), (size, right) = _parsed(unit), _parsed(wanted)
+    value = number * factor / size
+    angles = {name: powers.pop(name, 0) - right.pop(name, 0) for name in ANGLES}
+    if powers != right:
+        raise AtlasError(f"the unit is {wanted or 'none'}, or what can be made of it, not {unit.strip()!r}.")
+    return math.prod((ANGLES[name] ** power for name, power in angles.items() if power), start=float(value))
+
+
 def heading(cell: str) -> tuple[str, str]:
     """Return name and unit of a column, t and s of t [s] or t (s); the unit is empty where there is none."""
     name, _, unit = cell.replace("(", "[").partition("[")

@@ -8,6 +8,7 @@ import msgspec
 
 from atlas.book.blocks import Block, kind_of
 from atlas.book.body_and_field import BodiesAndFields
+from atlas.book.inputs import Input
 from atlas.book.schema import Id, Slug, StrictStruct, TwoNumbers
 
 
@@ -73,7 +74,8 @@ class Report(StrictStruct, frozen=True):
     this one: the contents lead to them, and so do citations of names that only they have.
     ``gallery`` names recipes, ``*`` for all, which the pages show in pictures on ``gallery.html``.
     ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is a
-    style sheet of Matplotlib for the figures, a name or a file beside this one. Without
+    style sheet of Matplotlib for the figures, a name or a file beside this one. ``inputs`` are those that a call may
+    set; they are filled in wherever ``<$ NAME $>`` stands. Without
     ``front_matter``, as in a report of one or two pages that does not ask for it, the PDF has no cover, contents and
     lists: its title stands above the text, whose heads have no
     numbers, and a single page has no head of its own.
@@ -93,6 +95,7 @@ class Report(StrictStruct, frozen=True):
     bibliography: str = ""
     parameters: BodiesAndFields = BodiesAndFields()
     index: Index = Index()
+    inputs: dict[str, Input] = msgspec.field(default_factory=dict)
     source: Source = Source()
 
     def place(self, page: Page, block: int | None = None) -> str:

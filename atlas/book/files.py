@@ -56,9 +56,14 @@ def head(path: Path) -> dict[str, Any]:
     """Return the keys above the pages of a report. Raises AtlasError for a file that is no TOML."""
     text = text_of(path)
     try:
-        return toml.loads(text.split(f"\n{RULE}")[0].removeprefix(RULE) if path.suffix == ".md" else text)
+        return toml.loads(head_of(text) if path.suffix == ".md" else text)
     except ValueError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
+
+
+def head_of(text: str) -> str:
+    """Return the head of a report in Markdown."""
+    return text.partition(f"\n{RULE}")[0].removeprefix(RULE)
 
 
 def related_to(file: Path) -> list[str]:

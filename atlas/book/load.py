@@ -1,7 +1,7 @@
 """Reading a report file: text to records, and every mistake in it to one sentence with place and remedy."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from operator import or_
 from pathlib import Path
@@ -16,24 +16,37 @@ from atlas.book.blocks.table import Listing, Recorded, Table
 from atlas.book.definition import Report, Source
 from atlas.book.files import beside, names, text_of
 from atlas.book.gallery import chosen
+from atlas.book.inputs import declared, evaluated, filled
 from atlas.book.markdown import LineError, Piece, read
 from atlas.book.schema import SchemaError, convert
 from atlas.errors import AtlasError, unknown
 from atlas.pictures.style import is_known
 
 
-def load(path: Path) -> Report:
-    """Read a report file. Raises AtlasError, in one sentence, for whatever is wrong with it."""
-    text, pieces = text_of(path), dict[tuple[int, ...], Piece]()
+def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
+    """Read a report file, with the values of its inputs, else their defaults.
+
+    Raises
+    ------
+    AtlasError
+        In one sentence, for any mistake in the file; for inputs in a line each.
+    """
+    text, pieces, markdown = text_of(path), dict[tuple[int, ...], Piece](), path.suffix == ".md"
+    has_inputs = "[inputs" in text and bool(declared(path))
+    values = evaluated(path, {}) if has_inputs and values is None else values
+    head, lines = dict[str, Any](), list[int]()
     try:
-        raw = _values(text, pieces, markdown=path.suffix == ".md")
-        source = Source(path.name, {key: piece.line for key, piece in pieces.items()})
+        if has_inputs:
+            head, text, lines = filled(text, values or {}, markdown=markdown)
+        raw = (_values(text, pieces, markdown=markdown) if markdown or not head else {}) | head
+        source = Source(path.name, {key: _in_file(piece.line, lines) for key, piece in pieces.items()})
         report = replace(convert(raw, Report), source=source)
         return _filled(_consistent(report, path.parent), path.absolute().parent)
     except LineError as error:
-        raise AtlasError(f"{path}, line {error.line}: {error}") from error
+        raise AtlasError(f"{path}, line {_in_file(error.line, lines)}: {error}") from error
     except SchemaError as error:
-        raise AtlasError(f"{path}{_line(text, pieces, error)}: {str(error).removesuffix('.')}.") from error
+        line = _in_file(_line(text, pieces, error), lines)
+        raise AtlasError(f"{path}{f', line {line}' if line else ''}: {str(error).removesuffix('.')}.") from error
     except AtlasError as error:
         raise AtlasError(f"{path}: {error}") from error
 
@@ -121,11 +134,18 @@ def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key:
         names |= {name} if name else set()
 
 
-def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> str:
-    """Give the line of a mistake: of its key, if that stands once in its block or in the file, else of its block."""
+def _in_file(line: int, lines: Sequence[int]) -> int:
+    """Return the line of the file from which a line of a filled template came."""
+    return lines[min(line, len(lines)) - 1] if lines and line else line
+
+
+def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> int:
+    """Return the line of a mistake: of its key, if that stands once in its block or in the file, else of its block.
+
+    0 where there is none.
+    """
     piece = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
     key, lines, start = re.escape(error.key), piece.lines if piece else text.split("\n"), piece.line if piece else 0
     pattern = re.compile(rf"\s*(?:\[[^\]]*\b{key}\b|{key}\s*=)|.*[{{,]\s*{key}\s*=")
     matches = [number for number, line in enumerate(lines, start + 1) if pattern.match(line)] if key else []
-    line = matches[0] if len(matches) == 1 else start
-    return f", line {line}" if line else ""
+    return matches[0] if len(matches) == 1 else start

@@ -153,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except click.ClickException as error:
         status = complain(error.format_message(), error.exit_code)
     except AtlasError as error:
-        status = complain(str(error), 2)
+        status = max(complain(sentence, 2) for sentence in error.sentences)
     except BrokenPipeError:
         status = _reader_gone()
     except OSError as error:

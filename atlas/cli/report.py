@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from atlas.cli.options import examples, jobs_option, out_option, style_option
-from atlas.cli.present import Printout, bar, explained, show
-from atlas.cli.words import Command
+from atlas.cli.options import examples, jobs_option, out_option, pair, style_option
+from atlas.cli.present import Printout, bar, dump, explained, show
+from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
 
@@ -17,19 +17,46 @@ if TYPE_CHECKING:
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 
 
+class ReportCommand(Command):
+    """A command whose help goes on with the inputs of the reports that are named beside --help."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Note the words that may be reports: --help is obeyed before they are read."""
+        ctx.obj = Words(args).loose
+        return super().parse_args(ctx, args)
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the inputs of each report, and the options."""
+        from atlas.book.files import find
+        from atlas.book.inputs import declared
+
+        for name in ctx.obj:
+            rows = [
+                (key if one.default is None else f"{key}={one.default}", ", ".join(filter(None, (one.takes, one.help))))
+                for key, one in declared(find(name)).items()
+            ]
+            with formatter.section(f"Inputs of {name}, after --set, with their defaults"):
+                formatter.write_dl(rows or [("none", "")])
+        super().format_options(ctx, formatter)
+
+
 @click.command(
     "report",
-    cls=Command,
+    cls=ReportCommand,
     epilog=examples(
         "atlas report",
         "atlas report short_solenoid --explain",
         "atlas report --format html",
         "atlas report my_paper.md --out paper",
+        "atlas report my_paper.md --set ratio=0.7 height=1.2um",
+        "atlas report my_paper.md --help",
         "atlas report atlas trial guide",
         "atlas report my_page.md --format single pdf",
     ),
 )
 @click.argument("names", nargs=-1, metavar="[NAME|FILE.md|FILE.toml]...")
+@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE [...]", help="Inputs that the report declares.")
+@click.option("--inputs", "listed", type=click.Choice(["json"]), help="List the inputs; nothing is built.")
 @out_option("build/report")
 @click.option(
     "--format",
@@ -45,7 +72,14 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|F
     "--explain", is_flag=True, help="Say for each figure why it was drawn or taken from the cache, and its cost."
 )
 def command(
-    names: tuple[str, ...], out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool
+    names: tuple[str, ...],
+    settings: tuple[str, ...],
+    listed: str | None,
+    out: Path,
+    formats: tuple[str, ...],
+    style: str | None,
+    jobs: int | None,
+    explain: bool,
 ) -> int:
     """Build reports: of each HTML pages that open from disk, and a PDF to print.
 
@@ -53,15 +87,22 @@ def command(
     depends on something that has changed is built. A figure that fails leaves a framed note in its place, and then the
     exit status is 1. Beside the PDF, NAME.costs.json has the cost of each figure, in processor time.
 
+    The inputs that a report declares are set by --set; its folder then bears a digest of their values.
+
     Your own files in the folder of the pages stay. Beside a page or PDF that you edited the new one is written, as
     NAME.new.html, and then the exit status is 2.
     """
     from atlas.book.building.report import FORMATS, build_report
+    from atlas.book.files import find
+    from atlas.book.inputs import records
 
-    status = 0
+    if listed:
+        dump({name: list(records(find(name))) for name in names})
+        return 0
+    inputs, status = dict(pair(text, "NAME=VALUE") for text in settings), 0
     for name in names or ("atlas",):
         with bar(Path(name).stem) as tell:
-            built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
+            built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs, inputs=inputs)
         for form, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
             if form in (formats or FORMATS):
                 click.echo(file)

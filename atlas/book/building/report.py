@@ -12,12 +12,16 @@ from collections.abc import Callable, Container, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from atlas.book.building.cache import Cache
 from atlas.book.building.formats import LANGUAGES, MAKERS, set_texts
 from atlas.book.building.publish import publish
 from atlas.book.files import find, related_to
+from atlas.book.inputs import evaluated, name_of
 from atlas.errors import AtlasError
 from atlas.files import digest_of
 from atlas.libraries import versions
@@ -68,30 +72,33 @@ def build_report(
     formats: Sequence[str] = FORMATS,
     style: str | None = None,
     jobs: int | None = None,
+    inputs: Mapping[str, str] = MappingProxyType({}),
 ) -> Built:
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
     `progress` is called with steps done, their number, name of the next step; `formats` may leave out the pages or
     the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all its files; `style`
     is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
-    them, one a core when it is not given. A figure that fails leaves a framed note in its place and an entry in
+    them, one a core when it is not given; `inputs` are texts by name, and where they differ from the defaults NAME ends
+    with a digest of their values. A figure that fails leaves a framed note in its place and an entry in
     `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something
     can't be written; then the last report stays.
     """
     file, formats = find(str(name)), [form for form in LANGUAGES if form in formats]
     cache = Cache(cache_folder(out))
-    sources = Sources(cache)
+    sources, values = Sources(cache), evaluated(file, inputs)
+    name = name_of(file, values)
     try:
-        key = key_of(file, sources, style) if cache.load(_noted(file.stem, out)) else None
-        unchanged = None if key is None else _unchanged(file.stem, out, formats, cache, key)
-        return unchanged or _build(file, out, formats, style, jobs, cache, sources, key, progress)
+        key = key_of(file, sources, style, values) if cache.load(_noted(name, out)) else None
+        unchanged = None if key is None else _unchanged(name, out, formats, cache, key)
+        return unchanged or _build(file, name, values, out, formats, style, jobs, cache, sources, key, progress)
     except OSError as error:
         place = f": {error.filename}" if error.filename else ""
         raise OSError(f"the build in {out} stopped: {error.strerror or error}{place}.") from error
 
 
-def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
-    """Return the digest of all that a report depends on: its file, code, recipes, templates, records and libraries."""
+def key_of(file: Path, sources: Sources, style: str | None = None, values: Mapping[str, Any] | None = None) -> str:
+    """Return the digest of all that a report depends on: file, inputs, code, recipes, templates, records, libraries."""
     from atlas import gl
 
     text = file.read_bytes()
@@ -105,7 +112,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     related = [find(name) for name in related_to(file)]
     content = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
     sources.save()
-    return digest(content, sources.named(style), sys.version_info[:2], versions(), gl.library())
+    return digest(content, values or {}, sources.named(style), sys.version_info[:2], versions(), gl.library())
 
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
@@ -126,6 +133,8 @@ def _noted(name: str, out: Path) -> str:
 
 def _build(
     file: Path,
+    name: str,
+    values: Mapping[str, Any],
     out: Path,
     formats: Sequence[str],
     style: str | None,
@@ -143,8 +152,9 @@ def _build(
 
     times = {"start": time.perf_counter()}
     sources.closure([file])  # as it is read now
-    report = load(file)
+    report = load(file, values)
     _check(report.name, file)
+    report = msgspec.structs.replace(report, name=name)
     check_style(style := style or report.style or None)
     cache.prune()
     drawings = pictures(report)
@@ -154,7 +164,7 @@ def _build(
     times["look"] = time.perf_counter()
     steps, jobs = len(builds) + 2, jobs or figures.cores()
     with ThreadPoolExecutor(1) as pool:
-        found_out = pool.submit(lambda: key or key_of(file, sources, style))
+        found_out = pool.submit(lambda: key or key_of(file, sources, style, values))
         if DISTURBED:  # by Matplotlib, which parses its style sheets
             found_out.result()
         figures.draw(list(builds), cache, jobs, lambda done, _, what: progress(done, steps, what))

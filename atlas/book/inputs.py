@@ -1,0 +1,196 @@
+"""Inputs of a report: declared in the table [inputs] of its head, given as text, read by their kinds."""
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from fractions import Fraction
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Literal
+
+from atlas.book import files, toml
+from atlas.book.expansion import ExpansionError, expanded
+from atlas.book.schema import SchemaError, StrictStruct, TwoNumbers, convert
+from atlas.errors import AtlasError, unknown
+from atlas.measured import in_unit, split
+
+TRUTH = {"true": True, "false": False}
+"""Texts of an input that is true or false."""
+
+
+class InputsError(AtlasError):
+    """All faults of the inputs of a report, a sentence each."""
+
+    def __init__(self, sentences: Iterable[str]) -> None:
+        super().__init__("\n".join(sentences))
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """Sentences of the message, one a line of the command line."""
+        return tuple(str(self).split("\n"))
+
+
+class Input(StrictStruct, frozen=True):
+    """An input: its kind, unit, range or choices, default (required without one), and a line of help."""
+
+    kind: Literal["number", "integer", "numbers", "text", "choice", "truth"]
+    help: str = ""
+    unit: str = ""
+    range: TwoNumbers | None = None
+    choices: tuple[str, ...] = ()
+    count: int | None = None
+    default: Any = None
+
+    @property
+    def takes(self) -> str:
+        """Kind, unit, range and choices in words."""
+        parts = [self.kind if self.count is None else f"{self.count} numbers"]
+        parts += [f"in {self.unit}"] * bool(self.unit)
+        parts += [f"from {self.range[0]:g} to {self.range[1]:g}"] if self.range else []
+        parts += [f"one of {', '.join(self.choices)}"] * bool(self.choices)
+        return ", ".join(parts)
+
+
+def declared(path: Path) -> dict[str, Input]:
+    """Return the inputs of a report by name, none where its head declares none.
+
+    Raises
+    ------
+    AtlasError
+        For a head that is no TOML, and for a declaration that is none.
+    """
+    tables = files.head(path).get("inputs", {})
+    try:
+        inputs = convert(tables, dict[str, Input], "inputs")
+    except SchemaError as error:
+        raise AtlasError(f"{path}, line {line_of(path, error.key)}: {str(error).removesuffix('.')}.") from error
+    for name in inputs:
+        if not name.isidentifier() or name in {"true", "false", "none", "loop", "self", "range"}:
+            raise AtlasError(
+                f"{path}, line {line_of(path, name)}: the input {name!r} must be a word of letters, digits and _ that "
+                "templates do not use themselves."
+            )
+    return inputs
+
+
+def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
+    """Return the value of each input of a report: of its text among those given, else of its default.
+
+    Raises
+    ------
+    AtlasError
+        For all unknown names, missing inputs, and wrong kinds, units and ranges at once, each in a line.
+    """
+    inputs, values = declared(path), dict[str, Any]()
+    faults = [(name, str(unknown("input", name, inputs))) for name in given if name not in inputs]
+    for name, declaration in inputs.items():
+        default = text_of(declaration.default) if declaration.default is not None else None
+        text = given.get(name, default)
+        if text is None:
+            faults.append((name, f"it is required; give it by --set {name}=VALUE, {declaration.takes}."))
+            continue
+        try:
+            values[name] = read(declaration, text)
+        except AtlasError as fault:
+            faults.append((name, f"{text!r} {fault}" if str(fault).startswith("is") else f"{text!r}: {fault}"))
+    if faults:
+        raise InputsError(f"{path}, line {line_of(path, name)}: input {name}: {says}" for name, says in faults)
+    return values
+
+
+def read(declaration: Input, text: str) -> Any:
+    """Return the value of a text by the kind of an input. Raises AtlasError for a text that is none."""
+    if declaration.kind == "text":
+        if not text.isprintable():
+            raise AtlasError("is no text of one line; leave out its control characters.")
+        return text
+    if declaration.kind in {"truth", "choice"}:
+        choices = declaration.choices or tuple(TRUTH)
+        if text not in choices:
+            raise unknown("choice", text, choices)
+        return text if declaration.choices else TRUTH[text]
+    if declaration.kind == "numbers":
+        words = re.split(r"[,\s]+", text.strip(" ()[]"))
+        if declaration.count not in {None, len(words)}:
+            raise AtlasError(f"is {len(words)} numbers; write {declaration.count}, as 1,2,3.")
+        return [number(declaration, word) for word in words]
+    value = number(declaration, text)
+    if declaration.kind == "integer":
+        if not value.is_integer():
+            raise AtlasError("is no integer; write it without a fraction.")
+        return int(value)
+    return value
+
+
+def number(declaration: Input, text: str) -> float:
+    """Return a number in the unit of an input. Raises AtlasError for another text, unit, or one out of range."""
+    amount, unit = split(text) or (text, declaration.unit)
+    try:
+        size = Fraction(amount)
+        value = in_unit(size, unit, declaration.unit) if unit != declaration.unit else float(size)
+    except AtlasError:
+        raise
+    except (ValueError, ZeroDivisionError, OverflowError):
+        raise AtlasError("is no finite number; write 1.5, 3/2 or 1e-3, and a unit behind it.") from None
+    if not math.isfinite(value):
+        raise AtlasError("is beyond the largest float; write a smaller number.")
+    if declaration.range and not declaration.range[0] <= value <= declaration.range[1]:
+        low, high = declaration.range
+        raise AtlasError(f"is out of range; write a number from {low:g} to {high:g} {declaration.unit}".rstrip() + ".")
+    return value
+
+
+def text_of(value: Any) -> str:
+    """Return a default as the text that would be typed for it."""
+    if isinstance(value, list):
+        return ",".join(map(text_of, value))
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def line_of(path: Path, name: str) -> int:
+    """Return the line on which a head declares an input, that of [inputs] for an unknown one; from 1."""
+    lines = files.text_of(path).split("\n")
+    patterns = (rf"\s*(\[inputs\.{re.escape(name)}\]|{re.escape(name)}\s*=)", r"\s*\[?inputs\b")
+    found = (k for pattern in patterns for k, line in enumerate(lines, 1) if re.match(pattern, line))
+    return next(found, 1)
+
+
+def digest(values: Mapping[str, Any]) -> str:
+    """Return eight characters that stand for the values of inputs."""
+    return sha256("".join(toml.lines(dict(sorted(values.items())))).encode()).hexdigest()[:8]
+
+
+def name_of(path: Path, values: Mapping[str, Any]) -> str:
+    """Return the name of the report that these inputs make: with a digest where they are not the defaults."""
+    inputs = declared(path)
+    defaults = {name: read(one, text_of(one.default)) for name, one in inputs.items() if one.default is not None}
+    return path.stem if dict(values) == defaults else f"{path.stem}-{digest(values)}"
+
+
+def filled(text: str, values: Mapping[str, Any], *, markdown: bool) -> tuple[dict[str, Any], str, list[int]]:
+    """Return the head of a report and its text, the inputs filled in, and for each line its line in the file.
+
+    Raises
+    ------
+    LineError
+        For a mistake in a template, with its line in the file.
+    """
+    from atlas.book.markdown import LineError
+
+    head = toml.loads(files.head_of(text) if markdown else text)
+    inputs = head.pop("inputs")
+    end = text.index(f"\n{files.RULE}", 1) + 1 if markdown else len(text)
+    above, body = text[:end], text[end:]
+    start = above.count("\n")
+    try:
+        head, body, lines = expanded(values, head, body)
+    except ExpansionError as error:
+        line = start + error.line if error.line else text[: max(text.find(error.text), 0)].count("\n") + 1
+        raise LineError(line, f"{error}.") from error
+    return {**head, "inputs": inputs}, above + body, [*range(1, start + 1), *(start + line for line in lines)]
+
+
+def records(path: Path) -> Iterator[dict[str, Any]]:
+    """Yield name, kind, unit, range, choices, default and help of each input of a report."""
+    for name, one in declared(path).items():
+        yield {"name": name} | {key: getattr(one, key) for key in one.__struct_fields__}
