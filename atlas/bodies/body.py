@@ -10,7 +10,7 @@ from flint import fmpq
 
 from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import DENSITY, INERTIA, LENGTH, MASS
-from atlas.arithmetic.double_double import given
+from atlas.arithmetic.double_double import given, over
 from atlas.arithmetic.given import exact_number as given_number
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, matrix, numbers, plain
 from atlas.arithmetic.numbers import nearest
@@ -58,6 +58,11 @@ def moments(ratio: Any) -> tuple[Any, Any]:
     """Return `exact_moments` with each moment rounded once: floats or arrays."""
     I2, I3 = (float(x) if not np.ndim(x) else plain(x) for x in exact_moments(ratio))
     return I2, I3
+
+
+def excess(I2: Any, I3: Any) -> Any:
+    """Return I3 - I2 of moments, which may be exact numbers, rounded once: zero only if they are equal."""
+    return over(lambda I2, I3: I3 - I2, I2, I3)
 
 
 def kept_ratio(ratio: Any, I3: Any) -> Any:

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import common_shape, plain, vectors
 from atlas.bodies import formula_integrals as formulas
-from atlas.bodies.body import moments
+from atlas.bodies.body import exact_moments
 from atlas.errors import DomainError
 
 
@@ -43,6 +44,8 @@ def integrals(ratio: Any, Omega: Any, K: Any) -> Integrals:
 
 
 def shape_factors(ratio: Any) -> tuple[Any, Any, Any]:
-    """Return I, 1 - I and 2 - I of I = I3/I2, (33), the differences formed from the moments and so without loss."""
-    I2, I3 = moments(ratio)
-    return I3 / I2, (I2 - I3) / I2, 2 * ((I2 - I3 / 2) / I2)
+    """Return I, 1 - I and 2 - I of I = I3/I2, (33), each rounded once."""
+    I, one_less, two_less = over(
+        lambda I2, I3: (I3 / I2, (I2 - I3) / I2, (2 * I2 - I3) / I2), *exact_moments(ratio), degree=(0, 0, 0)
+    )
+    return I, one_less, two_less

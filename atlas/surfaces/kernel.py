@@ -12,7 +12,7 @@ from atlas.arithmetic.double_double import BLOCK, over
 from atlas.arithmetic.given import Given
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, kept, plain, vectors
 from atlas.arithmetic.numbers import rounded
-from atlas.bodies.body import exact_moments, kept_ratio
+from atlas.bodies.body import exact_moments, excess, kept_ratio
 from atlas.bodies.formula_domain import check_a2, check_a3, check_beta, check_D
 from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
 from atlas.display import Shown
@@ -115,9 +115,10 @@ class Quadric(Shown):
         One of "two-sheet hyperboloid" (I > 1), "cone" (I = 1), "one-sheet hyperboloid" (I < 1), "plane pair" (B3 = 0),
         "line" (B2 = 0) and "all space" (B = 0).
         """
-        excess = over(lambda I2, I3: I3 - I2, *self._inputs[:2])
-        B2, B3, excess = np.broadcast_arrays(*self._inputs[2:], excess)
-        names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, excess == 0, excess > 0], KINDS[:-1], KINDS[-1])
+        B2, B3, difference = np.broadcast_arrays(*self._inputs[2:], excess(*self._inputs[:2]))
+        names = np.select(
+            [(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, difference == 0, difference > 0], KINDS[:-1], KINDS[-1]
+        )
         return names if names.ndim else str(names)
 
     @kept

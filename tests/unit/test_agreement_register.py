@@ -56,6 +56,7 @@ UNTIED = {
     "SymmetricBody.exact": GIVEN,
     "ChargeMoments.exact": GIVEN,
     "body.exact_moments": GIVEN,
+    "body.excess": GIVEN,
     "Field.pair": "two components of Field.prime, which is tied",
     **{
         f"SymmetricBody.{shape}": "a moment of inertia from a textbook, not in the ledger"

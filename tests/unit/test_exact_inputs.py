@@ -16,6 +16,7 @@ from atlas import ChargeMoments, SymmetricBody, TopMotion
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import nearest, rational, workprec
 from atlas.bodies.certified_body import shape_moments
+from atlas.bodies.integrals import shape_factors
 from atlas.book import body_and_field as body_records
 from atlas.cli.app import atlas as command
 from atlas.errors import DomainError, NearlySymmetricWarning
@@ -153,6 +154,10 @@ def test_curve_and_surface_have_the_ratio_and_the_field_that_were_given(
         assert kernel.closed(3, 2).k == nearest(closing(*curve._constants, fmpq(3, 2)))
         assert (quadric.a2, quadric.a3) == (nearest(surface.a2), nearest(surface.a3))
         assert quadric.kind == surface.kind
+        assert atlas.FreeMotion(ratio, OMEGA).mode == ("long axis" if ratio < 1 else "short axis")
+        assert [Fraction(x) for x in shape_factors(ratio)] == [
+            Fraction(float(x)) for x in (ratio, 1 - ratio, 2 - ratio)
+        ]
         assert quadric.residual((0.1, 0.2, 0.3)) == nearest(surface.residual((0.1, 0.2, 0.3)))
 
 
@@ -174,3 +179,11 @@ def test_moments_of_charges_are_not_rounded() -> None:
     assert [*map(rational, top.arguments["inertia"])] == [*map(rational, body.exact)]
     heavy = TopMotion.heavy(body, 9.81, 0.3, (0.6, 0.8), OMEGA, mass=0.3)
     assert rational(heavy.arguments["inertia"][0]) == rational(body.exact[0]) + rational(0.3) ** 3
+
+
+def test_a_body_that_is_nearly_a_ball_has_its_pole() -> None:
+    """Only a ball moves at the pole omega2 = -B2, one motion as in arrays."""
+    for omega2 in (-1.0, np.array([-1.0, -1.0])):
+        assert np.all(np.equal(atlas.ElementaryMotion(1.0, FIELD, omega2, 0.5).omega3, 0.5))
+        with pytest.raises(DomainError, match="pole"):
+            atlas.ElementaryMotion(1 + Fraction(1, 10**20), FIELD, omega2, 0.5)

@@ -28,7 +28,7 @@ from atlas.arithmetic.numbers import direction, nearest, workprec
 from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.rotation_rows import Group
 from atlas.arithmetic.words import ZERO, exact, floats
-from atlas.bodies.body import exact_moments, kept_ratio, moments
+from atlas.bodies.body import exact_moments, excess, kept_ratio, moments
 from atlas.bodies.formula_domain import CASES, FREE_CASES, case_of, check_omega3
 from atlas.bodies.formula_integrals import NAMES
 from atlas.bodies.integrals import integrals, shape_factors
@@ -212,10 +212,11 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     @cached_property
     def _codes(self) -> NDArray[np.intp]:
         """Places of the cases in CASES; one more for a row that is no motion."""
-        I2, I3, B2, B3, w2, _ = np.broadcast_arrays(*self._inputs)
+        B2, B3, w2, *_ = np.broadcast_arrays(*self._inputs[2:], *self._inputs[:2])
         flat, steady = B3 == 0, B2 == 0
         pole = (w2 == -B2) & (low_word(self._inputs[4]) == -low_word(self._inputs[2]))
-        conditions = [steady & flat, steady & (w2 == 0), ~steady & pole & flat, ~steady & pole & (I2 == I3)]
+        is_ball = np.equal(excess(*self._inputs[:2]), 0)
+        conditions = [steady & flat, steady & (w2 == 0), ~steady & pole & flat, ~steady & pole & is_ball]
         return np.select([*conditions, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
 
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
@@ -475,8 +476,9 @@ class FreeMotion(DoubleTurn[Free]):
     @kept
     def mode(self) -> NameOrArray:
         """Axis that the momentum circles: "long axis" (I3 < I2), "short axis" (I3 > I2), "ball" or "at rest"."""
-        I2, I3, *omega = np.broadcast_arrays(*self._inputs)
-        names = np.select([~np.any(omega, axis=0), I3 == I2, I3 < I2], ["at rest", "ball", "long axis"], "short axis")
+        difference, *omega = np.broadcast_arrays(excess(*self._inputs[:2]), *self._inputs[2:])
+        conditions = [~np.any(omega, axis=0), difference == 0, difference < 0]
+        names = np.select(conditions, ["at rest", "ball", "long axis"], "short axis")
         return names if self.shape else str(names)
 
     def angular_velocity(self, t: RealArrayLike) -> FloatArray:
