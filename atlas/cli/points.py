@@ -151,21 +151,17 @@ def columns_of(path: Path) -> dict[str, list[float]]:
     return measured_columns(path, OF_POINTS, {})[0]
 
 
-def measured_columns(
-    path: Path, options: Mapping[str, str], plain: Mapping[str, tuple[str, ...]]
-) -> tuple[dict[str, list[float]], set[str]]:
-    """Return the columns of a CSV file, named by its first line, and the units there, as in omega2 [Hz].
-
-    A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
-    taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
-    """
+def _cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Return the cells of the heading of a CSV file, and of each row, with the number of its line."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             texts = lines_of(file, str(path))
-            top = next(texts, "")
+            skipped = 0
+            while (top := next(texts, "")).startswith("#"):  # the conventions above a table of ours
+                skipped += 1
             separator = next((s for s in (",", ";", "\t") if s in top), ",")
             reader = csv.reader(chain([top], texts), delimiter=separator)
-            rows = ((reader.line_num, line) for line in reader if line)
+            rows = ((reader.line_num + skipped, line) for line in reader if line)
             (_, first), *lines = [*islice(rows, MAX_ROWS + 2)] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
@@ -175,6 +171,18 @@ def measured_columns(
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
     if len(lines) > MAX_ROWS:
         raise click.UsageError(f"{path} has more than {MAX_ROWS} rows.")
+    return first, lines
+
+
+def measured_columns(
+    path: Path, options: Mapping[str, str], plain: Mapping[str, tuple[str, ...]]
+) -> tuple[dict[str, list[float]], set[str]]:
+    """Return the columns of a CSV file, named by its first line after those with #, and the units there.
+
+    A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
+    taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
+    """
+    first, lines = _cells(path)
     names, units = zip(*map(heading, first), strict=True) if first else ((), ())
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")

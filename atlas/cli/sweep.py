@@ -2,10 +2,10 @@
 
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import click
 
@@ -94,66 +94,87 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
     )
 
 
-def swept(
-    family: str | None,
-    settings: tuple[str, ...],
-    listing: Path | None,
-    quantities: tuple[str, ...],
-    toml: Path | None,
-    out: str | None,
-    digits: int | None,
-    rows: int | None,
-    jobs: int | None,
-    **options: Any,
-) -> None:
-    """Compute quantities of a family over parameters, and write the table."""
-    from atlas.sweeps.run import sweep
+class Request(NamedTuple):
+    """A sweep as it was asked for, with the values of its parameters as they were typed.
 
-    if toml is None:
-        if family is None:
+    `axes` are the principal axes of a tensor in those given, where they differ, else "".
+    """
+
+    family: str
+    quantities: tuple[str, ...]
+    parameters: Mapping[str, Any]
+    listing: Path | None
+    out: str | None
+    digits: int | None
+    rows: int | None
+    axes: str = ""
+
+    @classmethod
+    def of_options(cls, options: dict[str, Any]) -> "Request":
+        """Return the sweep of a command line. Raises click.UsageError for parameters that do not fit its family."""
+        if options["family"] is None:
             raise click.UsageError(f"name the family to sweep: {NAMES}.")
-        fixed, pairs = _body(options), [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in settings]
-        names = [*fixed, *(name.strip() for name, _ in pairs)]
+        settings = [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in options["settings"]]
+        fixed, axes = _body(options)
+        names = [*fixed, *(name.strip() for name, _ in settings)]
         _once(names, "--set" + " and the options of body and field" * bool(fixed))
-        family = _meant(family, {*names})
-        known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
-        if "I1" in fixed and "I1" not in known:
-            components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
-            narrow = next((name for name in components if options[name] is not None), "")
-            raise click.UsageError(
-                (f"--{narrow} takes 2 numbers, {components[narrow]}, " if narrow else "a tensor has no place ")
-                + f"in the family {family}; a body with three moments of inertia is the family asymmetric, with "
-                "--set I1=0.8 and so on, or motion, which finds it."
-            )
-        parameters = fixed | {name.strip(): _values(family, name.strip(), values) for name, values in pairs}
-    elif family or settings or listing or quantities or digits or rows or body.body_parameters(options):
-        raise click.UsageError("with --file only --out and --jobs can be given.")
-    else:
-        recipe = read(toml)
-        family, quantities, digits, rows = recipe.family, (*recipe.quantities,), recipe.digits, recipe.rows
-        listing, out = Path(recipe.listing) if recipe.listing else None, out or recipe.out
-        parameters = {name: _values(family, name, value) for name, value in recipe.parameters.items()}
-    typed_options = [x.strip() for text in settings for x in re.split("[,:]", text.partition("=")[2])]
+        family = _meant(options["family"], {*names})
+        _check_moments(family, fixed, options)
+        parameters = fixed | {name.strip(): values for name, values in settings}
+        more = (options[name] for name in ("listing", "out", "digits", "rows"))
+        return cls(family, options["quantities"], parameters, *more, axes)
+
+    @classmethod
+    def of_file(cls, options: dict[str, Any]) -> "Request":
+        """Return the sweep of a TOML file. Raises click.UsageError for options that the file has to give."""
+        if any(options[name] for name in ("family", "settings", "listing", "quantities", "digits", "rows")) or (
+            body.body_parameters(options)
+        ):
+            raise click.UsageError("with --file only --out and --jobs can be given.")
+        recipe = read(options["toml"])
+        listing = Path(recipe.listing) if recipe.listing else None
+        out = options["out"] or recipe.out
+        return cls(recipe.family, (*recipe.quantities,), recipe.parameters, listing, out, recipe.digits, recipe.rows)
+
+
+def _check_moments(family: str, fixed: Mapping[str, Any], options: Mapping[str, Any]) -> None:
+    """Raise click.UsageError for three moments of inertia in a family that has two."""
+    known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
+    if "I1" in fixed and "I1" not in known:
+        components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
+        option = next((name for name in components if options[name] is not None), "")
+        raise click.UsageError(
+            (f"--{option} takes 2 numbers, {components[option]}, " if option else "a tensor has no place ")
+            + f"in the family {family}; a body with three moments of inertia is the family asymmetric, with "
+            "--set I1=0.8 and so on, or motion, which finds it."
+        )
+
+
+def swept(**options: Any) -> None:
+    """Compute quantities of a family over parameters, and write the table."""
+    from atlas.sweeps.plan import Plan
+    from atlas.sweeps.run import write_plan
+
+    request = Request.of_options(options) if options["toml"] is None else Request.of_file(options)
+    family, listing = request.family, request.listing
+    parameters = {name: _values(family, name, values) for name, values in request.parameters.items()}
     columns, units = _listed(family, listing) if listing else ({}, set())
-    in_seconds = any(map(split, typed_options)) or bool(units)
     _once([*columns, *parameters], f"{listing} and elsewhere")
-    reached = columns | parameters
-    start = [max((abs(float(x)) for x in _several(reached.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)]
+    inputs = columns | parameters
+    start = [max((abs(float(x)) for x in _several(inputs.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)]
     body.check_speeds(options, start if any(start) else None)
-    if out is None:
+    if request.out is None:
         raise click.UsageError("--out is missing: name the file that the table goes to.")
+    typed_values = [x.strip() for text in options["settings"] for x in re.split("[,:]", text.partition("=")[2])]
+    has_units = bool(units) or any(map(split, typed_values))
+    time = "s" if has_units else body.units_of(options).get("time", "time")
+    plan = Plan.of(
+        family, inputs, request.quantities,
+        listed=listing is not None, digits=request.digits, time=time, axes=request.axes,
+    )  # fmt: skip
     with bar("sweep", every=60) as tell:
-        path = sweep(
-            family,
-            reached,
-            quantities,
-            out,
-            listed=listing is not None,
-            digits=digits,
-            rows=rows,
-            jobs=jobs,
-            progress=lambda done, total: tell(done, total, ""),
-            time="s" if in_seconds else body.units_of(options).get("time", "time"),
+        path = write_plan(
+            plan, request.out, request.rows, jobs=options["jobs"], progress=lambda done, total: tell(done, total, "")
         )
     click.echo(str(path))
 
@@ -213,28 +234,32 @@ def _plain(x: float | Fraction) -> float | Fraction:
     return x if isinstance(x, Fraction) else float(x)
 
 
-def _body(options: dict[str, Any]) -> dict[str, float | Fraction]:
-    """Return body, field and start of the options, by the names of a table's columns; a tensor along principal axes."""
-    three, found = "tensor" in options, dict[str, float | Fraction]()
-    if three and body.given_tensor(options) is not None:
+def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
+    """Return body, field and start of the options, by the names of a table's columns.
+
+    Those of a tensor are along its principal axes, which come second, as text, where they are not the axes given.
+    """
+    has_three, values = "tensor" in options, dict[str, float | Fraction]()
+    if has_three and body.given_tensor(options) is not None:
         principal = along_principal_axes(motion_in_given_axes(options))
         click.echo(principal.note, err=True, nl=bool(principal.note))
         names = {p.name: p.names for p in principal.family.parameters}
-        numbers = ((names[name], values) for name, values in principal.values.items())
-        return {name: x for several, values in numbers for name, x in zip(several, values, strict=True)}
+        for name, components in principal.values.items():
+            values |= zip(names[name], components, strict=True)
+        return values, principal.axes if principal.note else ""
     if given(options, body.BODY):
-        if three:
-            found |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
+        if has_three:
+            values |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
         else:
             chosen = body.chosen_body(options)
-            found["ratio"] = float(getattr(chosen, "ratio", chosen))
+            values["ratio"] = float(getattr(chosen, "ratio", chosen))
     weighed = ("mass", "density") if options["shape"] is None else ()
     if given(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
-        found |= zip(("B1", "B2", "B3")[not three :], map(_plain, body.chosen_field(options)), strict=True)
+        values |= zip(("B1", "B2", "B3")[not has_three :], map(_plain, body.chosen_field(options)), strict=True)
     start = body.start_of(options, needed=False)
     if start is not None:
-        found |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)
-    return found | {name: float(x) for name, x in given(options, ["omega2"]).items()}
+        values |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)
+    return values | {name: float(x) for name, x in given(options, ["omega2"]).items()}, ""
 
 
 def read(path: Path) -> Any:

@@ -9,12 +9,6 @@ import click
 from atlas.cli.options import Place
 from atlas.cli.typed import parts_of
 
-CONVENTIONS = (
-    "R takes the body to the laboratory, and so does the quaternion, whose scalar is qw",
-    "Omega, K and b are along the axes of the body, w and m along those of the laboratory, as these were given",
-)
-"""Conventions of the columns, as sentences."""
-
 out_option: Callable[[Any], Any] = click.option(
     "--out",
     type=Place(dir_okay=False, path_type=Path),
@@ -30,6 +24,7 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
     from atlas.files import write
     from atlas.notebook.frames import columns_at
     from atlas.sweeps.families import FAMILIES
+    from atlas.sweeps.plan import CONVENTIONS
     from atlas.sweeps.tables import PARTS, check_format
 
     check_format(out)

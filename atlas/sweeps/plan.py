@@ -2,7 +2,7 @@
 
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import prod
 from typing import Any
@@ -17,6 +17,15 @@ from atlas.sweeps.families import FAMILIES, MISSING
 
 Columns = dict[str, NDArray[Any]]
 
+CONVENTIONS = (
+    "R takes the body to the laboratory, and so does the quaternion, whose scalar is qw",
+    "Omega, K and b are along the axes of the body, w and m along those of the laboratory, as these were given",
+)
+"""Conventions of the columns of a motion, as sentences."""
+
+LAUNCH = ("B1", "B2", "B3", "omega1", "omega2", "omega3")
+"""Components of the field and of the angular velocity at t = 0."""
+
 MAX_ROWS = 10**11
 """Rows of a table: some 10 TB of them."""
 
@@ -28,7 +37,8 @@ class Plan:
     `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
     one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
     time in headings. `first` is the number in the whole table of the first row. `exact` has those of one value that no
-    float holds, as fractions: the quantities are of these.
+    float holds, as fractions: the quantities are of these. `axes` are the principal axes in those of the user, where
+    these differ: columns that depend on the axes then end in "_principal".
     """
 
     family: str
@@ -39,6 +49,7 @@ class Plan:
     time: str = TIME
     first: int = 0
     exact: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    axes: str = ""
 
     @classmethod
     def of(
@@ -50,6 +61,7 @@ class Plan:
         listed: bool = False,
         digits: int | None = None,
         time: str = TIME,
+        axes: str = "",
     ) -> "Plan":
         """Check the input. Raises AtlasError for unknown, missing, non-numeric or unequally long values."""
         if family not in FAMILIES:
@@ -72,7 +84,7 @@ class Plan:
         exact = {
             name: x.as_integer_ratio() for name, x in parameters.items() if isinstance(x, Fraction) and float(x) != x
         }
-        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time, exact=exact)
+        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time, exact=exact, axes=axes)
         if not 0 < plan.count <= MAX_ROWS:
             raise AtlasError(f"A table has from one row to {MAX_ROWS:.0e}, not {plan.count}.")
         return plan
@@ -85,7 +97,25 @@ class Plan:
 
     @property
     def names(self) -> list[str]:
-        """Names of the columns: parameters, quantities, and why one of these has no value, if one may have none."""
+        """Names of the columns as they are written."""
+        vectors = {*LAUNCH, *self._sampled} if self.axes else set()
+        return [f"{name}_principal" if name in vectors else name for name in self._names]
+
+    @property
+    def conventions(self) -> list[str]:
+        """Sentences on the frames of matrices and vectors, where the table has functions of time or turned axes."""
+        turned = f"Columns in _principal are along the principal axes of the body, {self.axes} in those given"
+        has_samples = "R11" in self._sampled and not self._sampled.isdisjoint(self._names)
+        return [*CONVENTIONS * has_samples, *[turned] * bool(self.axes)]
+
+    @property
+    def _sampled(self) -> set[str]:
+        """Names of the columns of functions of time."""
+        return {name for sampled in FAMILIES[self.family].family.sampled for name in sampled.columns}
+
+    @property
+    def _names(self) -> list[str]:
+        """Parameters, quantities, and why one of these has no value, if one may have none."""
         # an input that is also asked for, as omega3, stands once
         names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
         return names + [MISSING] * any(FAMILIES[self.family].quantities[name].missing for name in self.quantities)
@@ -94,7 +124,8 @@ class Plan:
     def headings(self) -> list[str]:
         """Names of the columns as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
         units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
-        return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
+        columns = zip(self.names, map(units.get, self._names), strict=True)
+        return [f"{name} [{unit}]" if unit else name for name, unit in columns]
 
     def list_of(self, start: int, stop: int) -> "Plan":
         """Return some rows of the table as a list, to be sent."""
@@ -102,7 +133,7 @@ class Plan:
         arrays = {
             name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
         }
-        return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start, self.exact)
+        return replace(self, parameters=arrays, listed=True, first=self.first + start)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
         """Return the table or some rows of it. An AtlasError names the first that it is in, and its parameters."""
@@ -141,7 +172,8 @@ class Plan:
             if self.digits is None
             else family.digits(inputs, self.quantities, self.digits, exact)
         )
-        return {name: quantities[name] if name in quantities else parameters[name] for name in self.names}
+        columns = (quantities[name] if name in quantities else parameters[name] for name in self._names)
+        return dict(zip(self.names, columns, strict=True))
 
     def _parameters(self, rows: NDArray[np.int64]) -> Columns:
         """Return the parameters of some rows."""

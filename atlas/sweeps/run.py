@@ -140,6 +140,18 @@ def sweep(
     plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, time=time)
     if out is None:
         return plan.rows()
+    return write_plan(plan, out, rows, executor, jobs, progress)
+
+
+def write_plan(
+    plan: Plan,
+    out: str | os.PathLike[str],
+    rows: int | None = None,
+    executor: Any = None,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Path | str:
+    """Write the table of a plan in parts and return its place; the arguments are those of `sweep`."""
     table = Table(out, key(plan, rows))
     with table.held():
         try:

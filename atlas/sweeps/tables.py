@@ -75,8 +75,9 @@ def write(out: Path, plan: Plan, parts: Parts) -> Mapping[str, str]:
 
 
 def write_csv(out: Path, plan: Plan, parts: Parts) -> None:
-    """Write the heading and the rows."""
+    """Write the conventions as lines with #, the heading, and the rows."""
     with out.open("wb") as file:
+        file.writelines(f"# {sentence}\n".encode() for sentence in plan.conventions)
         file.write((",".join(plan.headings) + "\n").encode())
         for rows in parts:
             file.write(rows.read_bytes())

@@ -376,7 +376,28 @@ def test_a_tensor_is_the_same_body_for_every_command(tmp_path: Path, monkeypatch
     )
     status, out = run("sweep", "motion", *TENSOR.split(), "--quantity", "f1", "--out", "f.csv")
     assert status == 0, out
-    assert float(Path("f.csv").read_text().splitlines()[1].split(",")[-2]) == pytest.approx(motion.frequencies[0])
+    assert float(Path("f.csv").read_text().splitlines()[-1].split(",")[-2]) == pytest.approx(motion.frequencies[0])
+
+
+def test_columns_of_a_sweep_in_turned_axes_say_so(tmp_path: Path) -> None:
+    """R, Omega, the field and the start of a tensor are named for the principal axes that the head of the file has."""
+    words = "--set t=0,0.7 --quantity R Omega energy --out".split()
+    status, out = run("sweep", "motion", *TENSOR.split(), *words, str(tmp_path / "r.csv"))
+    assert status == 0, out
+    *head, heading, _, row = (tmp_path / "r.csv").read_text().splitlines()
+    values = dict(zip((name.split(" ")[0] for name in heading.split(",")), row.split(","), strict=True))
+    axes = np.array([[float(x) for x in axis.split(",")] for axis in re.findall(r"\((.+?)\)", head[-1])])
+    motion = atlas.motion([[2.0, 0.1, 0.05], [0.1, 1.5, 0.2], [0.05, 0.2, 1.0]], (0.3, 0.0, 1.0), (0.0, 0.0, 3.0))
+    R = np.array([[float(values[f"R{i}{j}_principal"]) for j in "123"] for i in "123"])
+    np.testing.assert_allclose(axes.T @ R @ axes, motion.rotation(0.7), atol=1e-8)
+    Omega, B = (np.array([float(values[f"{x}{i}_principal"]) for i in "123"]) for x in ("Omega", "B"))
+    np.testing.assert_allclose(axes.T @ Omega, motion.angular_velocity(0.7), atol=1e-8)
+    np.testing.assert_allclose(axes.T @ B, (0.3, 0.0, 1.0), atol=1e-8)
+    assert {"I1", "energy", "t"} <= values.keys()
+    status, out = run(
+        "sweep", "motion", *"--inertia 2 1.5 1 --field 0.3 0 1 --spin 3".split(), *words, str(tmp_path / "s.csv")
+    )
+    assert "_principal" not in (tmp_path / "s.csv").read_text()
 
 
 def test_an_unstable_start_in_any_field_is_that_of_every_command(
@@ -395,7 +416,7 @@ def test_an_unstable_start_in_any_field_is_that_of_every_command(
         slid = {key: float(x) for key, (x,) in parse_qs(numbers_of.lstrip("#")).items() if key != "subject"}
         assert FAMILIES[name].make(slid).rotation(60.0)[2, 2] == pytest.approx(R33, abs=1e-14)
         assert run("sweep", "motion", *body, *words, *"--set t=60 --quantity R33 --out x.csv".split())[0] == 0
-        assert float(Path("x.csv").read_text().splitlines()[1].split(",")[-1]) == pytest.approx(R33, abs=1e-14)
+        assert float(Path("x.csv").read_text().splitlines()[-1].split(",")[-1]) == pytest.approx(R33, abs=1e-14)
         with COMMANDS["asymmetric"].make_context("asymmetric", page_of([*body, *words])[1:]) as context:
             values = page_asked(REGISTER["asymmetric"], context.params).values
         assert atlas.AsymmetricMotion(**values).rotation(60.0)[2, 2] == pytest.approx(R33, abs=1e-14)

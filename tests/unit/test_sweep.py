@@ -95,10 +95,11 @@ def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) 
     given = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
     out = atlas.sweep("elementary", given, ["case", "period", "stability", "R11"], tmp_path / "t.csv", jobs=1)
     assert isinstance(out, Path)
-    heading = out.read_text().splitlines()[0]
+    *conventions, heading = out.read_text().splitlines()[:3]
+    assert all(line.startswith("# ") and "laboratory" in line for line in conventions)
     rates = "B2 [1/time],B3 [1/time],omega2 [1/time]"
     assert heading == f"ratio,{rates},case,period [time],stability [1/time^2],R11"
-    (tmp_path / "list.csv").write_text(f"ratio,{rates}\n1.5,1,2,0.3\n1.5,1,2,0.7\n")
+    (tmp_path / "list.csv").write_text(f"# two rows\nratio,{rates}\n1.5,1,2,0.3\n1.5,1,2,0.7\n")
     wanted = [word for name in ("case", "period", "stability", "R11") for word in ("--quantity", name)]
     places = "--list", tmp_path / "list.csv", "--out", tmp_path / "u.csv"
     words = ["sweep", "elementary", *places, *wanted, "--jobs", "1"]
@@ -205,7 +206,7 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
         sweep(tmp_path / f"t{suffix}", jobs=1)
     with np.load(tmp_path / "t.npz") as arrays:
         found = parquet.read_table(tmp_path / "t.parquet")
-        heading, *lines = (tmp_path / "t.csv").read_text().splitlines()
+        heading, *lines = (tmp_path / "t.csv").read_text().splitlines()[2:]
         columns = dict(zip(plain(heading), zip(*(line.split(",") for line in lines), strict=True), strict=True))
         for name, values in table.items():
             assert np.array_equal(arrays[name], values)
