@@ -24,6 +24,7 @@ class Finding:
     script          plain SymPy that shows it, or the line that says why there is none
     said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed
     not_read        clauses of its assumptions that the trial does not hold against its model
+    outside         a false domain beside that of the entry, and the reason for which nothing is proved there
     """
 
     verdict: str
@@ -40,6 +41,7 @@ class Finding:
     script: str = ""
     said: Mapping[str, str] = field(default_factory=dict)
     not_read: str = ""
+    outside: str = ""
 
 
 @dataclass(frozen=True)

@@ -130,6 +130,7 @@ def _details(verdict: Any, *, named: bool) -> str:
     words = [(name, plain(text)) for name, text in says.items()]
     words += [("also says", _reading(*pair)) for pair in verdict.said.items() if named]
     words += [("not read", f"of what is assumed: {plain(verdict.not_read)}")] if named and verdict.not_read else []
+    words += [("outside", plain(verdict.outside))] if named else []
     words += [("as printed", verdict.printed), ("counterexample", verdict.example), ("corrected", verdict.corrected)]
     words += [("note", plain(verdict.note))] if named else []
     lines = [f"  {name + ':':16}{text}" for name, text in words if text]

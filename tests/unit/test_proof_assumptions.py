@@ -103,3 +103,32 @@ def test_what_is_not_read_is_on_record() -> None:
         assert recorded.load()[name].not_read == "; ".join(left)
         assert set(left) <= {clause for words in entry.assumptions for clause, _ in formulas(words)}
     assert r"$1 < I \le 2$" not in recorded.load()["(55)"].not_read
+
+
+@pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if entry.outside])
+def test_nothing_is_proved_in_the_false_domain_beside_an_entry(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The false domain takes the place of an assumption, is read, and leaves the whole trial undecided."""
+    entry = EQUATIONS[name]
+    right, wrong = entry.outside
+    false = replace(entry, assumptions=tuple(clause.replace(right, wrong) for clause in entry.assumptions), outside=())
+    assert recorded.load()[name].outside == trial(name).outside != ""
+    monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: false})
+    assert trial(name).of_printed().decision == "undecided"
+
+
+def test_each_theorem_with_a_domain_has_a_false_domain_beside() -> None:
+    """But for domains that are not read, and those outside which the line is true."""
+    for name, entry in EQUATIONS.items():
+        clauses = [clause for words in entry.assumptions for clause, formula in formulas(words) if formula]
+        matter = [clause for clause in clauses if DOMAIN.search(clause) and (name, clause) not in TRUE_OUTSIDE]
+        if entry.kind == "theorem" and not entry.outside:
+            assert set(matter) <= {*trial(name).assumed.left}, name
+
+
+def test_a_false_domain_that_changes_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A domain that no assumption has, or in which the proof holds as well, is no false domain."""
+    for outside in (("$I > 7$", "$I < 7$"), ("$0<I<1$", "$0<I<1/2$"), ("$0<I<1$", "$I$ is small")):
+        other = replace(EQUATIONS["theorem-band"], outside=outside)
+        monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, "theorem-band": other})
+        with pytest.raises(ValueError, match="changes nothing"):
+            _ = trial("theorem-band").outside

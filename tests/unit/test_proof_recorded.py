@@ -66,7 +66,7 @@ def test_a_missing_record_is_empty_and_a_spoilt_one_is_an_error(tmp_path: Path) 
         recorded.load(spoilt)
 
 
-@pytest.mark.parametrize("field", ["tex", "says", "assumptions"])
+@pytest.mark.parametrize("field", ["tex", "says", "assumptions", "outside"])
 def test_a_verdict_goes_stale_with_all_that_its_entry_says(field: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its formula, its words and each of its assumptions are in the fingerprint."""
     before, entry = recorded.source("(72)"), recorded.equation("(72)")

@@ -36,6 +36,7 @@ class EntryView:
     false: int | None
     said: int | None
     not_read: int | None
+    outside: int | None
 
     @property
     def name(self) -> str:
@@ -88,6 +89,7 @@ def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
         false=words(f"“{finding.false}.”" if finding.false else ""),
         said=words("; ".join(_reading(*pair) for pair in finding.said.items())),
         not_read=words(finding.not_read),
+        outside=words(finding.outside),
     )
 
 

@@ -70,6 +70,7 @@ def _findings() -> dict[str, Finding]:
             scripts.get(name, ""),
             verdict.said,
             verdict.not_read,
+            verdict.outside,
         )
         for name, verdict in recorded.load().items()
     }

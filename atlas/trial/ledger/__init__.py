@@ -41,9 +41,11 @@ def _entries() -> Iterator[tuple[str, Equation]]:
             shared = ASSUMPTIONS | entries.pop("assumptions", {})
             for name, said in entries.items():
                 assumptions = tuple(_joined(shared.get(x, x)) for x in said.pop("assumptions", ()))
+                outside = tuple(said.pop("outside", ()))
                 kind = said.pop("kind", _KINDS.get(name.partition("-")[0], "derivation step"))
                 texts = {key: _joined(text) for key, text in said.items()}
-                yield stem, Equation(name=name, section=section, kind=kind, assumptions=assumptions, **texts)
+                fixed = {"name": name, "section": section, "kind": kind}
+                yield stem, Equation(**fixed, assumptions=assumptions, outside=outside, **texts)
 
 
 def _joined(text: str) -> str:

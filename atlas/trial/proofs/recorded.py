@@ -49,7 +49,14 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 def source(name: str) -> str:
     """Return the fingerprint of the proof of an entry of the ledger."""
     entry = equation(name)
-    texts = (_fingerprint(topic(name), MACHINERY), entry.tex, entry.says, entry.quote, *entry.assumptions)
+    texts = (
+        _fingerprint(topic(name), MACHINERY),
+        entry.tex,
+        entry.says,
+        entry.quote,
+        *entry.assumptions,
+        *entry.outside,
+    )
     return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:16]
 
 

@@ -89,6 +89,7 @@ def try_one(name: str) -> Verdict:
         printed=_lines(case.parts),
         said=case.said,
         not_read="; ".join(_unread(case)),
+        outside=case.outside,
         grade=case.grade,
         slip=case.slip,
         corrected=_lines(case.corrected_parts),

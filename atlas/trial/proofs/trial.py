@@ -161,8 +161,27 @@ class Trial:
     @property
     def assumed(self) -> Read:
         """The assumptions, held against the model of the true form."""
+        return self._held(EQUATIONS[self.name].assumptions)
+
+    def _held(self, assumptions: tuple[str, ...]) -> Read:
         case = self.true_form or self
-        return _assumed(EQUATIONS[self.name].assumptions, tuple(case.signs.items()), case.model, self.apart)
+        return _assumed(assumptions, tuple(case.signs.items()), case.model, self.apart)
+
+    @property
+    def outside(self) -> str:
+        """False domain beside the entry, with the reason for which nothing is proved there; empty if there is none.
+
+        Raises ValueError if the false domain replaces no assumption, or the trial has no objection to it.
+        """
+        entry = EQUATIONS[self.name]
+        if not entry.outside:
+            return ""
+        right, wrong = entry.outside
+        false = tuple(clause.replace(right, wrong) for clause in entry.assumptions)
+        objection = self._unlike(self._held(false))
+        if false == entry.assumptions or not objection:
+            raise ValueError(f"{self.name}: the false domain {wrong} in the place of {right} changes nothing")
+        return f"{wrong} in the place of {right}: undecided ({objection.partition(': ')[0]})"
 
     @property
     def parts(self) -> tuple[Part, ...]:
@@ -217,23 +236,23 @@ class Trial:
         tried = [(place, r"\implies" if line is None else r"\iff") for place, line in self.arrows.items()]
         if tex.arrows(self.formula, self.signs) != tried:
             return "unreadable: its arrows are not those that are tried"
-        if self.assumed.broken:
-            return f"assumed, and not so in the model: {'; '.join(self.assumed.broken)}"
-        if singular := self._singular():
-            return f"assumed, and without a value there: {singular}"
+        if unlike := self._unlike(self.assumed):
+            return unlike
         for name in thin:
             if any(getattr(model.letters.get(name), "shape", ()) == (3, 1) for model in self.parts[0].cases):
                 return f"unreadable: {name} is a vector, and is not bold"
         return ""
 
-    def _singular(self) -> str:
-        """Return the first special case of the assumptions at which a side of the true line has no value."""
+    def _unlike(self, read: Read) -> str:
+        """Return the assumption that is false in the model, or leaves a side of the line no value; empty if none."""
+        if read.broken:
+            return f"assumed, and not so in the model: {'; '.join(read.broken)}"
         part = (self.true_form or self).parts[0]
-        for number, symbol, value in self.assumed.special:
+        for number, symbol, value in read.special:
             relations = understood(part.line, part.cases[number], part.defines, part.solves)[0]
             sides = (sympy.sympify(side) for each in relations for side in (*each.left, *each.right))
             if any(side.subs(symbol, value).has(sympy.nan, sympy.zoo) for side in sides):
-                return f"{symbol} = {value}"
+                return f"assumed, and without a value there: {symbol} = {value}"
         return ""
 
     def of_corrected(self) -> Outcome:

@@ -26,6 +26,7 @@ class Verdict:
     printed         the printed form in plain letters, as it was tried, read from its TeX
     said            the phrases of it, in TeX, that are not read, with the lines in their place; empty if assumed
     not_read        the clauses of its assumptions that are not held against the model
+    outside         a false domain beside that of the entry, and why nothing is proved there; empty if it has none
     corrected       the true form where the printed one is refuted, and its TeX; it has been proved if
                     `corrected_verdict` says so
     counterexample  values of the letters that break the printed form, and its two sides at these values
@@ -46,6 +47,7 @@ class Verdict:
     printed: str
     said: dict[str, str] = field(default_factory=dict)
     not_read: str = ""
+    outside: str = ""
     grade: Grade = ""
     slip: str = ""
     corrected: str = ""
