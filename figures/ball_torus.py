@@ -52,7 +52,7 @@ def scene(
         ball = BallMotion(1.0, larmor, momentum=(m2, m3))
         stop = count * 2 * np.pi / larmor
         letters = "abcdefgh"[len(panels) :]
-        names = rf"({letters[0]}) $\gamma/\alpha={tex(ratio)}$", rf"({letters[1]}) way of $\mathbf{{R}}_1$"
+        names = rf"({letters[0]}) $\gamma/\alpha={tex(ratio)}$", rf"({letters[1]}) path of $\mathbf{{R}}_1$"
         panels += pair(names, ball, larmor, stop, named=not panels)
     ratio_words = listed(
         [rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)]
@@ -60,7 +60,7 @@ def scene(
     return Scene(
         caption=(
             r"Left, $\alpha t$ runs the long way and $\gamma t$ the short way, dashed behind it "
-            r"where there are few turns; right, the way of its point $\mathbf{R}_1$. "
+            r"where there are few turns; right, the path of its point $\mathbf{R}_1$. "
             rf"Here $\gamma/\alpha$ is {ratio_words}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(
@@ -76,18 +76,18 @@ def scene(
 
 
 def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *, named: bool) -> list[Space]:
-    """Return the torus with its net and the line of the motion, and the ball with the way of R_1.
+    """Return the torus with its net and the line of the motion, and the ball with the path of R_1.
 
     The latter shows the field and k at t = 0, too; its start has a name or not.
     """
     resolution, is_bold = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, resolution, pieces=pieces)
-    way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, resolution, pieces=pieces)
+    path = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, resolution, pieces=pieces)
     layers: list[Layer] = [
         solids.sphere(O, 1.0, resolution, role="ball"),
-        Curve(way, "second_trace" if is_bold else "fine_trace"),
-        Points(way[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
+        Curve(path, "second_trace" if is_bold else "fine_trace"),
+        Points(path[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
         Arrow(E3, 1.5 * E3, "field", r"$\mathbf{B}$"),
     ]
     k = in_plane(*ball.k_hat)

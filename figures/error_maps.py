@@ -15,7 +15,7 @@ from atlas.pictures.captions import tex, tex_setting
 ROW = "a body"
 SEEN = "Written as it stands, (84) loses digits where the map is bright."
 LIMITS = (1e-17, 1.0)
-NARROWEST, LOW = 139.0, 1e-2
+LOW = 1e-2
 TIME = r"$t\,|\mathbf{B}'|$"
 
 

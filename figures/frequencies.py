@@ -25,7 +25,7 @@ TOP = 4.0
 MAX_ORDER = 8
 BESIDE = 4.4
 """Millimetres from a dot to its p/q."""
-APART, ROOM = 3.0, 6.0
+APART, ROOM = 3.0, 5.0
 """Millimetres between dots that have their p/q both, and from a pair in (a) with a p/q to the next."""
 POLE_TOLERANCE = 1e-9
 """Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""

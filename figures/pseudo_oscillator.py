@@ -23,7 +23,7 @@ WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
 PIECES = 32
 """Of a period at first: near a separatrix most of it is spent at one end."""
-NARROW, NARROWEST = 1e-3, 2.0**-40
+SMALL, SMALLEST = 1e-3, 2.0**-40
 """Widths of the interval, in parts of omega3, from which on it is counted from omega3, and is too small for doubles."""
 Ends: TypeAlias = tuple[float, float]
 Function: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -48,9 +48,9 @@ def scene(
         raise DomainError(f"From omega = {omega} the motion runs on a separatrix: it has no period to be drawn.")
     is_at_rest = high == low
     span = (high - low) or max(np.abs((*omega, *field))) or 1.0
-    if high - low < NARROWEST * abs(omega[2]) and str(motion.kind).startswith("nutation"):
+    if high - low < SMALLEST * abs(omega[2]) and str(motion.kind).startswith("nutation"):
         raise DomainError("figure pseudo_oscillator draws a nutation, and that of this motion is too small to be seen.")
-    zero = float(omega[2]) if high - low < NARROW * abs(omega[2]) and not is_at_rest else 0.0
+    zero = float(omega[2]) if high - low < SMALL * abs(omega[2]) and not is_at_rest else 0.0
     view = window(oscillator, (low, high), span, zero)
     symbol = r"\Omega_3-\omega_3" if zero else r"\Omega_3"
     low, high = low - zero, high - zero

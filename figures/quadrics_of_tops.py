@@ -18,7 +18,6 @@ from atlas.surfaces.kernel import TopQuadric
 ROW = "tops"
 SEEN = "The cause that turns a top decides on its quadric of initial data."
 WIDTH, HEIGHT = 178.0, 134.0
-NARROWEST = 139.0
 REACH = 1.9
 PITCH, GAP = 0.5, 0.35
 """Least distance from one to the next, in parts of the height of the tallest, and the least gap."""

@@ -115,7 +115,9 @@ def bands(
                     low, high = (np.arccos(np.clip(c / safe, 0.0, 1.0)) for c in (outer, inner))
                     for half in halves:
                         lower, upper = (half * low, half * high) if half else (-high, high)
-                        v = lower[:, None] + (upper - lower)[:, None] * np.linspace(0.0, 1.0, ACROSS)
+                        # both halves of the line at the bend have the places that the whole has there
+                        shares = np.linspace(0.0, 1.0, ACROSS if half else 2 * ACROSS - 1)
+                        v = lower[:, None] + (upper - lower)[:, None] * shares
                         canonical = np.zeros((*v.shape, 3))
                         canonical[..., 0] = side * radius[:, None] * np.cos(v)
                         canonical[..., j] = stretch * radius[:, None] * np.sin(v)

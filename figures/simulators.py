@@ -51,7 +51,7 @@ def scene() -> Scene:
                     Curve(error[1:, [0, column]], role, f"simulator {name}")
                     for role, (name, error) in zip(ROLES, error_tables.items(), strict=True)
                 ),
-                "time (s)" if column == 2 else "",
+                "time (s)",
                 label,
                 x_limits=(0.0, 30.0),
                 y_limits=(1e-11, 10.0),
@@ -63,7 +63,8 @@ def scene() -> Scene:
                 (2, "error (deg)", "(b) attitude"),
             )
         ),
-        size=(140.0, 120.0),
+        columns=2,
+        size=(178.0, 70.0),
     )
 
 

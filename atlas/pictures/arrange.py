@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.pictures.captions import listed
-from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, panel_points
+from atlas.pictures.layers import FloatArray, Image, Layer, Panel, Plane, Scene, Space, frame, panel_points
 from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.35
@@ -22,6 +22,8 @@ _FITS = 0.7
 """A figure is given a column if that is as wide as this part of it."""
 _AXES, _NAMES = (16.0, 12.0), (10.0, 14.0)
 """Millimetres beside and below two axes for their labels, and about a drawing in space for its names."""
+_BAR = 16.0
+"""Millimetres for a bar of colours with its numbers and its label."""
 
 
 @dataclass(frozen=True)
@@ -135,8 +137,10 @@ def _fitted(
 ) -> Arrangement:
     """Return an arrangement in so many columns, in a room (width, height)."""
     wide = room[0] / columns
+    image_width = wide - _BAR if any(map(_has_bar, panels)) else wide
     rows = [
-        max(_high(panel, wide, before) for panel in panels[k : k + columns]) for k in range(0, len(panels), columns)
+        max(_high(panel, image_width, before) for panel in panels[k : k + columns])
+        for k in range(0, len(panels), columns)
     ]
     words = [max(_words(panel)[1] for panel in panels[k : k + columns]) for k in range(0, len(panels), columns)]
     share = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
@@ -147,6 +151,15 @@ def _fitted(
         for panel in panels
     ]
     return Arrangement(tuple(panels if wide >= before[0] else unkeyed), columns, tuple(rows), scale)
+
+
+def _has_bar(panel: Panel) -> bool:
+    """Return whether a panel of equal scales has a bar of colours beside it, which takes width from all panels."""
+    return (
+        isinstance(panel, Plane)
+        and panel.equal
+        and any(isinstance(layer, Image) and layer.label for layer in panel.layers)
+    )
 
 
 def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:

@@ -176,14 +176,22 @@ def _title(source: Path, tree: ast.Module) -> str:
 
 
 def _declared(constant: str, source: Path, tree: ast.Module, standard: Any) -> Any:
-    """Return a constant of a recipe, written out at its top level; the standard where it has none."""
-    for node in tree.body:
-        if isinstance(node, ast.Assign) and any(isinstance(t, ast.Name) and t.id == constant for t in node.targets):
-            try:
-                return type(standard)(ast.literal_eval(node.value))
-            except (ValueError, TypeError) as error:
-                raise AtlasError(f"{constant} in {_short(source)} is not a {_KINDS[constant]} written out") from error
-    return standard
+    """Return a constant of a recipe, written out once on a line of its own at the top; the standard where none is.
+
+    Raises AtlasError for another kind of value, for a second assignment, and for one that assigns other names too.
+    """
+    nodes = [
+        node
+        for node in tree.body
+        if isinstance(node, ast.Assign)
+        and any(isinstance(name, ast.Name) and name.id == constant for t in node.targets for name in ast.walk(t))
+    ]
+    if len(nodes) > 1 or any(not isinstance(node.targets[0], ast.Name) for node in nodes):
+        raise AtlasError(f"{constant} in {_short(source)} is not assigned once, on a line of its own")
+    try:
+        return type(standard)(ast.literal_eval(nodes[0].value)) if nodes else standard
+    except (ValueError, TypeError) as error:
+        raise AtlasError(f"{constant} in {_short(source)} is not a {_KINDS[constant]} written out") from error
 
 
 _KINDS = {

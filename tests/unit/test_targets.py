@@ -25,7 +25,7 @@ PAIRS = [(name, target) for name in recipes.names() for target in TARGETS]
 FEW = PAIRS[:: len(PAIRS) // 7]
 """Pairs of a recipe and a target of the fast tests."""
 WHOLE_PAGE = 170.0
-WIDE = ["quadrics_of_tops", "stability_map"]
+WIDE = ["stability_map"]
 MILLIMETRE = 72.0 / 25.4
 
 
@@ -92,6 +92,14 @@ def test_what_needs_the_page_says_so(name: str) -> None:
     ):
         arranged(recipe.scene(), find("aps"))
     assert arranged(recipe.scene(), find("aps-double")).size[0] == 178.0
+
+
+@pytest.mark.parametrize(
+    ("name", "target"), [("motion_map", "iop"), ("quadrics_of_tops", "aps"), ("simulators", "beamer")]
+)
+def test_a_figure_of_many_panels_finds_a_layout(name: str, target: str) -> None:
+    """It fits by fewer panels, by those for a narrow screen, or by panels side by side, and is not refused."""
+    assert faults(to_figure(made(name), target=find(target)), find(target)) == []
 
 
 def test_what_is_too_high_for_a_slide_says_so() -> None:
@@ -213,6 +221,15 @@ def test_a_recipe_declares_a_number(tmp_path: Path) -> None:
     file = tmp_path / "mine.py"
     file.write_text('"""Mine."""\nNARROWEST = "wide"\ndef scene(): ...\n', encoding="utf-8")
     with pytest.raises(AtlasError, match=r"NARROWEST in mine\.py is not a number"):
+        recipes.load(str(file))
+
+
+@pytest.mark.parametrize("line", ["NARROWEST, LOW = 99.0, 1.0", "NARROWEST = 99.0\nNARROWEST = 2.0"])
+def test_a_constant_of_a_recipe_is_not_passed_over(tmp_path: Path, line: str) -> None:
+    """Two names on a line, or two lines for a name, are an error: the first was ignored, and so was the last."""
+    file = tmp_path / "mine.py"
+    file.write_text(f'"""Mine."""\n{line}\ndef scene(): ...\n', encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"NARROWEST in mine\.py is not assigned once, on a line of its own"):
         recipes.load(str(file))
 
 
