@@ -1,16 +1,12 @@
-"""The PDF: Typst source from templates, compiled without system fonts and without a date, so that bytes repeat."""
+"""The Typst source of a PDF, from templates."""
 
 import json
 import re
-from pathlib import Path
-from typing import Any
 
-from atlas.book import fonts
 from atlas.book.blocks.table import Cell
 from atlas.book.document import Document
 from atlas.book.templates import templates
 from atlas.book.texts import title_words
-from atlas.errors import AtlasError
 
 TEXT_FONT = "STIXGeneral"
 MATH_FONT = "STIX Two Math"
@@ -34,42 +30,6 @@ def source(document: Document) -> str:
         family=TEXT_FONT,
         math=MATH_FONT,
     )
-
-
-class Compiler:
-    """Typst, for sources whose pictures are in one folder; parts that two sources share are laid out once."""
-
-    def __init__(self, folder: Path) -> None:
-        import typst
-
-        folders = sorted({str(path.parent) for path in map(fonts.source, fonts.FACES.values())})
-        folder.mkdir(parents=True, exist_ok=True)
-        self._file = folder.resolve() / "report.typ"
-        self._compiler = typst.Compiler(root=str(self._file.parent), font_paths=folders, ignore_system_fonts=True)
-
-    def compile(self, typst_source: str) -> bytes:
-        """Return the PDF of a source. Raises AtlasError with Typst's reason."""
-        import typst
-
-        self._file.write_text(typst_source, encoding="utf-8")
-        try:
-            pdf, warnings = self._compiler.compile_with_warnings(str(self._file), format="pdf")
-        except typst.TypstError as error:
-            raise AtlasError(f"the PDF could not be set: {_reason(error)}.") from error
-        if warnings:
-            raise AtlasError(f"Typst warns about the PDF: {_reason(warnings[0])}.")
-        if not isinstance(pdf, bytes):
-            raise TypeError("Typst did not return one PDF")
-        return pdf
-
-
-def _reason(error: Any) -> str:
-    """Return Typst's message, the line of the source and its text, in one line."""
-    message = str(error.message).removeprefix("error: ").strip()
-    place = re.search(r"\.typ:(\d+):\d+", error.diagnostic or "")
-    excerpt = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)
-    line = f" at line {place[1]} of its source" if place else ""
-    return " ".join(f"{message}{line}{f': {excerpt[1].strip()[:160]}' if excerpt else ''}".split())
 
 
 def _string(text: str) -> str:

@@ -4,12 +4,15 @@ import shutil
 import signal
 import subprocess
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
-from atlas.book import pdf
+from atlas import processes
+from atlas.book import typesetting
 from atlas.book.building import publish as publishing
 from atlas.book.building.formats import MANIFEST
 from atlas.book.building.publish import WRITTEN, publish, replace
@@ -53,24 +56,41 @@ def report(folder: Path, title: str) -> Path:
 
 
 @pytest.mark.slow
-def test_a_failing_pdf_leaves_the_last_good_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the PDF can't be set, no page is replaced either, and nothing is left lying about."""
+@pytest.mark.parametrize(
+    ("error", "message"),
+    [(AtlasError("no PDF today."), "no PDF today"), (BrokenProcessPool(), r"plain\.pdf: .*enough memory\?")],
+)
+def test_a_failing_pdf_leaves_the_last_good_one(
+    error: Exception, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The pages come first, whole; if the PDF can't be set, the last one stays, and the next build makes it."""
     out = tmp_path / "out"
-    build_report(report(tmp_path, "Old"), out)
-    before = state(out)
+    old = build_report(report(tmp_path, "Old"), out).pdf.read_bytes()
+    with monkeypatch.context() as patch:
+        patch.setattr(processes, "pool", lambda _: None)  # in this process, where the PDF can be made to fail
+        patch.setattr(typesetting, "compiled", Mock(side_effect=error))
+        with pytest.raises(AtlasError, match=message):
+            build_report(report(tmp_path, "New"), out)
+    files = state(out)
+    assert b"New" in files["plain/index.html"]
+    assert files["plain.pdf"] == old
+    assert build_report(tmp_path / "plain.toml", out).pdf.read_bytes() != old
 
-    def fail(_compiler: pdf.Compiler, _source: str) -> bytes:
-        raise AtlasError("no PDF today.")
 
-    monkeypatch.setattr(pdf.Compiler, "compile", fail)
-    with pytest.raises(AtlasError, match="no PDF today"):
-        build_report(report(tmp_path, "New"), out)
-    assert state(out) == before
+def test_edited_pages_do_not_stop_the_pdf(tmp_path: Path) -> None:
+    """An edited page is told of, and the PDF is new all the same."""
+    built = build_report(report(tmp_path, "Old"), tmp_path)
+    old = built.pdf.read_bytes()
+    built.index.write_text("mine")
+    with pytest.raises(AtlasError, match=r"index\.html is not as atlas wrote it"):
+        build_report(report(tmp_path, "New"), tmp_path)
+    assert built.index.read_text() == "mine"
+    assert built.pdf.read_bytes() != old
 
 
 @pytest.mark.slow
 def test_a_killed_build_leaves_the_last_good_report(tmp_path: Path) -> None:
-    """SIGKILL between pages and PDF changes no file; the next build succeeds."""
+    """SIGKILL before the pages are made changes no file; the next build succeeds."""
     out = tmp_path / "out"
     build_report(report(tmp_path, "Old"), out)
     before = state(out)

@@ -10,7 +10,7 @@ import pytest
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas.book import html, pdf
+from atlas.book import fonts, html, pdf, typesetting
 from atlas.book.compose import compose
 from atlas.book.definition import Report
 from atlas.book.document import Document
@@ -46,6 +46,7 @@ BLOCKS = (
     "# First\n\n## Second\n\n~~old~~ x^2^ H~2~O **bold**\n\n```\nverbatim #x $y$ \\\n```",
     "a\\",
 )
+FONTS = [*map(fonts.source, fonts.FACES.values())]
 TOKENS = (
     *"# * _ ` ``` @ // /* */ --- -- ~ \\ [ ] ( ) { } {=typst} = + | ^ < > & ; : ' \" % %> <% {{".split(),
     *(
@@ -92,7 +93,7 @@ def document(report: Report) -> Document:
 def visible(made: Document, folder: Path) -> tuple[reader.HtmlElement, str]:
     """Return the first page, parsed, and the words of the PDF."""
     page = reader.fromstring(html.pages(made)["index.html"])
-    (folder / "mine.pdf").write_bytes(pdf.Compiler(folder).compile(pdf.source(made)))
+    (folder / "mine.pdf").write_bytes(typesetting.compiled(pdf.source(made), folder, FONTS))
     return page, " ".join(one.extract_text() for one in PdfReader(folder / "mine.pdf").pages)
 
 
@@ -159,9 +160,8 @@ def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None
     pieces = texts.set("html", lambda name, _: Link(name))
     assert inert(reader.fromstring("<div>" + "".join(pieces) + "</div>"))
     rule = "#let horizontalrule = line(length: 40%)\n#let leading(indented, body) = body\n"
-    pdf.Compiler(tmp_path).compile(
-        rule + "".join(f"#block([{one}])\n\n" for one in texts.set("typst", lambda name, _: Link(name)))
-    )
+    blocks = "".join(f"#block([{one}])\n\n" for one in texts.set("typst", lambda name, _: Link(name)))
+    typesetting.compiled(rule + blocks, tmp_path, FONTS)
 
 
 @pytest.mark.parametrize("link", ["https://a.b/c?d=e#f", "http://a.b", "mailto:a@b.c", "index.html#eq-own", "#eq-own"])

@@ -2,13 +2,17 @@
 
 import re
 from base64 import b64encode
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from hashlib import sha256
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
+from atlas import processes
 from atlas.book.building.cache import Cache
 from atlas.book.texts import title_words
 from atlas.errors import AtlasError
@@ -148,20 +152,43 @@ def _inline(script: str) -> str:
     return script.replace("</script", r"<\/script").replace("<!--", r"<\!--")
 
 
-def _pdf(
-    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, _sources: Sources
-) -> dict[str, bytes]:
-    """Return the PDF of a report."""
+def files_of(
+    document: "Document",
+    formats: Sequence[str],
+    figures: "dict[FigureBuild, Picture]",
+    cache: Cache,
+    sources: Sources,
+) -> Iterator[tuple[str, dict[str, bytes]]]:
+    """Yield each format with its files, contents by path: the pages first, while Typst sets the PDF.
+
+    Typst never gives memory back: a process of its own, where there can be one, ends with the report.
+    """
+    from atlas.book import fonts, typesetting
+
+    with cache.temporary() as work, processes.pool(1) or ThreadPoolExecutor(1) as executor:
+        printed = None
+        if "pdf" in formats:
+            files = [*map(fonts.source, fonts.FACES.values())]
+            source = _typst_source(document, figures, work)
+            printed = executor.submit(typesetting.compiled, source, work, files)
+        for form, make in (("html", _pages), ("single", _single)):
+            if form in formats:
+                yield form, make(document, figures, cache, sources)
+        if printed is not None:
+            try:
+                yield "pdf", {f"{document.report.name}.pdf": printed.result()}
+            except BrokenProcessPool:
+                reason = "the process that sets it was ended; is there enough memory?"
+                raise AtlasError(f"{document.report.name}.pdf: {reason}") from None
+
+
+def _typst_source(document: "Document", figures: "dict[FigureBuild, Picture]", folder: Path) -> str:
+    """Return the Typst source of a report, with the files that it names written into a folder."""
     from atlas.book import bibliography, pdf
 
-    with cache.temporary() as work:
-        (work / "figures").mkdir()
-        for figure, picture in figures.items():
-            if not picture.failure:
-                (work / picture.printed).write_bytes(figure.contents[picture.printed.rpartition(".")[2]])
-        (work / bibliography.NAME).write_text(document.bibliography.source, encoding="utf-8")
-        source = pdf.source(document)
-        return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
-
-
-MAKERS = {"html": _pages, "pdf": _pdf, "single": _single}
+    (folder / "figures").mkdir()
+    for figure, picture in figures.items():
+        if not picture.failure:
+            (folder / picture.printed).write_bytes(figure.contents[picture.printed.rpartition(".")[2]])
+    (folder / bibliography.NAME).write_text(document.bibliography.source, encoding="utf-8")
+    return pdf.source(document)

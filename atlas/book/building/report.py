@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from atlas.book.building.cache import Cache
-from atlas.book.building.formats import LANGUAGES, MAKERS, set_texts
+from atlas.book.building.formats import LANGUAGES, files_of, set_texts
 from atlas.book.building.publish import publish
 from atlas.book.files import find, related_to
 from atlas.book.inputs import evaluated, name_of
@@ -81,8 +81,9 @@ def build_report(
     is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
     them, one a core when it is not given; `inputs` are texts by name, and where they differ from the defaults NAME ends
     with a digest of their values. A figure that fails leaves a framed note in its place and an entry in
-    `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something
-    can't be written; then the last report stays.
+    `failures`. The pages are in their place before the PDF is set. Raises AtlasError, in one sentence, for anything
+    wrong with the file, and OSError when something can't be written; then the files of the last report stay that
+    were not yet replaced.
     """
     file, formats = find(str(name)), [form for form in LANGUAGES if form in formats]
     cache = Cache(cache_folder(out))
@@ -176,12 +177,16 @@ def _build(
     set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
-    with ThreadPoolExecutor(len(LANGUAGES)) as threads:  # Typst leaves the interpreter to the pages
-        made = threads.map(lambda form: MAKERS[form](document, builds, cache, sources), formats)
-        contents = dict(zip(formats, made, strict=True))
     failures = [figure for figure in builds if figure.failure]
     counts = {"pages": len(document.pages), "figures": len(builds) - len(failures)}
-    _publish(report.name, out, contents, None if failures else key, counts, cache)
+    edited: list[str] = []
+    for form, files in files_of(document, formats, builds, cache, sources):
+        try:
+            _publish(report.name, out, form, files, None if failures else key, counts, cache)
+        except AtlasError as error:  # of files that a user has edited, which stay
+            edited.append(str(error))
+    if edited:
+        raise AtlasError(" ".join(edited))
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
     return Built(
@@ -199,18 +204,18 @@ def _build(
 def _publish(
     name: str,
     out: Path,
-    contents: Mapping[str, Mapping[str, bytes]],
+    form: str,
+    files: Mapping[str, bytes],
     key: str | None,
     counts: dict[str, int],
     cache: Cache,
 ) -> None:
-    """Write the files of each format to their places, and note their digests, the key and the counts in the cache."""
+    """Write the files of a format to their places, and note their digests, the key and the counts in the cache."""
     record: dict[str, Any] = cache.load(_noted(name, out))
     before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
-    publish(contents, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
-    for form, files in contents.items():
-        digests = {path: hashlib.sha256(content).hexdigest() for path, content in files.items()}
-        record[form] = {"key": key, "files": digests}
+    publish({form: files}, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
+    digests = {path: hashlib.sha256(content).hexdigest() for path, content in files.items()}
+    record[form] = {"key": key, "files": digests}
     cache.save(_noted(name, out), {**record, **counts})
 
 
