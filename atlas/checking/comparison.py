@@ -41,8 +41,10 @@ class Comparison:
             raise AtlasError(f"A picture compares {len(ROLES)} files at most, not {len(self.checks)}: leave some out.")
         panels = tuple(self._panel(group) for group in groups)
         files = _listed([check.file for check in self.checks])
-        worst = (f"{min(c.worst for c in check.columns):.1f} of {check.file}" for check in self.checks if check.columns)
-        digits = f"Correct digits in the worst column: {', '.join(worst)}."
+        worst_digits = (
+            f"{min(c.worst for c in check.columns):.1f} of {check.file}" for check in self.checks if check.columns
+        )
+        digits = f"Correct digits in the worst column: {', '.join(worst_digits)}."
         quantities = _listed([{"R": "matrices", "Omega": "angular velocity"}.get(x, "quaternions") for x in groups])
         return Scene(
             title=f"Errors of {files}",

@@ -151,9 +151,11 @@ class Grade:
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
         is_certain = self._worst > self._errors.floor
-        worst = self._errors.certified(self._worst_row, 0)[self.name] if is_certain else self._errors.floor
+        largest_error = self._errors.certified(self._worst_row, 0)[self.name] if is_certain else self._errors.floor
         time = float(self._worst_row["t"][0])
-        return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), time, self._fails_at)
+        return Column(
+            self.name, float(middle.mean()) / 1000, -math.log10(max(largest_error, LEAST)), time, self._fails_at
+        )
 
 
 class Envelope:
@@ -173,9 +175,9 @@ class Envelope:
         self._points_kept = self._points_kept if self._points_kept.size else new[:0]
         while len(self._waiting) >= self.rows:
             count = min(2 * POINTS - len(self._points_kept), len(self._waiting) // self.rows)
-            whole = count * self.rows
-            self._points_kept = np.concatenate([self._points_kept, _largest(self._waiting[:whole], self.rows)])
-            self._waiting = self._waiting[whole:]
+            row_count = count * self.rows
+            self._points_kept = np.concatenate([self._points_kept, _largest(self._waiting[:row_count], self.rows)])
+            self._waiting = self._waiting[row_count:]
             if len(self._points_kept) == 2 * POINTS:
                 self._points_kept, self.rows = _largest(self._points_kept, 2), 2 * self.rows
 

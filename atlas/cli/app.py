@@ -41,9 +41,9 @@ class LazyCommand(click.Command):
         command: click.Command = getattr(module, name if name in BESIDE else "command")
         return command
 
-    def make_context(self, *arguments: Any, **more: Any) -> click.Context:
+    def make_context(self, *arguments: Any, **settings: Any) -> click.Context:
         """Load the command and let it read its arguments."""
-        return self.loaded().make_context(*arguments, **more)
+        return self.loaded().make_context(*arguments, **settings)
 
 
 GONE = {
@@ -157,8 +157,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except BrokenPipeError:
         status = _reader_gone()
     except OSError as error:
-        where = f": {error.filename}" if error.filename else ""
-        status = complain(f"{error.strerror or error}{where}", 1)
+        file = f": {error.filename}" if error.filename else ""
+        status = complain(f"{error.strerror or error}{file}", 1)
     except MemoryError:
         status = complain("there is not enough memory for it", 1)
     except (KeyboardInterrupt, click.Abort) as error:
@@ -173,12 +173,12 @@ def _reader_gone() -> int:
     return 128 + SIGPIPE
 
 
-def show_warning(otherwise: Callable[..., None], message: Any, category: type[Warning], *where: Any) -> None:
+def show_warning(otherwise: Callable[..., None], message: Any, category: type[Warning], *place: Any) -> None:
     """Print a warning of the atlas as one line, any other as Python does."""
     if issubclass(category, AtlasWarning):
         complain(str(message), 0)
     else:
-        otherwise(message, category, *where)
+        otherwise(message, category, *place)
 
 
 def complain(sentence: str, status: int) -> int:
@@ -216,5 +216,5 @@ def _replaced(error: UnicodeError) -> tuple[str, int]:
     from unicodedata import normalize
 
     letters = error.object[error.start : error.end].translate(str.maketrans(dict[str, str | int | None](NEAR)))
-    near = "".join(normalize("NFKD", letter).encode("ascii", "ignore").decode() or "?" for letter in letters)
-    return near, error.end
+    replacement = "".join(normalize("NFKD", letter).encode("ascii", "ignore").decode() or "?" for letter in letters)
+    return replacement, error.end

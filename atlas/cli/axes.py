@@ -61,8 +61,8 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
         arguments, turn = family.in_plane(arguments)
         axes = axes if turn is None else turn @ axes
     numbers = [x for value in arguments.values() for x in parts_of(value)]
-    typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in numbers)
-    if not (family.command and (fitted or typed)):
+    is_typed = len(parts_of(arguments.get("field", 0.0))) < 3 and not any(isinstance(x, Given) for x in numbers)
+    if not (family.command and (fitted or is_typed)):
         return along_principal_axes(motion, unit)
     return _principal(family, arguments, axes, unit)
 

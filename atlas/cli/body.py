@@ -59,10 +59,10 @@ body_options: Callable[[F], F] = stack(
 )
 
 
-def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
+def field_options_of(components: str, axes: str = "") -> Callable[[F], F]:
     """Return the options of the field; `components` is the metavar, `along` names the axes in the help."""
     return stack(
-        numbers("field", f"Components of B' = mu B/(2c){along}, in 1/time.", components),
+        numbers("field", f"Components of B' = mu B/(2c){axes}, in 1/time.", components),
         numbers("magnetic", "Components of B itself; needs --mass --charge or --mu.", components),
         numbers("mass", "Mass of the body, with --charge."),
         numbers("charge", "Charge of the body, either sign; with --magnetic."),
@@ -155,10 +155,10 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed 
         meant = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, shapes_by_name)
         raise click.UsageError(f"there is no shape {shape!r}{meant}; the shapes are {', '.join(shapes_by_name)}.")
     if set(sizes) != set(shapes_by_name[shape]):
-        wanted, typed_options = (
+        wanted_names, typed_options = (
             " ".join(f"--{size}" for size in names) or "none" for names in (shapes_by_name[shape], sizes)
         )
-        raise click.UsageError(f"the shape {shape} takes {wanted}; found {typed_options}.")
+        raise click.UsageError(f"the shape {shape} takes {wanted_names}; found {typed_options}.")
     for name, size in sizes.items():
         if size and not 1e-150 < abs(size) < 1e150:
             raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
@@ -211,14 +211,14 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
     return rotation_of(options["attitude"], "--attitude")
 
 
-def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
+def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> str:
     """Return the one option that was given among several. Raises click.UsageError for none and for two."""
-    typed = list(given(options, names))
-    if len(typed) != 1:
+    names_given = list(given(options, names))
+    if len(names_given) != 1:
         option_names = ", ".join(f"--{name}" for name in names if name in options)
-        typed_options = " and ".join(f"--{name}" for name in typed) or "none"
-        raise click.UsageError(f"the {what} is one of {option_names}; found {typed_options}.")
-    return typed[0]
+        typed_options = " and ".join(f"--{name}" for name in names_given) or "none"
+        raise click.UsageError(f"the {subject} is one of {option_names}; found {typed_options}.")
+    return names_given[0]
 
 
 def exact_moments(options: dict[str, Any]) -> Any:
@@ -270,8 +270,8 @@ def system_of(options: Mapping[str, Any]) -> str:
     Raises click.UsageError for a unit beside another system.
     """
     charged = options["charge"] is not None or options.get("points") is not None
-    typed = in_one_system(options)
-    return options["units"] or ("si" if charged or typed else "natural")
+    has_unit = in_one_system(options)
+    return options["units"] or ("si" if charged or has_unit else "natural")
 
 
 def speed_of_light(options: Mapping[str, Any]) -> float:
@@ -283,16 +283,16 @@ def speed_of_light(options: Mapping[str, Any]) -> float:
 
 def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
     """Return the numbers with a unit, which is in SI. Raises click.UsageError for one beside another system."""
-    typed = measured(options)
-    if typed and options["units"] not in {None, "si"}:
-        raise click.UsageError(f"{typed[0][1].text} is in SI: leave out --units {options['units']}.")
-    return typed
+    numbers_with_units = measured(options)
+    if numbers_with_units and options["units"] not in {None, "si"}:
+        raise click.UsageError(f"{numbers_with_units[0][1].text} is in SI: leave out --units {options['units']}.")
+    return numbers_with_units
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
     """Return the units of times and rates, where they are known."""
-    known = options.get("magnetic") is not None and system_of(options) != "natural"
-    return SECONDS if known or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
+    has_units = options.get("magnetic") is not None and system_of(options) != "natural"
+    return SECONDS if has_units or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
 
 def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> float:
@@ -317,20 +317,20 @@ def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> 
 def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fraction, float | Fraction]:
     """Return a charge and a mass as they were typed; the charge-to-mass ratio and 1 where that is given."""
     mass = mass_of(options)
-    both = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
+    option_names = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
     if options.get("points") is not None:
-        if both or options["mu"] is not None:
+        if option_names or options["mu"] is not None:
             raise click.UsageError(
-                f"--points holds masses and charges: {(both or ['--mu'])[0]} has no place beside it."
+                f"--points holds masses and charges: {(option_names or ['--mu'])[0]} has no place beside it."
             )
         return ratio_of_points(options["points"]), 1.0
     if options["mu"] is not None:
-        if both:
-            raise click.UsageError(f"--mu is the charge-to-mass ratio: {both[0]} has no place beside it.")
+        if option_names:
+            raise click.UsageError(f"--mu is the charge-to-mass ratio: {option_names[0]} has no place beside it.")
         return options["mu"], 1.0
     if mass is None or options["charge"] is None:
-        missing = "--mass and --charge, or --mu" if not both else "--mass" if mass is None else "--charge"
-        raise click.UsageError(f"{needs} needs {missing}, for the charge-to-mass ratio.")
+        missing_names = "--mass and --charge, or --mu" if not option_names else "--mass" if mass is None else "--charge"
+        raise click.UsageError(f"{needs} needs {missing_names}, for the charge-to-mass ratio.")
     return options["charge"], mass
 
 

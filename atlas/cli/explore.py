@@ -85,9 +85,9 @@ def started(args: list[str]) -> tuple[str, str]:
         family, values = principal.family, principal.values
     else:
         words = zip(family.parameters, values_of(family, options, exact=False), strict=True)
-        given = {p.name: x for p, x in words if x is not None}
-        family.kernels()(**given)  # raises for an impossible body before a server starts
-        values = {name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for name, x in given.items()}
+        values_given = {p.name: x for p, x in words if x is not None}
+        family.kernels()(**values_given)  # raises for an impossible body before a server starts
+        values = {name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for name, x in values_given.items()}
     numbers = {
         name: float(x) for p in family.parameters for name, x in zip(p.names, values.get(p.name, ()), strict=False)
     }

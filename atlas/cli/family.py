@@ -90,7 +90,9 @@ charge_options = stack(
 def command(name: str) -> click.Command:
     """Make the command of this name."""
     commands_by_key = {
-        key: _command_of(one, one.command) for key, one in FAMILIES.items() if one.command and one.command.name == name
+        key: _command_of(family, family.command)
+        for key, family in FAMILIES.items()
+        if family.command and family.command.name == name
     }
     return next(iter(commands_by_key.values())) if len(commands_by_key) == 1 else _any_motion(name, commands_by_key)
 
@@ -98,12 +100,12 @@ def command(name: str) -> click.Command:
 def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
     """Return the command of several families: its help is that of all, its arguments are of the one they belong to."""
     params = dict[str, click.Parameter]()
-    for param in (copy(param) for each in commands.values() for param in each.params):
+    for param in (copy(param) for command in commands.values() for param in command.params):
         option = params.setdefault(str(param.name), param)
         option.required = False
         if param.metavar and param.metavar not in str(option.metavar):
             option.metavar = f"{option.metavar} or {param.metavar}"
-    lines = [line.strip() for each in commands.values() for line in str(each.epilog).split("\n")[2:]]
+    lines = [line.strip() for command in commands.values() for line in str(command.epilog).split("\n")[2:]]
     return Command(
         name,
         params=list(params.values()),
@@ -221,11 +223,11 @@ class Question:
         parameters = _parameters(family, options)
         if _shown_otherwise(family, described, options, parameters, times):
             return
-        first, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
-        texts = answer(options, parameters, self.floats, partial(self.balls, first, family), spare)
+        first_times, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
+        texts = answer(options, parameters, self.floats, partial(self.balls, first_times, family), spare)
         if texts is None:
             return
-        later = _later(self.balls, family, times[len(first) :], options, spare)
+        later = _later(self.balls, family, times[len(first_times) :], options, spare)
         texts["samples"] = chain(texts.get("samples", []), later)
         says, rounding = _in_hertz(family, texts, options), _of_rounding(family, options, times)
         printout = _printout(family, described, texts, options, certificate(options), says)
@@ -255,8 +257,8 @@ def _later(
     from atlas.arithmetic.certified_digits import certified
 
     for start in range(0, len(times), AT_ONCE):
-        some = partial(balls, times[start : start + AT_ONCE], replace(family, quantities=()))
-        yield from certified(some, options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
+        balls_of_block = partial(balls, times[start : start + AT_ONCE], replace(family, quantities=()))
+        yield from certified(balls_of_block, options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
 
 
 def _shown_otherwise(
@@ -345,8 +347,8 @@ def _with_sigma(
         rates = spread_of_answers.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
         hertz = [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
         larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
-        beside = [*larmor, *(hertz if body.units_of(options) else [])]
-        printout = _printout(family, described, texts, options, "", beside)
+        lines = [*larmor, *(hertz if body.units_of(options) else [])]
+        printout = _printout(family, described, texts, options, "", lines)
         show(replace(printout, notes=chain(filter(None, printout.notes), spread_of_answers.notes)))
 
 
@@ -380,8 +382,8 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
             Line(f"I{i}", f"principal, about {axes_text([axis])}", f"{moment:.{TABLE_DIGITS}g}", "inertia")
             for i, (moment, axis) in enumerate(zip(body_given.moments, body_given.axes, strict=True), 1)
         ]  # fmt: skip
-        beside = [*moments, *_in_hertz(family, texts, options)]
-        printout = _printout(family, described, texts, options, NOT_ASKED, beside)
+        lines = [*moments, *_in_hertz(family, texts, options)]
+        printout = _printout(family, described, texts, options, NOT_ASKED, lines)
         axes = axes_text(motion.axes)
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{family.last_axis}; columns along the axes given."
@@ -486,11 +488,11 @@ def in_field(family: Family) -> bool:
 
 def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     """Return the option of a parameter."""
-    more: dict[str, Any] = {"required": True} if needed else {}
+    settings: dict[str, Any] = {"required": True} if needed else {}
     if not needed and p.omitted is not None:
         default, count = f"{p.omitted:g}", len(p.names)
-        more = {"default": (default,) * count} if count > 1 else {"default": default, "show_default": True}
-    return numbers(p.name, p.says, p.metavar or "", **more)
+        settings = {"default": (default,) * count} if count > 1 else {"default": default, "show_default": True}
+    return numbers(p.name, p.says, p.metavar or "", **settings)
 
 
 def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
@@ -529,22 +531,24 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
     return best[s.name, t]
 
 
-def _quaternion(motion: Any, t: Any, R: Any, near: Any) -> Any:
+def _quaternion(motion: Any, t: Any, R: Any, quaternion_near: Any) -> Any:
     """Return the quaternion of a motion in balls, near to doubles; not certified where the matrix R is not."""
     from flint import fmpq
 
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED
     from atlas.motions.nutation.certified_cayley_klein import quaternion
 
-    if near is None or isinstance(R[0][0], str):
+    if quaternion_near is None or isinstance(R[0][0], str):
         return [NOT_CERTIFIED] * 4
-    q = quaternion(R, near)
+    q = quaternion(R, quaternion_near)
     if not hasattr(motion, "quaternion"):
         return q
     w, *vector = motion.quaternion(t)  # a component that is zero at all times is exactly zero in one of both
-    own, i = [*vector, w], max(range(4), key=lambda i: abs(near[i]))
-    own = own if (own[i] > 0) == (near[i] > 0) else [-x for x in own]
-    return [x if isinstance(x, fmpq) or x.rad() < y.rad() else y for x, y in zip(own, q, strict=True)]
+    motion_quaternion, i = [*vector, w], max(range(4), key=lambda i: abs(quaternion_near[i]))
+    motion_quaternion = (
+        motion_quaternion if (motion_quaternion[i] > 0) == (quaternion_near[i] > 0) else [-x for x in motion_quaternion]
+    )
+    return [x if isinstance(x, fmpq) or x.rad() < y.rad() else y for x, y in zip(motion_quaternion, q, strict=True)]
 
 
 def _quantities(
@@ -578,7 +582,7 @@ def _printout(
     texts: dict[str, Any],
     options: dict[str, Any],
     worth: str,
-    beside: Iterable[Line],
+    more_lines: Iterable[Line],
 ) -> Printout:
     """Lay the certified texts out, with lines that stand beside the quantities, and three rows a time."""
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED
@@ -607,7 +611,7 @@ def _printout(
         if s.printed and not s.uncertified
         for head in s.heading
     ]
-    return Printout(described.title + case, [*lines, *beside], ("t", *heading), rows(), notes())
+    return Printout(described.title + case, [*lines, *more_lines], ("t", *heading), rows(), notes())
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:

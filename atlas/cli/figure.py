@@ -127,17 +127,17 @@ def command(
         return _gallery(names, out, style, jobs)
     if everything == bool(names):
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
-    wanted = recipes.names() if everything else list(dict.fromkeys(names))
-    for name in wanted:
+    wanted_names = recipes.names() if everything else list(dict.fromkeys(names))
+    for name in wanted_names:
         recipes.source(name)  # says which there are, before anything is drawn
-    stems = [Path(name).stem for name in wanted]
+    stems = [Path(name).stem for name in wanted_names]
     if len({*stems}) < len(stems):
         raise click.UsageError("two of these recipes have the same name, so that their files would be the same.")
     kinds = dict.fromkeys(formats) or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
     parameters = dict(setting(text) for text in settings)
     with bar("figures") as tell:
         figures = build_figures(
-            wanted,
+            wanted_names,
             tuple(kinds),
             out,
             renderer=renderer,
@@ -147,7 +147,7 @@ def command(
             jobs=jobs,
             progress=tell,
         )
-    if len(wanted) == 1 and figures[0].failure:
+    if len(wanted_names) == 1 and figures[0].failure:
         raise AtlasError(figures[0].failure)
     for figure in figures:
         for file in figure.files:

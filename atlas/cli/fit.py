@@ -80,15 +80,16 @@ def fitted(file: Path, options: dict[str, Any]) -> Any:
 
 def arguments(options: dict[str, Any]) -> dict[str, Any]:
     """Return the arguments of `fit_file` that the options stand for. Raises click.UsageError for a name given twice."""
-    given: dict[str, dict[str, float]] = {"fix": {}, "start": {}}
-    for option, values in given.items():
+    given_values: dict[str, dict[str, float]] = {"fix": {}, "start": {}}
+    for option, values in given_values.items():
         for name, value in map(_pair, options[option]):
-            if name in given["fix"] or name in values:
+            if name in given_values["fix"] or name in values:
                 raise click.UsageError(f"{name} is given twice: it is fixed by --fix or sought by --start, once.")
             values[name] = value
     sigma = None if options["sigma"] is None else float(options["sigma"])
     same = {name: options[name] for name in ("family", "kind", "loss")}
-    return {**same, "sigma": sigma, "epoch": float(options["epoch"]), "fix": given["fix"], "params": given["start"]}
+    values: dict[str, Any] = {"sigma": sigma, "epoch": float(options["epoch"])}
+    return {**same, **values, "fix": given_values["fix"], "params": given_values["start"]}
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:

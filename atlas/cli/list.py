@@ -68,8 +68,8 @@ def lay_out(rows: list[Row]) -> None:
     for place, (name, *texts) in enumerate(rows):
         wrapped = [textwrap.wrap(text, WIDTH, break_on_hyphens=False, break_long_words=False) for text in texts]
         lines = [line for text in wrapped for line in text] or [""]
-        for first, line in zip([name, *[""] * len(lines)], lines, strict=False):
-            click.echo(f"{first:{width}}{line}".rstrip())
+        for first_cell, line in zip([name, *[""] * len(lines)], lines, strict=False):
+            click.echo(f"{first_cell:{width}}{line}".rstrip())
         if place == 0:
             click.echo("─" * (width + WIDTH))
     click.echo()
@@ -171,8 +171,8 @@ def _quantities(_: list[str]) -> Listing:
             record.setdefault(quantity.name, {})[family.name] = entry
     rows = []
     for name, entries in record.items():
-        first = next(iter(entries.values()))
-        unit, equation = first["unit"], first["equation"]
+        first_family = next(iter(entries.values()))
+        unit, equation = first_family["unit"], first_family["equation"]
         words = " or ".join(dict.fromkeys(entry["says"] for entry in entries.values()))
         rows.append((name, f"{words}{f' [{unit}]' if unit else ''}{f' {equation}' if equation else ''}",
                      "of " + ", ".join(entries)))  # fmt: skip
@@ -200,9 +200,9 @@ LISTS: dict[str, Callable[[list[str]], Listing]] = {
 """Lists by name; each appends errors of files that cannot be read to its argument."""
 
 
-def sentence(thing: object) -> str:
+def sentence(subject: object) -> str:
     """Return the first sentence of a docstring, without its full stop."""
-    return " ".join(str(thing.__doc__).split("\n\n")[0].split()).split(". ")[0].removesuffix(".").replace("`", "")
+    return " ".join(str(subject.__doc__).split("\n\n")[0].split()).split(". ")[0].removesuffix(".").replace("`", "")
 
 
 def _marked(keys: dict[str, dict[str, Any]]) -> str:

@@ -103,7 +103,7 @@ def _moved(x: Typed, value: float, exact: Fraction | None) -> Typed:
     return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
 
 
-def _tell(param: click.Parameter, typed: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
+def _tell(param: click.Parameter, numbers: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
     """Return a line that names the body that replaces the typed one."""
-    was, taken = " ".join(x.text for x in typed), " ".join(f"{float(x):.10g}" for x in new)
-    click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {taken}", err=True)
+    was, text = " ".join(x.text for x in numbers), " ".join(f"{float(x):.10g}" for x in new)
+    click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {text}", err=True)

@@ -22,14 +22,14 @@ class Place(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path. Raises click.UsageError for one that cannot be written, before any work is done."""
         place = Path(os.fsdecode(super().convert(value, param, ctx)))
-        there = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
-        if not there.is_dir():
-            self.fail(f"there is no folder to make {str(value)!r} in: {str(there)!r} is a file.", param, ctx)
+        folder_present = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
+        if not folder_present.is_dir():
+            self.fail(f"there is no folder to make {str(value)!r} in: {str(folder_present)!r} is a file.", param, ctx)
         if not self.file_okay and str(value).endswith(ENDINGS) and not place.exists():
             self.fail(f"this is the folder for the files, but {str(value)!r} ends as a file does.", param, ctx)
         if place.is_symlink() and not place.exists():
             self.fail(f"{str(value)!r} is a link to nothing.", param, ctx)
-        if not os.access(place if place.is_dir() else there, os.W_OK | os.X_OK):
+        if not os.access(place if place.is_dir() else folder_present, os.W_OK | os.X_OK):
             self.fail(f"{str(value)!r} cannot be written: its folder is read-only.", param, ctx)
         return place
 
@@ -60,10 +60,10 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
     return apply
 
 
-def numbers(name: str, says: str, metavar: str = "", **more: Any) -> Callable[[F], F]:
+def numbers(name: str, says: str, metavar: str = "", **settings: Any) -> Callable[[F], F]:
     """Return the option of a number, or of as many as there are words in `metavar`."""
-    several: dict[str, Any] = {"nargs": len(metavar.split()), "metavar": metavar} if metavar else {}
-    return click.option(f"--{name}", type=REAL, help=says, **several, **more)
+    vector_settings: dict[str, Any] = {"nargs": len(metavar.split()), "metavar": metavar} if metavar else {}
+    return click.option(f"--{name}", type=REAL, help=says, **vector_settings, **settings)
 
 
 json_option: Callable[[F], F] = click.option(
@@ -129,10 +129,10 @@ def chosen_times(options: dict[str, Any]) -> list[float]:
     start, step, count = options["grid"]
     if count != int(count) or not 0 < count <= 1e6:
         raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
-    whole = start.exactly().denominator * step.exactly().denominator
-    first, by = int(start.exactly() * whole), int(step.exactly() * whole)
-    steps = (first + by * i for i in range(int(count)))
+    denominator = start.exactly().denominator * step.exactly().denominator
+    first_step, by = int(start.exactly() * denominator), int(step.exactly() * denominator)
+    steps = (first_step + by * i for i in range(int(count)))
     try:
-        return [start.moved(t / whole, text=f"{t}/{whole}", unit="") for t in steps]
+        return [start.moved(t / denominator, text=f"{t}/{denominator}", unit="") for t in steps]
     except (OverflowError, ValueError):  # beyond floats, or of more digits than Python writes
         return [start + step * i for i in range(int(count))]

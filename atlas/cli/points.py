@@ -162,7 +162,7 @@ def _cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
             separator = next((s for s in (",", ";", "\t") if s in top), ",")
             reader = csv.reader(chain([top], texts), delimiter=separator)
             rows = ((reader.line_num + skipped, line) for line in reader if line)
-            (_, first), *lines = [*islice(rows, MAX_ROWS + 2)] or [(1, [])]
+            (_, heading_cells), *lines = [*islice(rows, MAX_ROWS + 2)] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
@@ -171,7 +171,7 @@ def _cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
     if len(lines) > MAX_ROWS:
         raise click.UsageError(f"{path} has more than {MAX_ROWS} rows.")
-    return first, lines
+    return heading_cells, lines
 
 
 def measured_columns(
@@ -182,8 +182,8 @@ def measured_columns(
     A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
     taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
     """
-    first, lines = _cells(path)
-    names, units = zip(*map(heading, first), strict=True) if first else ((), ())
+    heading_cells, lines = _cells(path)
+    names, units = zip(*map(heading, heading_cells), strict=True) if heading_cells else ((), ())
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
     meant = [
@@ -199,7 +199,9 @@ def measured_columns(
                 x = float(cell)
                 columns[name].append(float(Fraction(x) * size(unit, option)) if option else x)
             except (ValueError, OverflowError, AtlasError) as error:
-                right = f" in {WANTED[option]}, or what can be made of it" if option in WANTED else " without a unit"
-                under = f"{name} [{unit}] is not a number{right}" if option else f"{name} is not a number"
+                unit_text = (
+                    f" in {WANTED[option]}, or what can be made of it" if option in WANTED else " without a unit"
+                )
+                under = f"{name} [{unit}] is not a number{unit_text}" if option else f"{name} is not a number"
                 raise click.UsageError(f"{path}: line {number}: {cell!r} under {under}.") from error
     return columns, {*units}

@@ -113,10 +113,10 @@ def _notes(console: "Console", printout: Printout) -> Iterator[str]:
         yield _text(console, note, style="dim", markup=False)
 
 
-def _text(console: "Console", shown: Any, **how: Any) -> str:
+def _text(console: "Console", count: Any, **how: Any) -> str:
     """Return the output as text for this console."""
     with console.capture() as printed:
-        console.print(shown, **how)
+        console.print(count, **how)
     return printed.get()
 
 
@@ -211,8 +211,8 @@ def _inputs(options: dict[str, Any]) -> str:
     rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in option_names))
     rounded += ["a field at an angle"] * any(isinstance(x, Inclined) for x in options.values())
     rounded += ["numbers in turns or degrees"] * any(x.exact is None for _, x in measured(options))
-    taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
-    return taken + (f", and, rounded to doubles, {', '.join(rounded)}" if rounded else "")
+    values = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
+    return values + (f", and, rounded to doubles, {', '.join(rounded)}" if rounded else "")
 
 
 NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
@@ -264,11 +264,11 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
     )
     display = Display(*columns, console=Console(stderr=True), transient=True)
 
-    def tell(done: int, total: int, part: str) -> None:
+    def tell(done: int, total: int, name: str) -> None:
         if not display.tasks:
             display.start()
             display.add_task(title, total=None, part="")
-        display.update(display.task_ids[0], completed=done, total=total, part=part)
+        display.update(display.task_ids[0], completed=done, total=total, part=name)
 
     try:
         yield tell

@@ -36,11 +36,11 @@ def recorded(lines: Any) -> dict[str, Any]:
     """Return lines for JSON: an amplitude as its real and its imaginary part."""
     if lines is None:
         return {}
-    each = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
+    line = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
     keys = "frequency", "combination", "amplitude"
     return {"spectrum": {
         "of": lines.of, "rates": dict(zip(lines.names, lines.rates, strict=True)), "mean_square": lines.mean_square,
-        "lines": [dict(zip(keys, (f, c, {"real": a.real, "imaginary": a.imag}), strict=True)) for f, c, a in each],
+        "lines": [dict(zip(keys, (f, c, {"real": a.real, "imaginary": a.imag}), strict=True)) for f, c, a in line],
     }}  # fmt: skip
 
 

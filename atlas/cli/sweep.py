@@ -121,8 +121,8 @@ class Request(NamedTuple):
         family = _meant(options["family"], {*names})
         _check_moments(family, fixed, options)
         parameters = fixed | {name.strip(): values for name, values in settings}
-        more = (options[name] for name in ("listing", "out", "digits", "rows"))
-        return cls(family, options["quantities"], parameters, *more, axes)
+        settings_of_table = {name: options[name] for name in ("quantities", "listing", "out", "digits", "rows")}
+        return cls(family, parameters=parameters, axes=axes, **settings_of_table)
 
     @classmethod
     def of_file(cls, options: dict[str, Any]) -> "Request":
@@ -139,8 +139,8 @@ class Request(NamedTuple):
 
 def _check_moments(family: str, fixed: Mapping[str, Any], options: Mapping[str, Any]) -> None:
     """Raise click.UsageError for three moments of inertia in a family that has two."""
-    known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
-    if "I1" in fixed and "I1" not in known:
+    parameter_names = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
+    if "I1" in fixed and "I1" not in parameter_names:
         components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
         option = next((name for name in components if options[name] is not None), "")
         raise click.UsageError(
@@ -301,25 +301,25 @@ def read(path: Path) -> Any:
     return recipe
 
 
-def _once(names: Sequence[str], where: str) -> None:
+def _once(names: Sequence[str], source: str) -> None:
     """Raise click.UsageError for a parameter that is given twice."""
     for name, count in Counter(names).items():
         if count > 1:
-            raise click.UsageError(f"{name} is given {count} times, by {where}: give it once.")
+            raise click.UsageError(f"{name} is given {count} times, by {source}: give it once.")
 
 
 def _options(family: str) -> dict[str, tuple[str, str]]:
     """Return the option and the unit of each parameter of a family, then of the others, by its name in a table."""
-    known = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
-    return {name: (p.name, p.unit) for p in known for name in p.names} | {"t": ("times", TIME)}
+    parameters = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
+    return {name: (p.name, p.unit) for p in parameters for name in p.names} | {"t": ("times", TIME)}
 
 
 def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
     """Return the columns of a list, and the units of SI in its heading; those of tables without such stay."""
-    known = _options(family)
-    plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in known.items()}
-    columns, units = measured_columns(path, {name: option for name, (option, _) in known.items()}, plain)
-    return columns, units - {"", "1", *(unit for _, unit in known.values())}
+    options = _options(family)
+    plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in options.items()}
+    columns, units = measured_columns(path, {name: option for name, (option, _) in options.items()}, plain)
+    return columns, units - {"", "1", *(unit for _, unit in options.values())}
 
 
 def _values(family: str, name: str, value: Any) -> Any:
@@ -335,11 +335,11 @@ def _values(family: str, name: str, value: Any) -> Any:
     start, stop, *words = value.split(":")
     if not words or words[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", words[0], re.ASCII):
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {value!r}.")
-    first, word = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
-    if len(words) == 2 and first * word <= 0:
+    start_value, word = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
+    if len(words) == 2 and start_value * word <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {value!r}.")
     # no more digits are read than a count can have
     count = int(words[0]) if len(words[0].strip().lstrip("0")) < 9 else MAX_RANGE_LENGTH + 1
     if count > MAX_RANGE_LENGTH:
         raise click.UsageError(f"a range of {name} has at most {MAX_RANGE_LENGTH} values, not {words[0].strip()}.")
-    return Range(first, word, count, log=len(words) == 2).values
+    return Range(start_value, word, count, log=len(words) == 2).values

@@ -31,10 +31,10 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
     if not times:
         raise click.UsageError("--out writes the motion at --times or on a --grid: give one of them.")
     columns = dict(columns_at(motion, list(map(float, times))))
-    known = {**FAMILIES[motion.family].units, "t": "time"}
+    units_by_name = {**FAMILIES[motion.family].units, "t": "time"}
     content = PARTS[out.suffix[1:]](columns)
     if out.suffix == ".csv":
-        named = {name: units.get(known.get(name, ""), known.get(name, "")) for name in columns}
+        named = {name: units.get(units_by_name.get(name, ""), units_by_name.get(name, "")) for name in columns}
         heading = ",".join(f"{name} [{unit}]" if unit else name for name, unit in named.items())
         lines = [
             *CONVENTIONS * ("R11" in columns),

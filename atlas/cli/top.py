@@ -115,8 +115,8 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
     field, body, length, weight = options["magnetic"], _body(options), None, (0.0, 0.0)
     if options["heavy"] is not None:
         n2, n3 = options["direction"] or field
-        held, length, size = _heavy(options, (n2, n3), omega), float(options["heavy"][1]), hypot(n2, n3)
-        body, weight = SymmetricBody(*held.inertia), (held.linear * (n2 / size), held.linear * (n3 / size))
+        moments, length, size = _heavy(options, (n2, n3), omega), float(options["heavy"][1]), hypot(n2, n3)
+        body, weight = SymmetricBody(*moments.inertia), (moments.linear * (n2 / size), moments.linear * (n3 / size))
     elif options["direction"] is not None:
         raise click.UsageError("--direction has no place beside --magnetic: it is that of the field.")
     return TopMotion.charged(
@@ -168,24 +168,24 @@ def _points(path: Path) -> dict[str, Any]:
     return columns
 
 
-def _centred(columns: Mapping[str, Any], along: float = 0.0) -> Any:
+def _centred(columns: Mapping[str, Any], axis: float = 0.0) -> Any:
     """Return the places of points whose centre of mass lies so far along the axis."""
     import numpy as np
 
     places, masses = np.transpose([columns[name] for name in "xyz"]), np.array(columns["mass"])
-    return places - masses @ places / masses.sum() + np.array([0.0, 0.0, along])
+    return places - masses @ places / masses.sum() + np.array([0.0, 0.0, axis])
 
 
-def _needs(options: Mapping[str, Any], name: str, other: str) -> None:
+def _needs(options: Mapping[str, Any], name: str, option: str) -> None:
     if options[name] is None:
-        raise click.UsageError(f"{other} needs --{name}.")
+        raise click.UsageError(f"{option} needs --{name}.")
 
 
-def _goes_with(options: Mapping[str, Any], names: Sequence[str], others: Sequence[str]) -> None:
+def _goes_with(options: Mapping[str, Any], names: Sequence[str], other_options: Sequence[str]) -> None:
     """Refuse options that say nothing without one of some others."""
-    if not given(options, others):
+    if not given(options, other_options):
         for name in given(options, names):
-            raise click.UsageError(f"--{name} goes with {' or '.join(f'--{option}' for option in others)}.")
+            raise click.UsageError(f"--{name} goes with {' or '.join(f'--{option}' for option in other_options)}.")
 
 
 def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, option: str) -> None:

@@ -57,18 +57,18 @@ class Typed(float):
         unit, exact = "", None
         if form is not None:
             value = float.fromhex(text) if form["hexadecimal"] else float(Fraction(text) if form["fraction"] else text)
-        elif option is not None and len(text) <= LONGEST and (parts := split(text)):
-            value, exact = in_si(Fraction(parts[0]), unit := parts[1], option, place)
+        elif option is not None and len(text) <= LONGEST and (number_and_unit := split(text)):
+            value, exact = in_si(Fraction(number_and_unit[0]), unit := number_and_unit[1], option, place)
         else:
             raise ValueError(text)
         number = super().__new__(cls, value)
         number.text, number.unit, number.exact = text, unit, exact
         return number
 
-    def moved(self, value: float, **about: Any) -> Self:
+    def moved(self, value: float, **attributes: Any) -> Self:
         """Return another value with the other attributes of this one."""
         number = float.__new__(type(self), value)
-        vars(number).update(vars(self) | about)
+        vars(number).update(vars(self) | attributes)
         return number
 
     def exactly(self) -> Fraction:
@@ -96,8 +96,8 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
 
     def _single(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
         text = str(value).replace("\N{MINUS SIGN}", "-").replace("\N{DEGREE SIGN}", "deg")  # as on a page
-        if (parts := UNCERTAIN.fullmatch(text)) is not None:
-            return self._with_sigma(text, parts, param, ctx)
+        if (match := UNCERTAIN.fullmatch(text)) is not None:
+            return self._with_sigma(text, match, param, ctx)
         try:
             number = Typed(text, str(param.name) if param else "", self.place)
         except AtlasError as error:
@@ -109,10 +109,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
                 self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
             if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
                 self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
-            right = "1.5, 3/2 or 1e-3" + ", or a range START:STOP:COUNT" * bool(param and param.multiple)
+            remedy = "1.5, 3/2 or 1e-3" + ", or a range START:STOP:COUNT" * bool(param and param.multiple)
             if re.search(r"[(±]|\+/?-", text):
-                right = "an uncertainty as 1.5(1) or 1.5±0.1"
-            self.fail(f"{text!r} is not a finite number; write {right}.", param, ctx)
+                remedy = "an uncertainty as 1.5(1) or 1.5±0.1"
+            self.fail(f"{text!r} is not a finite number; write {remedy}.", param, ctx)
         if not math.isfinite(number):
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
         return number
@@ -135,26 +135,26 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         if log:
             steps: Iterable[float] = (start * (stop / start) ** (i / last_place) for i in range(last_place + 1))
         else:
-            first, step = start.exactly(), (stop.exactly() - start.exactly()) / last_place
-            steps = (float(first + i * step) for i in range(last_place + 1))
+            start_value, step = start.exactly(), (stop.exactly() - start.exactly()) / last_place
+            steps = (float(start_value + i * step) for i in range(last_place + 1))
         return [self._single(repr(x) + unit, param, ctx) for x in steps]
 
     def _with_sigma(
-        self, text: str, parts: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
+        self, text: str, match: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
     ) -> Typed:
         """Read a number with its standard deviation."""
-        carried = getattr(ctx.command if ctx else None, "carries", False)
-        if not carried or (param and param.name in {"times", "grid", "least"}):
+        is_carried = getattr(ctx.command if ctx else None, "carries", False)
+        if not is_carried or (param and param.name in {"times", "grid", "least"}):
             self.fail(
                 f"{text!r} has an uncertainty, which is not carried here: leave it out; atlas motion carries those of "
                 "body, field and start.", param, ctx,
             )  # fmt: skip
-        decimals, sigma = len(parts["decimals"] or parts["digits"] or ""), parts["last"] or parts["full"]
-        if parts["last"] and "." not in sigma:
+        decimals, sigma = len(match["decimals"] or match["digits"] or ""), match["last"] or match["full"]
+        if match["last"] and "." not in sigma:
             sigma += f"e-{decimals}"
-        rest = parts["rest"]
+        ending = match["rest"]
         number: Typed
-        number, size, scale = (self._single(x, param, ctx) for x in (parts["size"] + rest, sigma, f"1{rest}"))
+        number, size, scale = (self._single(x, param, ctx) for x in (match["size"] + ending, sigma, f"1{ending}"))
         number.sigma = float(size) * float(scale)
         number.text = text
         return number
@@ -168,16 +168,16 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
 
     parts: tuple[Typed, Typed]
 
-    def __new__(cls, parts: tuple[Typed, Typed], unit: str = "") -> Self:
+    def __new__(cls, strength_and_angle: tuple[Typed, Typed], unit: str = "") -> Self:
         """Take the strength and the angle to the axis, and the unit of SI in which the components are."""
         from flint import arb
 
         from atlas.arithmetic.numbers import rounded
 
-        size, angle = parts
+        size, angle = strength_and_angle
         components = rounded(lambda: [arb(float(size)) * x for x in arb(float(angle)).sin_cos()])
         new = super().__new__(cls, [size.moved(x, sigma=0.0, text=f"{x!r}{unit}") for x in components])
-        new.parts = parts
+        new.parts = strength_and_angle
         return new
 
 

@@ -24,8 +24,8 @@ class UncertainAnswer:
         """Return the answer to options with uncertainties, which are independent of one another."""
         inputs, middle = uncertain(options), answer(options)
         with bar("draws") as tell:
-            found = spread(middle, lambda steps: answer(_moved(options, inputs, steps)), len(inputs), tell)
-        return cls(middle, found)
+            deviations = spread(middle, lambda steps: answer(_moved(options, inputs, steps)), len(inputs), tell)
+        return cls(middle, deviations)
 
     @property
     def notes(self) -> list[str]:
@@ -83,7 +83,8 @@ def concise(value: float, sigma: float, error: float = 0.0) -> str:
     last_power = math.floor(math.log10(sigma)) - 1
     if error > 10.0**last_power or round(sigma / 10.0**last_power) == 100:
         last_power += 1
-    first = math.floor(math.log10(max(abs(value), sigma)))
-    if last_power <= 0 and -4 <= first < 10:
+    first_power = math.floor(math.log10(max(abs(value), sigma)))
+    if last_power <= 0 and -4 <= first_power < 10:
         return f"{value:.{-last_power}f}({round(sigma / 10.0**last_power)})"
-    return f"{value / 10.0**first:.{first - last_power}f}({round(sigma / 10.0**last_power)})e{first:+03d}"
+    mantissa = f"{value / 10.0**first_power:.{first_power - last_power}f}"
+    return f"{mantissa}({round(sigma / 10.0**last_power)})e{first_power:+03d}"

@@ -139,8 +139,8 @@ def _details(verdict: Any, *, named: bool) -> str:
 
 def _reading(phrase: str, line: str) -> str:
     """Return the fate of a phrase of the formula that is more than a relation."""
-    said = " ".join(plain(f"${phrase}$").split())
-    return f"{said}: {f'tried as {line}' if line else 'supposed, or tried in a further line'}"
+    sentence = " ".join(plain(f"${phrase}$").split())
+    return f"{sentence}: {f'tried as {line}' if line else 'supposed, or tried in a further line'}"
 
 
 def _proof(verdict: Any) -> list[str]:
@@ -163,6 +163,6 @@ def _totals(verdicts: Any) -> None:
     click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
     graded = {grade: len(names) for grade, names in slips(verdicts).items() if names}
     if graded:
-        each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
+        one_verdict = ", ".join(f"{count} {grade}" for grade, count in graded.items())
         count = sum(graded.values())
-        click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {each}")
+        click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {one_verdict}")

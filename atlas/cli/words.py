@@ -58,9 +58,11 @@ def apart(word: str) -> list[str]:
     return [x.strip() for x in (word[1:-1] if word[:1] in {"(", "["} else word).split(",")]
 
 
-def is_number(word: str, *, more: bool = True) -> bool:
+def is_number(word: str, *, is_wanted: bool = True) -> bool:
     """Whether a word was meant as a number and is no file; a bare number is none where more numbers are wanted."""
-    return bool(LIKE_A_NUMBER.fullmatch(word) and ((more and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK)))
+    return bool(
+        LIKE_A_NUMBER.fullmatch(word) and ((is_wanted and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK))
+    )
 
 
 def check_units(option: str, value: Any) -> None:
@@ -120,17 +122,17 @@ class Command(click.Command):
         *args: Any,
         other: Callable[[Words], click.Command | None] = lambda _: None,
         carries: bool = False,
-        **more: Any,
+        **settings: Any,
     ) -> None:
-        super().__init__(*args, **more)
+        super().__init__(*args, **settings)
         self.other, self.carries = other, carries
 
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
         """Let the command to which the words belong read them."""
-        other = self.other(Words(args))
-        return (other.make_context if other else super().make_context)(info_name, args, parent, **extra)
+        command = self.other(Words(args))
+        return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the words; where help is asked for, nothing else is read."""
@@ -232,7 +234,7 @@ class Reader:
         """Return the components of a vector, and the words after it, which a command with arguments may have."""
         components, words = list[str](), list(option.values)
         while words and (
-            not self.places or all(is_number(x, more=len(components) < param.nargs) for x in apart(words[0]))
+            not self.places or all(is_number(x, is_wanted=len(components) < param.nargs) for x in apart(words[0]))
         ):
             components += apart(words.pop(0))
         if param.name == "inertia" and {len(components), param.nargs} == {2, 3}:

@@ -356,7 +356,14 @@ class Fit:
         return [*self.undetermined, *self.warnings, *self.others, *self.notes]
 
     def report(self) -> str:
-        """Return the table of parameters with their errors, then `undetermined`, `warnings` and the alternatives."""
+        """Text of the fit, as `str` and `atlas fit` give it.
+
+        Returns
+        -------
+        str
+            A line with chi square, a table of the parameters with their standard errors, and a sentence in each further
+            line: `undetermined`, `warnings`, the alternatives and `notes`.
+        """
         return "\n".join([self._title, table(*self.rows()), *self._sentences()])
 
     __str__ = report
@@ -367,7 +374,15 @@ class Fit:
         return html_table(self._title, *self.rows()) + "".join(f"<p>{escape(x)}</p>" for x in self._sentences())
 
     def record(self) -> dict[str, Any]:
-        """Return the fit as plain data for JSON."""
+        """Fit as plain data, which `json.dumps` takes.
+
+        Returns
+        -------
+        dict of str to object
+            Under "params" a dict by name with "value", "stderr", "vary" and "expr"; under "covariance" the matrix of
+            the parameters in "names", as nested lists; under "alternatives" a list of dicts. The other keys are the
+            attributes of this name, "times" the count of times.
+        """
         values = {
             name: {"value": p.value, "stderr": p.stderr, "vary": p.free, "expr": p.expr}
             for name, p in self.parameters.items()
@@ -381,7 +396,14 @@ class Fit:
         }  # fmt: skip
 
     def scene(self) -> Scene:
-        """Draw data and curve, and the residuals in standard errors below."""
+        """Picture of the fit as data, which `plot` draws.
+
+        Returns
+        -------
+        Scene
+            Two panels against time: at most three components of the data, as points, with the curves of the motion;
+            and the residuals in standard errors. Rotations and axes are drawn by their third axis R e3.
+        """
         data = self.problem.data
         axis = data.kind in ("rotation", "axis")
         observed = data.values[:, :, 2] if data.kind == "rotation" else data.values
@@ -419,7 +441,18 @@ class Fit:
         return values[:, :, 2] if values.ndim == 3 else values
 
     def plot(self, style: StyleLike = None) -> "Figure":
-        """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
+        """Picture of `scene`, drawn by Matplotlib.
+
+        Parameters
+        ----------
+        style : str, path, dict or list of these, optional
+            Style sheet of Matplotlib on top of the own look.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Data and curves above, residuals in standard errors below.
+        """
         figure: Figure = notebook("pictures").to_figure(self.scene(), style)
         return figure
 

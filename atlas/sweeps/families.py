@@ -146,9 +146,11 @@ class Swept:
             ("quantity", [x for x in names if x not in self.quantities], self.quantities),
             ("quantity with certified digits", [x for x in names if digits and x not in certified], certified),
         )
-        for subject, refused, known in lists:
+        for subject, refused, known_names in lists:
             if refused:
-                raise AtlasError(f"There is no {subject} {refused[0]!r} here; there is {', '.join(known) or 'none'}.")
+                raise AtlasError(
+                    f"There is no {subject} {refused[0]!r} here; there is {', '.join(known_names) or 'none'}."
+                )
         missing_names = [name for name in self.needed if name not in parameters]
         if missing_names:
             raise AtlasError(f"The parameter {missing_names[0]} is missing; needed are {', '.join(self.needed)}.")

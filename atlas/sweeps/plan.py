@@ -104,9 +104,9 @@ class Plan:
     @property
     def conventions(self) -> list[str]:
         """Sentences on the frames of matrices and vectors, where the table has functions of time or turned axes."""
-        turned = f"Columns in _principal are along the principal axes of the body, {self.axes} in those given"
+        sentence = f"Columns in _principal are along the principal axes of the body, {self.axes} in those given"
         has_samples = "R11" in self._sampled and not self._sampled.isdisjoint(self._names)
-        return [*CONVENTIONS * has_samples, *[turned] * bool(self.axes)]
+        return [*CONVENTIONS * has_samples, *[sentence] * bool(self.axes)]
 
     @property
     def _sampled(self) -> set[str]:

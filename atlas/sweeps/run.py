@@ -156,15 +156,15 @@ def write_plan(
     with table.held():
         try:
             names = _compute(plan, table, rows, executor, width(executor, jobs), progress)
-            beside: Mapping[str, str] = {}
+            new_names: Mapping[str, str] = {}
             if table.whole is None:
-                beside = write(Path(table.place), plan, [table.path(name) for name in names])
+                new_names = write(Path(table.place), plan, [table.path(name) for name in names])
             else:
                 table.move(names)
             table.parts.clear(table.parts.names())
         finally:
             table.parts.clear([])
-    files.tell(Path(table.place).parent, beside)
+    files.tell(Path(table.place).parent, new_names)
     return table.place
 
 

@@ -83,13 +83,13 @@ class Folder:
                 raise
             reason = " ".join(str(error).split()).removesuffix(".") or type(error).__name__
             raise AtlasError(f"{self.address} cannot be reached: {reason}.") from error
-        parts = {name for name in names if PART.fullmatch(name)}
-        strangers = [name for name in names - parts if not name.startswith(".")]
+        part_names = {name for name in names if PART.fullmatch(name)}
+        strangers = [name for name in names - part_names if not name.startswith(".")]
         if strangers:
             raise AtlasError(
                 f"{self.address} holds {min(strangers)}, which is of no sweep: move it away, or choose another --out."
             )
-        return parts
+        return part_names
 
     def holds(self, name: str) -> bool:
         """Return whether a part has the contents that its name says."""

@@ -66,46 +66,46 @@ PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array
 """How the rows of a part are kept, by the ending of its file and of the table."""
 
 
-def write(out: Path, plan: Plan, parts: Parts) -> Mapping[str, str]:
+def write(out: Path, plan: Plan, part_files: Parts) -> Mapping[str, str]:
     """Write a table from its parts to its path, or next to an existing file, see `atlas.files.settle`."""
     with unfinished(out) as file:
-        WRITERS[out.suffix[1:]](file, plan, parts)
+        WRITERS[out.suffix[1:]](file, plan, part_files)
         with turn(out.parent):
             return settle({out.name: file}, out.parent)
 
 
-def write_csv(out: Path, plan: Plan, parts: Parts) -> None:
+def write_csv(out: Path, plan: Plan, part_files: Parts) -> None:
     """Write the conventions as lines with #, the heading, and the rows."""
     with out.open("wb") as file:
         file.writelines(f"# {sentence}\n".encode() for sentence in plan.conventions)
         file.write((",".join(plan.headings) + "\n").encode())
-        for rows in parts:
+        for rows in part_files:
             file.write(rows.read_bytes())
 
 
-def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
+def write_npz(out: Path, plan: Plan, part_files: Parts) -> None:
     """Write one array a column, each from one part after the other."""
     with zipfile.ZipFile(out, "w") as archive:
         for name in plan.names:
             with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
-                for rows in parts:
+                for rows in part_files:
                     # of a part no more is read than the column
                     with np.load(rows) as columns:
                         column = columns[name]
-                    if rows is parts[0]:
+                    if rows is part_files[0]:
                         descr = np.lib.format.dtype_to_descr(column.dtype)
                         header = {"descr": descr, "fortran_order": False, "shape": (plan.count,)}
                         np.lib.format.write_array_header_1_0(file, header)
                     file.write(column.data)
 
 
-def write_parquet(out: Path, _: Plan, parts: Parts) -> None:
+def write_parquet(out: Path, _: Plan, part_files: Parts) -> None:
     """Write row groups of ROW_GROUP rows, the last of fewer."""
     with _pyarrow() as (arrow, parquet):
-        rows = parquet.read_schema(parts[0]).empty_table()
+        rows = parquet.read_schema(part_files[0]).empty_table()
         with parquet.ParquetWriter(out, rows.schema) as writer:
-            for part in parts:
-                rows = arrow.concat_tables([rows, parquet.read_table(part)])
+            for part_file in part_files:
+                rows = arrow.concat_tables([rows, parquet.read_table(part_file)])
                 full_rows = rows.num_rows // ROW_GROUP * ROW_GROUP
                 if full_rows:
                     writer.write_table(rows.slice(0, full_rows).combine_chunks(), row_group_size=ROW_GROUP)
