@@ -88,8 +88,8 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
             values[name] = value
     sigma = None if options["sigma"] is None else float(options["sigma"])
     same = {name: options[name] for name in ("family", "kind", "loss")}
-    values: dict[str, Any] = {"sigma": sigma, "epoch": float(options["epoch"])}
-    return {**same, **values, "fix": given_values["fix"], "params": given_values["start"]}
+    numbers: dict[str, Any] = {"sigma": sigma, "epoch": float(options["epoch"])}
+    return {**same, **numbers, "fix": given_values["fix"], "params": given_values["start"]}
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:

@@ -258,7 +258,7 @@ CASES = [
     (f"motion {BODY} --omega 1 2 3 --spectrum --least 0", "--least is a part of the whole"),
     (f"motion {BODY} --omega2 1 --times", "--times"),
     (f"motion {BODY} --omega2 1e3 --times 1e30 --json", "2^50"),
-    (f"motion {BODY} --omega2 0.3 --times 1(1)", "nothing follows"),
+    (f"motion {BODY} --omega2 0.3 --times 1(1)", "atlas motion carries those"),
     ("page --ratio 1.3 --field 1 2 --omeg 1 2 3 --out {place}/new", "--omeg"),
     ("page motion --ratio 1.3 --field 1 2 --out {place}/new", "--omega2"),
     ("page nosuch --ratio 1", "nosuch"),
