@@ -84,7 +84,7 @@ class One:
         self._known, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
 
     def _moved(self, placed: bool, i: int) -> dict[str, Moved]:
-        """Return how each name that a user may ask for moves the inputs."""
+        """Return by name of an input the change of all inputs, for each name that `sensitivity` takes."""
         own, L, C = self.inputs.names, self.left, self.axes
         moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if placed else "K")}
         if "K1" in own or (placed and "n2" in own):

@@ -93,7 +93,7 @@ BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
     "precession_rate": lambda x: -_length(x.field),
     "spin_rate": lambda x: -_length(map(add, x.field, x.omega)),
 }
-"""Those of motions whose neighbours are other motions: mean rates, and what follows from them."""
+"""Scalars of motions whose neighbours are other motions: mean rates, and functions of these."""
 
 
 def among_all(

@@ -44,7 +44,7 @@ def stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) ->
 
 
 def least_stability(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
-    """Return its least value: its factors, of which only those of exact terms cancel."""
+    """Return the least squared frequency of nutation, as a product in which only exact terms cancel."""
     h, b, across_part, less = abs(B3), length(B2, B3), B2 * B2, (I2 - I3) / I2
     once, thrice, square = b + h, b + h + h + h, B3 * B3
     eight = square + square

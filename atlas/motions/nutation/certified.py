@@ -29,7 +29,7 @@ class Nutating:
     field: tuple[fmpq, ...]
     """Vector about which the axis precesses, in the body at t = 0; of any length."""
     cancelled = 0
-    """Digits, of base two, that the spin in a period loses when it is made of two turns."""
+    """Bits that the spin in a period loses by cancellation of two turns."""
     places = 0, 1, 2
     """Axes of the body, the one last that nutates."""
 

@@ -273,7 +273,7 @@ class Solution:
         return self._parameters(t, self.in_cell(arb(t) + self.origin), turning=turning)
 
     def _parameters(self, t: Any, s: arb, *, turning: bool) -> tuple[acb, acb, acb, acb]:
-        """Return them at a time, which is s in its own period."""
+        """Return alpha, beta and their derivatives at time t, which is s after the turning point in its period."""
         a, da = self.alpha.at(t, s)
         b, db = self.beta.at(t, s)
         if self.swing is None:
@@ -300,7 +300,7 @@ class Solution:
         return arb("nan") if periods is None else s - self.period * periods
 
     def _whole_periods(self, s: arb) -> fmpz | None:
-        """Return how many whole periods are left out, None where that is not known."""
+        """Return the number of whole periods between s and its cell, None if the radius of s leaves two."""
         if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
             return fmpz(0)
         return ((s / self.period).mid() + 0.5).floor().unique_fmpz()

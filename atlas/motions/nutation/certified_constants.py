@@ -122,7 +122,7 @@ class Nutation:
         return self.turnings[place]
 
     def _start(self) -> TurningPoint:
-        """Return the turning point next to which the motion is fast: near a separatrix, the one it comes back from."""
+        """Return the turning point with the faster motion beside it, near a separatrix the simple root."""
         low, high = self.quartic.low, self.quartic.high
         if self.roots[low].multiplicity > 1:
             return self.turning(high)
@@ -140,7 +140,7 @@ class Nutation:
         return self.turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
 
     def _origin(self) -> arb:
-        """Return the time since the turning point, positive where Omega3 moves away from it."""
+        """Return the time since the turning point, positive if Omega3 moves away from this point."""
         q, sense, u = self.quartic, self.quartic.sense, arb(self.quartic.u.value)
         if sense == 0:
             return arb(0) if self.start.u.overlaps(u) else self.lattice.half

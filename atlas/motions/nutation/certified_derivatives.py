@@ -24,10 +24,10 @@ STEP_BITS = 80
 """Binary digits of the inputs that a step leaves alone."""
 
 MAX_RADIUS = 2.0**-66
-"""Radius of a derivative, beside the largest of its group, with which it is good for a double."""
+"""Largest radius of a derivative that is rounded to a double, relative to the largest of its group."""
 
 MAX_SLOPE_CHANGE = 2.0**-60
-"""Largest change of the slope over a step, in parts of it: the step is then far from any border."""
+"""Largest relative change of the slope over a step that is far from any border."""
 
 MAX_TRIES = 6
 

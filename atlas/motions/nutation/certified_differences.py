@@ -23,7 +23,7 @@ SIDES = (((1, 0, -1), (1, 0, -1)), ((0, -1, -2), (3, -4, 1)), ((0, 1, 2), (-3, 4
 """Steps h and the weights of twice a difference: on both sides, or on one at the border of possible bodies."""
 
 MAX_DERIVATIVE_CHANGE = 2.0**-30
-"""Largest change of a derivative over a step, in parts of it: of a difference that errs by the square of this."""
+"""Largest relative change of a derivative over a step; the error of the difference is its square."""
 
 
 class Differences:

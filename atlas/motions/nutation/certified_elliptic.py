@@ -184,7 +184,7 @@ class EllipticMotion(Nutating):
 
     @property
     def period(self) -> arb:
-        """Period of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
+        """Period of K; for constant K, the period of an infinitesimal change of K, inf if that does not oscillate."""
         if not self.is_steady:
             return super().period
         if self.kind == "elementary":
@@ -204,7 +204,7 @@ class EllipticMotion(Nutating):
 
     @property
     def is_middle(self) -> bool:
-        """Whether the motion is on the separatrix: it tends to the axis of the middle E, or is the spin about it."""
+        """Whether the motion tends to the axis of the middle E, on the separatrix, or is the spin about this axis."""
         return self.kind == "separatrix" or (self.is_steady and self._change() < 0)
 
     @property

@@ -51,7 +51,7 @@ class GeneralMotion(Nutating):
 
     @cached_property
     def cancelled(self) -> int:
-        """Digits, of base two, that the spin in a period loses: it is of the order of 1 - I."""
+        """Bits that the spin in a period loses by cancellation, since its size is of the order of 1 - I."""
         less = abs(1 - self.I)
         return max(0, int(less.q).bit_length() - int(less.p).bit_length()) if less != 0 else 0
 

@@ -78,7 +78,7 @@ class Quartic:
 
     @property
     def bend(self) -> int:
-        """Sign of the coefficient of u^4: where in the plane of time u is infinite depends on it."""
+        """Sign of the coefficient of u^4, which decides whether u is infinite at real or at imaginary times."""
         return self.polynomial[4].sign if len(self.polynomial) == 5 else 0
 
     @property

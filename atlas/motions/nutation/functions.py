@@ -128,7 +128,7 @@ class Hyperbolic:
         return none + polynomial if sum_.doubled else polynomial + none
 
     def _count_terms(self, weights: list[acb]) -> int:
-        """Return how many powers of W matter."""
+        """Return the number of powers of W that are not negligible, at least 1."""
         sizes = [float(abs(x).mid()) for x in weights]
         least = NEGLIGIBLE * max(sizes[:2])
         return max([1, *(j // 2 + 1 for j, size in enumerate(sizes) if size > least)])
@@ -237,7 +237,7 @@ class Line:
 F, HALF = fmpq_poly([0, 1]), fmpq(1, 2)
 ONE_ODD = (F * 0 - 1, F * 0 + 1), (F * 0 + 1, F * 0 + 1)
 """For k = -1 and 1 the polynomials in F = 2 cos 2v (2 cosh 2x) by which sin v and cos v (sinh, cosh) are multiplied to
-give sin kv and cos kv; each next pair is F times the one before it less the one before that."""
+give sin kv and cos kv; pair n + 1 is F times pair n less pair n - 1."""
 ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
 """The same for k = -2 and 0; sinh 2nx is tanh x (1 + cosh 2x) times a polynomial."""
 
@@ -263,7 +263,7 @@ def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
 
 
 def _terms(sum_: Sum) -> int:
-    """Return how many terms of a trigonometric sum matter."""
+    """Return the number of terms of a trigonometric sum that are not negligible, at least 1."""
     if sum_.doubled:
         return 1
     terms = 1

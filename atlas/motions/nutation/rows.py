@@ -139,7 +139,7 @@ class MotionsAtTimes:
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > MAX_OMEGA3_CHANGE * largest(out)))
 
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
-        """Return a pair, and keep which motions it does not hold."""
+        """Return a pair; `extreme` becomes the indices of motions that the pair does not cover."""
         selected = self._selected(swings) if swings and swings.twisted[self._index].any() else None
         pair = CayleyKleinAtTimes(self._selected(constants), self._times, selected)
         self.extreme = pair.extreme

@@ -25,7 +25,7 @@ from atlas.motions.nutation.rows_spheres import sphere_of_field
 from atlas.motions.nutation.rows_swing import Swings, SwingSums, swing_sums
 
 MIN_FREQUENCY_RATIO = 2.0**-60
-"""Least part of the largest frequency that another one is, if it is not zero."""
+"""Least ratio of a nonzero frequency to the largest."""
 
 WEIGHT_RADIUS = 2.0**-57
 """Radius to which weights are known before they are rounded."""
@@ -83,7 +83,7 @@ class Block:
 
     @cached_property
     def swing_rate(self) -> DoubleDouble | None:
-        """The rate that it adds to the turn about the axis, of tops."""
+        """Mean rate that the integral of nu adds to the turn of tops about their axis; None for bodies in a field."""
         top = self.roots.top
         return chosen(top.twisted, top.kappa * self.swing.rate, top.kappa) if top and self.swing else top and top.kappa
 
@@ -230,6 +230,6 @@ def _exponent(x: FloatArray, plain: Any) -> Any:
 
 
 def _alike(sizes: Sequence[Any]) -> Any:
-    """Return where the least number that is not zero is not too small beside the largest."""
+    """Return a mask of rows: the least nonzero number is at least `MIN_FREQUENCY_RATIO` of the largest."""
     x = np.array(sizes)
     return np.where(x == 0, np.inf, x).min(axis=0) >= MIN_FREQUENCY_RATIO * x.max(axis=0)

@@ -144,7 +144,7 @@ class Pencil:
         return [-(self.v * y) - ONE for y in self.e]
 
     def is_elliptic(self, w: DoubleDouble) -> Any:
-        """Return where this is certain to be an elliptic motion; w is negative then."""
+        """Return a mask of rows that are elliptic motions for certain, which have w < 0."""
         sizes, rank = np.array([np.broadcast_to(y.hi, self.shape) for y in self.I]), self.order
         conditions = [
             (sizes > 0).all(0) & (2 * PLANE_FACTOR * sizes.max(0) < sizes.sum(0)) & (abs(self.branch.hi) == 1),
@@ -297,7 +297,7 @@ class EllipticAtTimes(MotionsAtTimes):
         return block.constants, Axes(r.frame, np.array(rates))
 
     def _pair(self, constants: Constants, _: Any = None) -> CayleyKleinAtTimes:
-        """Return the pair, and keep which motions it does not hold."""
+        """Return the pair; `extreme` becomes the indices of motions that the pair does not cover."""
         return super()._pair(constants)
 
     @property

@@ -99,7 +99,7 @@ class Means:
 
     @cached_property
     def nome(self) -> DoubleDouble:
-        """Nome of the theta functions, in size: that of the moduli for four real roots, else the root of it."""
+        """Magnitude of the nome of the theta functions: for four real roots the nome of the moduli, else its root."""
         product = constant(1.0, self.N)
         for n in range(len(self.levels) - 1, 0, -1):
             further = (product * self.level(n).a / self.level(n + 1).a).sqrt()
@@ -108,7 +108,7 @@ class Means:
 
     @cached_property
     def start(self) -> Circle:
-        """Cosine and sine of M t, t the time since Omega3 was `low`, at the start: cot of twice it is (c - a g/c)/2."""
+        """Cosine and sine of M t0, t0 the time at the start since Omega3 was `low`: cot(2 M t0) = (c - a g/c)/2."""
         r = self.roots
         square, below = r.ends[0].scaled(-2) * r.high, -r.low
         scaled = self.N * below

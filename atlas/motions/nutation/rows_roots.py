@@ -260,7 +260,7 @@ def roots_of_tops(*inputs: DoubleDouble) -> Roots:
 
 
 def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> DoubleDouble:
-    """Return A, from exact numbers where it cancels: its sign says how many roots there are."""
+    """Return A, from exact numbers where its terms cancel; the sign of A decides the number of roots."""
     hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
     for i in np.flatnonzero(~(rel < 0.5)).tolist():
         numbers = (float(np.broadcast_to(x.hi, A.hi.shape)[i]) for x in inputs)

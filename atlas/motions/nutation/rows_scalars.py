@@ -37,7 +37,7 @@ KINDS = (
 """Types of motion that are decided in arrays; a motion nearer to a border than the error is none of them."""
 
 TOP_KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
-"""Those of tops."""
+"""Scalars of tops that are evaluated in arrays."""
 
 HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 2.0**-106)
 
@@ -63,7 +63,7 @@ class Scalars:
         return self._known[name]
 
     def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
-        """Return the function that makes a scalar, and others with it."""
+        """Return the function that computes a scalar, together with all scalars of the same pass."""
         return _angles if name.endswith("per_period") else _scalars
 
     def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:

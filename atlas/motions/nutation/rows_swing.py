@@ -75,7 +75,7 @@ class Swings(NamedTuple):
 
     @classmethod
     def of_block(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
-        """Return it for the tops of a block."""
+        """Return the constants of the turn for the tops of a block."""
         A, kappa, (cos, sin) = r.A, top.kappa, means.start
         nothing = np.zeros((MAX_TERMS, *A.hi.shape), dtype=np.longdouble)
         sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))
@@ -124,7 +124,7 @@ class Swings(NamedTuple):
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
-    """Return them for tops whose b nu at t = 0, and A over b^2, are these."""
+    """Return the sums of tops, from b nu at t = 0 and A/b^2."""
     r, square = means.roots, means.nome * means.nome
     is_at_low = r.ends.hi[0] < r.ends.hi[1]
     size = abs(A).sqrt()

@@ -52,7 +52,7 @@ class SingleElliptic(SingleMotion):
 
 
 class SingleEulerTop(SingleElliptic):
-    """One free body, or one that spins about a principal axis along a `field` in it, which stays."""
+    """One free body, or a body that spins about a principal axis along the `field`, which is constant in the body."""
 
     def __init__(self, exact: EulerTop, field: FloatArray) -> None:
         super().__init__(exact)

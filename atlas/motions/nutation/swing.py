@@ -80,22 +80,22 @@ class Swing:
         return self.type(head) + self.type(float(middle - head))
 
     def _count_terms(self, weights: list[arb]) -> int:
-        """Return how many terms matter."""
+        """Return the number of terms that are not negligible, at least 1."""
         terms = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
         largest = max(terms, key=lambda x: float(x.mid()))
         return max((n + 1 for n, x in enumerate(terms) if not x < NEGLIGIBLE * largest), default=1)
 
     def half_at(self, multiple: int, half: FloatArray, low: FloatArray) -> FloatArray:
-        """Return it from half phases and their rounding errors, 2v being a multiple, rounded once."""
+        """Return half the turn (m,) at half phases and their low words (m,), 2v being a multiple; rounded once."""
         v = multiple * self._sum(half, low)
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
 
     def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
-        """Return half of the whole turn where there is no period: `half` is that of its rate, x + rest = rate s."""
+        """Return half the whole turn of a motion without a period; `half` is half the mean turn, x + low = rate s."""
         return half + self._rounded(self.of_line(self._sum(x, low)))
 
     def half_on_line(self, x: FloatArray, low: FloatArray, v: FloatArray, low_of_phase: FloatArray) -> FloatArray:
-        """Return it from x + rest = rate s and, within a period, v + left, half a phase; rounded once."""
+        """Return half the turn within a period, from x + low = rate s and half the phase v; rounded once."""
         return self._rounded(self.of_line(self._sum(x, low)) + self.twist * self._sum(v, low_of_phase))
 
     def _sum(self, x: FloatArray, low: FloatArray) -> Numbers:
@@ -109,7 +109,7 @@ class Swing:
         return np.asarray(angle, dtype=np.float64)
 
     def of_circle(self, cos: Numbers, sin: Numbers) -> Numbers:
-        """Return it from cos 2v and sin 2v, v = rate s: trigonometric sums of multiples of 2v (Clenshaw)."""
+        """Return half the turn from cos 2v and sin 2v, v = rate s: sums of multiples of 2v by Clenshaw."""
         twice = cos + cos
         even, last_even, odd, last_odd = (np.zeros_like(cos) for _ in range(4))
         for a, b in zip(self.even[:0:-1], self.odd[:0:-1], strict=True):
@@ -118,7 +118,7 @@ class Swing:
         return self._turn(odd * sin, self.even[0] + cos * even - last_even)
 
     def of_line(self, x: Numbers) -> Numbers:
-        """Return it from x = rate s, where the sums are hyperbolic or linear."""
+        """Return half the turn from x = rate s, by hyperbolic or linear sums."""
         if self.form == "linear":
             return self._turn(self.odd[0] * x, np.full_like(x, self.even[0]))
         size = np.abs(x)
@@ -132,7 +132,7 @@ class Swing:
         return self._turn(np.copysign(1.0, x) * odd, even)
 
     def _between(self, x: Numbers) -> Numbers:
-        """Return its size for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
+        """Return artanh(O/E) for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
         d, smaller = self.depth, np.minimum(x, self.depth)
         odd, low = np.zeros_like(x), np.zeros_like(x)
         for n in range(self.odd.size):
@@ -163,7 +163,7 @@ class Crossing:
         self.is_coarse = not abs(self.factor) < MAX_DOUBLE_ANGLE
 
     def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
-        """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""
+        """Return half the turn from `half`, half of kappa s less whole half turns, and x + low = slope s/2."""
         s = x + low
         logarithm = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
         return np.asarray(self.sense * (np.where(s < 0, -half, half) + logarithm))

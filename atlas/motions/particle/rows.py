@@ -272,7 +272,7 @@ def _sequence(results: Any) -> tuple[Any, ...]:
 
 
 def _check(out: FloatArray, name: str) -> FloatArray:
-    """Return it, or raise DomainError where a float is too small for what was computed."""
+    """Return a finite array unchanged. Raises DomainError for one with a number too large for a float."""
     if not np.isfinite(out).all():
         raise DomainError(f"{name} is too large for a float: choose larger units.")
     return out

@@ -36,13 +36,13 @@ from atlas.motions.torus.approximate_periods import (
 )
 
 INTEGER_TOLERANCE = 1e-9
-"""How near to whole numbers the coefficients of a conjugate period are."""
+"""Largest distance from an integer of a coefficient of a conjugate period."""
 
 MAX_PATHS_PER_ZERO, MIN_PATHS = 8, 4
 """Paths for each zero where fewer do not give all periods, and the fewest that may."""
 
 MAX_PATH_PARTS = 100
-"""Parts of all paths from which on no more paths are gone: it takes long, and relations stay unseen."""
+"""Number of parts of all paths at which the search for paths ends, for time."""
 
 AREA_BITS, AREA_INTEGER_BITS = 160, 8
 """Bits of areas in the search for the polarization, and of an integer there: near symmetry its values are large."""

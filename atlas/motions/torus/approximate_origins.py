@@ -24,7 +24,7 @@ Vector = list[acb]
 
 @dataclass(frozen=True)
 class State:
-    """M and K, and N where it is asked for, as a point of the complex torus."""
+    """Point of the complex torus: vectors M and K, and N, empty unless needed."""
 
     M: Vector
     K: Vector

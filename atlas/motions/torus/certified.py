@@ -73,7 +73,7 @@ class OnTorus:
 
     @property
     def is_regular(self) -> bool:
-        """Whether both flows are independent on it, and H, F and the Casimirs are no critical values."""
+        """Whether both flows are independent on the torus: H, F and the Casimirs are no critical values."""
         return bool(self.torus.integrals.double_points().degree() == 0)
 
     @property
@@ -84,7 +84,7 @@ class OnTorus:
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
-        """Return the elliptic motion that it is, if it is one whose z is rational."""
+        """Return the same motion as an elliptic one, None unless it is elliptic with a rational z."""
         z_polynomial, (W, K) = self.torus.integrals.double_points(), (self.torus.W, self.field)
         M = [I * w for I, w in zip(self.moments, W, strict=True)]
         D = self.moments[0] * self.moments[1] * self.moments[2]
@@ -132,7 +132,7 @@ class OnTorus:
             return -t * self.b
 
     def _without_periods(self, t: fmpq) -> str:
-        """Return why Taylor's series goes all the way to a time, empty where it starts from a period."""
+        """Return the reason why no periods reduce time t, as a clause for an error; empty if periods are used."""
         if not self.is_regular:
             return "the motion is one where two periods of its torus fall together"
         if self.too_near or abs(t) > MAX_FLOW_TIME:
@@ -176,7 +176,7 @@ class OnTorus:
         return self.torus.periods(bits)
 
     def _directly(self, t: fmpq, why: str) -> Arrival:
-        """Go the whole way, if it is not too long."""
+        """Return the state at t by Taylor's series from 0. Raises NotCertifiedError beyond `MAX_FLOW_TIME`."""
         if abs(t) > MAX_FLOW_TIME:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "

@@ -44,7 +44,7 @@ Forms: TypeAlias = Callable[[acb], tuple[list[acb], acb]]
 """The forms but for way ds/(2 r), and r^2, as functions of s."""
 
 INTEGER_TOLERANCE = 1e-9
-"""How near to whole numbers the coefficients of a period of the torus in those of a basis are."""
+"""Largest distance from an integer of a coefficient of a period of the torus in a basis."""
 
 MIN_S_BITS = 40
 """Bits of s from which on the value of eta on its ball is narrow."""

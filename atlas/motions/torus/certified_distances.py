@@ -79,7 +79,7 @@ Place = tuple[int, int]
 
 
 def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
-    """Return proven bounds on how far M, K and N of the forms are from the motion in a cell of the periods, (3,).
+    """Return proven bounds (3,) on the distance of M, K and N of the forms from the motion in a cell of the periods.
 
     The cell reaches from -HALF_TURN to HALF_TURN of both, from the start. Where errors might grow too much on the way
     from there, the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes.
@@ -108,9 +108,9 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
 
 
 def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Sequence[Period]) -> Floats:
-    """Return proven bounds on how far M, K and N go astray in all turns where other periods are taken than the proved.
+    """Return proven bounds (3,) on the error of M, K and N, at all phases, by rounding the proved periods.
 
-    Raises NotCertifiedError where they go too far for a bound.
+    Raises NotCertifiedError for an error beyond `MAX_DISTANCE`.
     """
     with workprec(BITS + SPARE_BITS):
         arc, turn = np.zeros(3), 2 * arb.pi()
@@ -150,7 +150,7 @@ class Cell:
         self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
         """Bound on the sum of factors of the products in a defect."""
         self.largest_factor = float(np.exp(HALF_TURN * np.abs(turns.imag).sum()))
-        """That of N, exp(i l (zeta - start))."""
+        """Factor exp(i l (zeta - start)) of N."""
 
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
@@ -361,7 +361,7 @@ def _sizes(theta: ThetaMotion) -> Floats:
 
 
 def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
-    """Return how fast errors of M, K and N grow by one another, at most, on a way that takes the times H and F.
+    """Return bounds (3, 3) on the growth of errors of M, K and N by one another, over the times H and F.
 
     A multiple of 1 may be taken from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K.
     """

@@ -252,11 +252,11 @@ class Flow:
         )
 
     def length(self, a: fmpq, g: fmpq) -> float:
-        """Return the largest rate of the flow of a H + g F/2 times the size of (W, K): a step is one to five of it."""
+        """Return the largest rate of a H + g F/2 times the size of (W, K): one to five steps each."""
         return float(max(abs(x) for row in self.rates(a, g) for x in row)) * float(sum(abs(x) for x in self.start))
 
     def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
-        """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
+        """Return the state of the flow of a H + g F/2 at time 1, as balls; without radii unless `proven`.
 
         Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
         """
@@ -272,7 +272,7 @@ class Flow:
             return way.arrival()
 
     def pass_by(self, a: fmpq, fractions: Sequence[fmpq], bits: int) -> Iterator[Arrival]:
-        """Yield where the flow of a H is at fractions in (0, 1] of its way, which ascend: one way for all.
+        """Yield the states of the flow of a H at ascending fractions in (0, 1] of its time, along one path.
 
         Raises NotCertifiedError as `go` does, where the way goes on no further.
         """

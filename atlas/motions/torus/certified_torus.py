@@ -56,7 +56,7 @@ class Period:
     angle: arb
 
     def least(self) -> "Period":
-        """Return it with the angle that is at most half a turn."""
+        """Return the period with its angle less whole turns, at most half a turn."""
         turn = 2 * arb.pi()
         return replace(self, angle=self.angle - turn * nearest(self.angle / turn))
 

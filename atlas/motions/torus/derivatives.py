@@ -35,13 +35,13 @@ MAX_CHANGE = 2.0**-20
 """Largest change of a constant, beside the largest of its kind, that a step explains."""
 
 INTEGER_TOLERANCE = 1e-3
-"""How near to whole numbers are those by which a basis goes into another."""
+"""Largest distance from an integer of an entry of the matrix between two bases."""
 
 BLOCK = 512
-"""Times at once."""
+"""Number of times that are evaluated at once."""
 
 ROUNDING, MAX_ERROR = 2.0**-52, 1e-9
-"""Error of a term of v, in parts of it, and that of v, in parts of 1 + |v|, up to which it is given."""
+"""Relative error of a term of v, and the largest error of v, relative to 1 + |v|, that is accepted."""
 
 GROUPS = (0, 1, 2), (3, 4, 5, 6, 7, 8)
 """Places of the moments and of the rates among the inputs."""

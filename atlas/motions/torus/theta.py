@@ -40,7 +40,7 @@ UPPER_BITS = 24
 """Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
 
 CUT = np.array(1.5 * 2.0 ** (52 - UPPER_BITS))
-"""Adding and subtracting it rounds to 2^-24."""
+"""Number whose addition and subtraction rounds another to 2^-24."""
 
 PERIOD_BITS = 160
 """Bits to which the real periods are proved."""
@@ -52,7 +52,7 @@ MAX_PROVEN_ERROR = 2.0**-54
 """Largest bound on errors of the formulas that is a proof of them."""
 
 RIEMANN_ZERO = 1e-35
-"""Parts of the Riemann matrix below it are shown as zero: they are known to some forty digits."""
+"""Size below which a part of the Riemann matrix, known to some forty digits, is shown as zero."""
 
 MAX_ROUNDING = 2e-13
 """Largest bound on rounding errors: those that are seen are some twenty times smaller."""
@@ -129,7 +129,7 @@ class ThetaKernel:
 
     @property
     def fits(self) -> bool:
-        """Whether the integrals that it is made of are as precise as they should be."""
+        """Whether the misfit of the integrals behind the constants is below `MAX_MISFIT`."""
         return self.made_of[0].misfit < MAX_MISFIT
 
     @cached_property
@@ -220,7 +220,7 @@ class ThetaKernel:
         return evaluate(real(t, "The time"), (4,), out, lambda _: self._fill_quaternions)
 
     def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
-        """Fill rows with quaternions: that of R, of the sign which continues it over the torus."""
+        """Write the quaternions of R(t) into rows (m, 4), with signs continuous over the torus."""
         table, steps = self._lift
         for i in range(0, t.size, SUM_BLOCK):
             half, low_word, turns = self._phases(t[i : i + SUM_BLOCK])
@@ -290,7 +290,7 @@ class ThetaKernel:
 
 
 def _joined(q: FloatArray) -> FloatArray:
-    """Return quaternions (n, ..., 4) with those signs that make each row next to the one before it."""
+    """Return quaternions (n, ..., 4) with signs such that successive rows are less than a half turn apart."""
     signs = np.sign((q[1:] * q[:-1]).sum(-1, keepdims=True))
     return np.concatenate([q[:1], q[1:] * np.cumprod(signs, axis=0)])
 

@@ -29,13 +29,13 @@ EXPONENTIAL = 6.0
 are within an ulp: two of both, a product and a sum."""
 
 EXPONENTIALS = EXPONENTIAL, EXPONENTIAL + PRODUCT / 2
-"""That of w_1; and of the root of w_2^2 as it is rounded, by a product."""
+"""Errors of w_1 and of the root of w_2^2, rounded by a product, in units of 2^-53."""
 
 PHASE = 0.6
-"""Those by which half a phase is wrong, see `atlas.arithmetic.phase`."""
+"""Error of half a phase in units of 2^-53, see `atlas.arithmetic.phase`."""
 
 INVERSE, QUOTIENT, COMBINED = 3.0, 2.0, 4.0
-"""Those by which 1/D is wrong beside itself, the real part of a product with it, and a sum of three products."""
+"""Relative errors of 1/D, of the real part of a product with 1/D, and of a sum of three products, in 2^-53."""
 
 MAX_POWER_LOG = 600.0
 """Largest logarithm of a power: smaller numbers have no second words."""
