@@ -88,6 +88,6 @@ def motion(
     arguments = {
         "inertia": inertia, "field": argument(field, start.B), name: argument(w, start.w), "attitude": attitude,
     }  # fmt: skip
-    own, axes = next(found for family in FAMILIES if (found := family._from_start(start)))  # noqa: SLF001
-    placed: AnyMotion = start.place(own, axes, motion, arguments, "motion")
+    class_motion, axes = next(candidate for family in FAMILIES if (candidate := family._from_start(start)))  # noqa: SLF001
+    placed: AnyMotion = start.place(class_motion, axes, motion, arguments, "motion")
     return placed

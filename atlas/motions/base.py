@@ -88,8 +88,8 @@ class Motion(CarriesUncertainty, Shown, Generic[Single]):
 
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
         shape = common_shape(*(getattr(x, "shape", ()) for x in inputs))
-        made: dict[int, Single] = {}
-        self._make, self._inputs, self._made, self.shape = make, inputs, made, shape
+        singles: dict[int, Single] = {}
+        self._make, self._inputs, self._made, self.shape = make, inputs, singles, shape
 
     def _single(self, i: int = 0) -> Single:
         """Return the i-th motion, made by itself."""

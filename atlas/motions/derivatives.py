@@ -47,11 +47,11 @@ def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
     times = real(bare(t, "The time", TIME), "The time")
     if not motion.shape:
         return ones[0].vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
-    full = common_shape(motion.shape, times.shape)
-    out, times = np.empty((*full, len(names), 3)), np.broadcast_to(times, full)
-    own = np.broadcast_to(np.arange(len(ones)).reshape(motion.shape), full)
+    shape = common_shape(motion.shape, times.shape)
+    out, times = np.empty((*shape, len(names), 3)), np.broadcast_to(times, shape)
+    places = np.broadcast_to(np.arange(len(ones)).reshape(motion.shape), shape)
     for i, single in enumerate(ones):
-        out[own == i] = single.vectors(times[own == i], names, of)
+        out[places == i] = single.vectors(times[places == i], names, of)
     return out
 
 
@@ -66,8 +66,8 @@ def of_rounding(motion: Any, t: Any) -> FloatArray:
 
 def _ones(motion: Any) -> list["One"]:
     """Return one `One` for each motion of an array, cached with the array."""
-    known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
-    return [known.get(i) or known.setdefault(i, One(motion, i)) for i in range(int(np.prod(motion.shape)))]
+    cache: dict[int, One] = vars(motion).setdefault("_differentiated", {})
+    return [cache.get(i) or cache.setdefault(i, One(motion, i)) for i in range(int(np.prod(motion.shape)))]
 
 
 class One:
@@ -80,31 +80,31 @@ class One:
         self.inputs = motion._inputs_of(i)  # noqa: SLF001  of the same folder
         if self.inputs.along_body:
             self.left, self.axes = self.left @ self.axes, np.eye(3)
-        self.moved = self._moved(placed, i)
-        self._known, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
+        self.changes = self._changes_by_name(placed, i)
+        self._cache, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
 
-    def _moved(self, placed: bool, i: int) -> dict[str, Moved]:
+    def _changes_by_name(self, placed: bool, i: int) -> dict[str, Moved]:
         """Return by name of an input the change of all inputs, for each name that `sensitivity` takes."""
-        own, L, C = self.inputs.names, self.left, self.axes
-        moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if placed else "K")}
-        if "K1" in own or (placed and "n2" in own):
-            K = [x for x, name in zip(self.inputs.values, own, strict=True) if name[0] in "Kn"]
+        names, L, C = self.inputs.names, self.left, self.axes
+        changes = {x: Moved({x: 1.0}) for x in names if x[0] not in ("Kn" if placed else "K")}
+        if "K1" in names or (placed and "n2" in names):
+            K = [x for x, name in zip(self.inputs.values, names, strict=True) if name[0] in "Kn"]
             B = L @ floats([fmpq(0)] * (3 - len(K)) + K)
-            across = np.eye(3)
-            if "n2" in own:  # of a top only the direction matters, and along it nothing, not even rounding
+            transverse = np.eye(3)
+            if "n2" in names:  # of a top only the direction matters, and along it nothing, not even rounding
                 given = np.broadcast_to(self.motion.given[1], (*self.motion.shape, 3)).reshape(-1, 3)[i]
                 u = given / abs(given).max()
-                across = np.cross(np.cross(u, across), u) / (u @ u)
+                transverse = np.cross(np.cross(u, transverse), u) / (u @ u)
             for j, e in enumerate(np.eye(3)):
-                moves = (f"B{j + 1}", np.zeros(3), L.T @ across[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))
+                moves = (f"B{j + 1}", np.zeros(3), L.T @ transverse[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))
                 for name, turn, change in moves:
-                    moved[name] = self._of_field(change, turn)
-        elif "I1" in own:  # Euler's top, free
-            moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
-        if placed and "omega1" in own:
-            moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
+                    changes[name] = self._of_field(change, turn)
+        elif "I1" in names:  # Euler's top, free
+            changes |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
+        if placed and "omega1" in names:
+            changes |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
         # no derivative has to be made in inputs without weight
-        return {name: x._replace(weights={y: w for y, w in x.weights.items() if w != 0}) for name, x in moved.items()}
+        return {name: x._replace(weights={y: w for y, w in x.weights.items() if w != 0}) for name, x in changes.items()}
 
     @cached_property
     def rounded(self) -> dict[str, float]:
@@ -118,7 +118,7 @@ class One:
                 values |= {f"{letter}{j + 1}": x for j, x in enumerate(row)}
         elif "K1" in self.inputs.names:
             values |= {f"B{j}": values[f"K{j}"] for j in (1, 2, 3)}
-        return {name: float(np.spacing(abs(values[name]))) / 2 for name in self.moved if name in values}
+        return {name: float(np.spacing(abs(values[name]))) / 2 for name in self.changes if name in values}
 
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
         """Return the inputs moved by a change of the field along the class's axes at t = 0, and a turn of the body."""
@@ -130,15 +130,15 @@ class One:
         weights = {"n2": change[1], "n3": change[2], "omega1": -spin * w2, "omega2": spin * w1}
         return Moved(weights, turn - spin * self.left[:, 2], spin)
 
-    def _asked(self, names: Sequence[str]) -> list[str]:
+    def _inputs_behind(self, names: Sequence[str]) -> list[str]:
         """Return the inputs that names move. Raises AtlasError for another name."""
-        allowed = [*self.moved, "t"]
+        allowed = [*self.changes, "t"]
         for name in names:
             if name not in allowed:
                 raise AtlasError(f"There is no input {name!r} of this motion: choose from {', '.join(allowed)}.")
-            if name != "t" and np.isnan(self.moved[name].spin):
+            if name != "t" and np.isnan(self.changes[name].spin):
                 raise DomainError(f"The top's axis is along n, where its inputs have no derivative in {name}.")
-        return [x for x in self.inputs.names if any(x in self.moved[name].weights for name in names if name != "t")]
+        return [x for x in self.inputs.names if any(x in self.changes[name].weights for name in names if name != "t")]
 
     def scalar(self, names: Sequence[str], of: str) -> FloatArray:
         """Return the derivatives of a scalar, (len(names),)."""
@@ -147,17 +147,17 @@ class One:
                 f"A {self.motion.family} motion has no derivative of {of!r}: choose from "
                 f"{', '.join((*VECTORS, *self.inputs.scalars))}."
             )
-        needed = self._asked(names)
+        inputs = self._inputs_behind(names)
         value = getattr(self.motion, of, 0.0)
         if np.isinf(np.broadcast_to(value, self.motion.shape).flat[self.place]):
             raise DomainError(f"The {of} is infinite and has no derivatives.")
-        derivatives = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
+        derivatives = dict(zip(inputs, self.inputs.of_scalar(of, inputs), strict=True)) if inputs else {}
         with np.errstate(over="ignore", invalid="ignore"):
-            found = [
-                0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.moved[name].weights.items())
+            values = [
+                0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.changes[name].weights.items())
                 for name in names
             ]
-        return np.asarray(finite(np.array(found), f"A derivative of the {of}"))
+        return np.asarray(finite(np.array(values), f"A derivative of the {of}"))
 
     def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
         """Return derivatives at times (m,), (m, len(names), 3)."""
@@ -167,15 +167,15 @@ class One:
                 "The rates of this motion are too large or too small for derivatives: choose other units."
             )
         moving = [x for x in names if x != "t"]
-        varied, weights, turns, spins, known = self._weighted(moving)
+        varied, weights, turns, spins, cached = self._weighted(moving)
         v = slopes = np.broadcast_to(turns, (t.size, *turns.shape))
         if varied:
-            v, *rest = varied.vectors(t, faster, self.left, weights, turns, spins, known)
+            v, *rest = varied.vectors(t, faster, self.left, weights, turns, spins, cached)
             slopes = rest[0] if rest else v
         elif faster:
             slopes = np.zeros_like(v)
-        own = of != "rotation" or inverse or len(moving) < len(names)
-        R = self.sides[0] @ self.one.rotation(t) @ self.sides[1] if own else np.empty(0)
+        needs_rotation = of != "rotation" or inverse or len(moving) < len(names)
+        R = self.sides[0] @ self.one.rotation(t) @ self.sides[1] if needs_rotation else np.empty(0)
         Omega = self.one.angular_velocity(t) @ self.sides[1] if inverse or len(moving) < len(names) else np.empty(0)
         if inverse:  # the matrix is the transposed one
             if faster:
@@ -185,8 +185,8 @@ class One:
         if faster:
             vectors = slopes @ R
         elif of == "field":
-            needed, none = self._asked(moving), np.zeros(3)
-            fields = np.array([self.inputs.fields.get(x, none) for x in needed]).reshape(-1, 3)
+            inputs, none = self._inputs_behind(moving), np.zeros(3)
+            fields = np.array([self.inputs.fields.get(x, none) for x in inputs]).reshape(-1, 3)
             vectors = (weights @ fields @ self.left.T + np.cross(turns, B) - np.cross(v, B)) @ R
         if len(moving) == len(names):
             return np.asarray(vectors)
@@ -199,19 +199,22 @@ class One:
     def _weighted(self, names: Sequence[str]) -> tuple[Any, ...]:
         """Return derivatives in the inputs that names move, how, and what gives v of names; kept for the next times."""
         key = tuple(names)
-        if key not in self._known:
-            needed = self._asked(names)
-            moved = [self.moved[x] for x in names]
-            weights = np.array([[x.weights.get(y, 0.0) for y in needed] for x in moved]).reshape(
-                len(names), len(needed)
+        if key not in self._cache:
+            inputs = self._inputs_behind(names)
+            changes = [self.changes[x] for x in names]
+            weights = np.array([[x.weights.get(y, 0.0) for y in inputs] for x in changes]).reshape(
+                len(names), len(inputs)
             )
-            turns, spins = np.array([x.turn for x in moved]).reshape(len(names), 3), np.array([x.spin for x in moved])
-            if tuple(needed) not in self._varied:
-                self._varied[tuple(needed)] = self.inputs.varied(needed) if needed else None
-            varied = self._varied[tuple(needed)]
-            known = varied.weighted(self.left, weights, turns, spins) if varied else None
-            self._known[key] = varied, weights, turns, spins, known
-        return self._known[key]
+            turns, spins = (
+                np.array([x.turn for x in changes]).reshape(len(names), 3),
+                np.array([x.spin for x in changes]),
+            )
+            if tuple(inputs) not in self._varied:
+                self._varied[tuple(inputs)] = self.inputs.varied(inputs) if inputs else None
+            varied = self._varied[tuple(inputs)]
+            cached = varied.weighted(self.left, weights, turns, spins) if varied else None
+            self._cache[key] = varied, weights, turns, spins, cached
+        return self._cache[key]
 
     def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
         """Return dK/dt, or dOmega/dt: I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega]."""

@@ -196,8 +196,10 @@ def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
     """Return the amplitudes of the turn about n, by Rodrigues: of the frequencies -1, 0 and 1, of 0 if it stands."""
     if not rate:
         return {0: np.eye(3, dtype=complex)}
-    along, across = np.outer(n, n), np.cross(n, np.eye(3)).T
-    parts = np.array([(np.eye(3) - along) / 2 + 0.5j * across, along, (np.eye(3) - along) / 2 - 0.5j * across])
+    parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
+    parts = np.array(
+        [(np.eye(3) - parallel) / 2 + 0.5j * transverse, parallel, (np.eye(3) - parallel) / 2 - 0.5j * transverse]
+    )
     return dict(zip((-1, 0, 1), parts, strict=True))
 
 
@@ -236,5 +238,5 @@ def mean(function: Callable[[FloatArray], FloatArray]) -> float:
 def rodrigues(n: FloatArray, angle: Any) -> FloatArray:
     """Return the turn about a unit vector by angles (...), shape (..., 3, 3)."""
     angle = np.asarray(angle)[..., None, None]
-    along, across = np.outer(n, n), np.cross(n, np.eye(3)).T
-    return np.asarray(along + np.cos(angle) * (np.eye(3) - along) + np.sin(angle) * across)
+    parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
+    return np.asarray(parallel + np.cos(angle) * (np.eye(3) - parallel) + np.sin(angle) * transverse)

@@ -98,12 +98,12 @@ class Start:
         self, own: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
     ) -> Any:
         """Return a motion along axes of its class, rows in those of the body, in the axes that were given."""
-        left = self.R @ np.swapaxes(axes, -1, -2)
-        before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (left, axes))
+        outer = self.R @ np.swapaxes(axes, -1, -2)
+        before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (outer, axes))
         B, R, omega = frozen((joined_columns(self.B), self.R, self.omega))
         placement = Placement(before, after, frozen(self.body.tensor), B, R, omega, make, dict(own.arguments))
-        kept = {name: _copied(value) for name, value in arguments.items()}
-        return own._place(placement, kept, made_by)  # noqa: SLF001  nobody else has the motion yet
+        copies = {name: _copied(value) for name, value in arguments.items()}
+        return own._place(placement, copies, made_by)  # noqa: SLF001  nobody else has the motion yet
 
 
 def start_of(
@@ -125,17 +125,17 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
     B = columns(field, "The field", "B")
     w = [0.0, 0.0, 0.0] if omega is None else columns(omega, "The angular velocity", "omega")
     start = Start(family._body_of(body), B, w, attitude, outside=True)  # noqa: SLF001  of the same folder
-    found = family._from_start(start, **parameters)  # noqa: SLF001
-    if found is None:
+    motion_and_axes = family._from_start(start, **parameters)  # noqa: SLF001
+    if motion_and_axes is None:
         raise DomainError(f"This start gives no {family.__name__}: atlas.motion finds the class that fits.")
-    own, axes = found
+    motion, axes = motion_and_axes
     if omega is None:
-        start.w, start.outside = list(parts(np.asarray(own.angular_velocity(0.0)) @ axes)), False
+        start.w, start.outside = list(parts(np.asarray(motion.angular_velocity(0.0)) @ axes)), False
     arguments = {
         "body": body, "field": argument(field, B), "attitude": attitude,
         "omega_laboratory": None if omega is None else argument(omega, w), **parameters,
     }  # fmt: skip
-    return start.place(own, axes, family.in_laboratory, arguments, f"{family.__name__}.in_laboratory")
+    return start.place(motion, axes, family.in_laboratory, arguments, f"{family.__name__}.in_laboratory")
 
 
 def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
@@ -178,13 +178,13 @@ def body_of(inertia: Any) -> Body:
         return of_moments((I2, I2, I3), np.eye(3))
     for tensor in inertia_matrix.reshape(-1, 3, 3):
         inertia_tensor(tensor)
-    found = [principal(tensor) for tensor in inertia_matrix.reshape(-1, 3, 3)]
-    I, axes = (np.reshape(x, inertia_matrix.shape[:-2] + np.shape(x[0])) for x in zip(*found, strict=True))
-    first, second, largest = np.moveaxis(np.sort(I), -1, 0)
+    pairs = [principal(tensor) for tensor in inertia_matrix.reshape(-1, 3, 3)]
+    I, axes = (np.reshape(x, inertia_matrix.shape[:-2] + np.shape(x[0])) for x in zip(*pairs, strict=True))
+    least, second, largest = np.moveaxis(np.sort(I), -1, 0)
     # the rounding of a tensor's elements may put a plane body beyond all bodies
-    np.put_along_axis(I, I.argmax(axis=-1)[..., None], np.minimum(largest, first + second)[..., None], axis=-1)
-    for own, rows in zip(I.reshape(-1, 3), axes.reshape(-1, 3, 3), strict=True):
-        _hint_at_symmetry(own, rows)
+    np.put_along_axis(I, I.argmax(axis=-1)[..., None], np.minimum(largest, least + second)[..., None], axis=-1)
+    for principal_moments, rows in zip(I.reshape(-1, 3), axes.reshape(-1, 3, 3), strict=True):
+        _hint_at_symmetry(principal_moments, rows)
     return Body(I, axes, inertia_matrix)
 
 
@@ -265,10 +265,10 @@ def attitude_of(attitude: Any) -> FloatArray:
     if off > NEARLY_ORTHOGONAL or (np.linalg.det(R) < 0).any():
         raise DomainError(f"The attitude must be a rotation matrix: R^T R = 1 to {NEARLY_ORTHOGONAL}, and det R = 1.")
     if off > ORTHOGONAL:
-        left, _, right = np.linalg.svd(R)
-        moved = abs(left @ right - R).max()
+        U, _, V = np.linalg.svd(R)
+        difference = abs(U @ V - R).max()
         tell_nearest(f"The attitude is not orthogonal: R^T R differs from 1 by {off:.2g}", f"the nearest rotation, "
-                     f"whose entries differ by {moved:.2g} at most")  # fmt: skip
-        R, off = left @ right, 0.0
+                     f"whose entries differ by {difference:.2g} at most")  # fmt: skip
+        R, off = U @ V, 0.0
     # Newton's step to the nearest orthogonal matrix; one that is orthogonal to rounding stays as it is
     return np.asarray(R if off <= ROUNDING else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)

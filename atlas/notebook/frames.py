@@ -17,52 +17,52 @@ from atlas.pictures.sample import knots
 from atlas.sweeps.families import FAMILIES, Swept
 
 
-def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
+def frame(subject: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
     """Return the data frame, see `Shown.to_dataframe`."""
-    swept = FAMILIES.get(shown.family)
+    swept = FAMILIES.get(subject.family)
     if swept is None:
-        raise AtlasError(f"The register has no table of a {type(shown).__name__}.")
+        raise AtlasError(f"The register has no table of a {type(subject).__name__}.")
     quantities = [quantities] if isinstance(quantities, str) else quantities
-    columns = dict(_quantities(shown, swept, quantities) if times is None else columns_at(shown, times, quantities))
+    columns = dict(_quantities(subject, swept, quantities) if times is None else columns_at(subject, times, quantities))
     data_frame = of_sweeps("pandas", "A data frame").DataFrame(columns)
     data_frame.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
     return data_frame
 
 
-def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
+def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
     """Go through parameters and quantities, each a value an object."""
     known = {name: swept.quantities[name] for q in swept.family.quantities for name in q.names}
-    shape = getattr(shown, "shape", ())
-    if not shown.made_by and len(shown.arguments) == len(swept.family.parameters):
-        for p, value in zip(swept.family.parameters, shown.arguments.values(), strict=True):
+    shape = getattr(subject, "shape", ())
+    if not subject.made_by and len(subject.arguments) == len(swept.family.parameters):
+        for p, value in zip(swept.family.parameters, subject.arguments.values(), strict=True):
             if value is not None:
                 parts = np.moveaxis(np.asarray(value), -1, 0) if p.last else value if p.columns else [value]
                 for name, component in zip(p.names, parts, strict=True):
                     yield name, np.broadcast_to(getattr(component, "ratio", component), shape).ravel()
     for name in known if names is None else names:
         if name not in known:
-            raise unknown("quantity", name, known, f"of a {type(shown).__name__}")
+            raise unknown("quantity", name, known, f"of a {type(subject).__name__}")
         value = np.nan
         with suppress(DomainError):  # where the register says that there may be none
-            value = known[name].of(shown, {})
+            value = known[name].of(subject, {})
         yield name, np.broadcast_to(np.nan if value is None else value, shape).ravel()
 
 
-def columns_at(shown: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
+def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
     """Yield names and columns of the samples of an object at each time, all or those with these names."""
-    swept = FAMILIES[shown.family]
-    if getattr(shown, "shape", ()):
-        raise AtlasError(f"Rows by time are of one {type(shown).__name__}: make one with numbers in place of arrays.")
+    swept = FAMILIES[subject.family]
+    if getattr(subject, "shape", ()):
+        raise AtlasError(f"Rows by time are of one {type(subject).__name__}: make one with numbers in place of arrays.")
     known = {name: s for s in swept.family.sampled for name in s.columns}
     if not known:
-        raise AtlasError(f"A {type(shown).__name__} has nothing that depends on time.")
+        raise AtlasError(f"A {type(subject).__name__} has nothing that depends on time.")
     t = np.ravel(real(times, "The time", TIME))
     for name in names or ():
         if name not in known:
-            raise unknown("quantity", name, known, f"at a time of a {type(shown).__name__}")
+            raise unknown("quantity", name, known, f"at a time of a {type(subject).__name__}")
     wanted = tuple(known if names is None else names)
     columns = {
-        s.name: s.method_of(shown)(t).reshape(t.size, len(s.columns))
+        s.name: s.method_of(subject)(t).reshape(t.size, len(s.columns))
         for s in swept.family.sampled
         if {*s.columns} & {*wanted}
     }

@@ -18,7 +18,7 @@ from atlas.targets import find
 
 
 def plot(
-    shown: Shown,
+    subject: Shown,
     figure: str | None,
     panel: int | None,
     ax: Any,
@@ -27,7 +27,7 @@ def plot(
     parameters: dict[str, Any],
 ) -> Figure:
     """Draw an object, see `Shown.plot`; without axes all panels, or the one asked for."""
-    scene = scene_of(shown, figure, parameters)
+    scene = scene_of(subject, figure, parameters)
     if panel is not None and panel not in range(1, len(scene.panels) + 1):
         raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel!r}.")
     if ax is None:
@@ -37,8 +37,8 @@ def plot(
     if target is not None:
         raise AtlasError("target is for a whole figure; axes of your own have the size that you gave them.")
     draw_panel(ax, scene.panels[(panel or 1) - 1], style)
-    drawn: Figure = ax.figure
-    return drawn
+    figure_drawn: Figure = ax.figure
+    return figure_drawn
 
 
 def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
@@ -48,33 +48,33 @@ def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
     return of_motion(motion, times, fps=fps, style=style)
 
 
-def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
+def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
     """Return the scene of an object. Raises AtlasError where no recipe takes it."""
-    family, name = FAMILIES.get(shown.family), type(shown).__name__
-    known = family.figures if family else ("flight",) if isinstance(shown, Flight) else ()
+    family, name = FAMILIES.get(subject.family), type(subject).__name__
+    known = family.figures if family else ("flight",) if isinstance(subject, Flight) else ()
     if not known:
         raise AtlasError(f"There is no picture of a {name} yet.")
-    if getattr(shown, "shape", ()):
+    if getattr(subject, "shape", ()):
         raise AtlasError(f"A picture is of one {name}, not of several: make one with numbers in place of arrays.")
     if figure is not None and figure not in known:
         raise unknown("figure", figure, known, f"of {name}")
     if family is None:
-        return _flight(shown, parameters)
+        return _flight(subject, parameters)
     recipe = recipes.load(figure or known[0])
-    own = _own(shown, family)
+    own = _own(subject, family)
     for key in parameters:
         if key in own:
             raise AtlasError(f"{key} is that of the {name}; make another one for another {key}.")
     return recipe.scene(**{key: value for key, value in own.items() if key in recipe.parameters} | parameters)
 
 
-def _flight(shown: Any, parameters: dict[str, Any]) -> Scene:
+def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
     """Return the scene of a flight, which is made of a particle and a motion and is no family of the register."""
     known = signature(flight.scene_of).parameters
     for key in parameters:
         if key not in known or key == "flight":
             raise unknown("parameter", key, [name for name in known if name != "flight"], "of a picture of a Flight")
-    return flight.scene_of(shown, **parameters)
+    return flight.scene_of(subject, **parameters)
 
 
 def alone(scene: Scene, panel: int) -> Scene:
@@ -84,12 +84,12 @@ def alone(scene: Scene, panel: int) -> Scene:
     return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())
 
 
-def _own(shown: Shown, family: Family) -> dict[str, Any]:
+def _own(subject: Shown, family: Family) -> dict[str, Any]:
     """Return the parameters of an object by the names of its family: as it was given them, or as it has them."""
-    if not shown.made_by and len(shown.arguments) == len(family.parameters):
-        arguments = dict(zip((p.name for p in family.parameters), shown.arguments.values(), strict=True))
+    if not subject.made_by and len(subject.arguments) == len(family.parameters):
+        arguments = dict(zip((p.name for p in family.parameters), subject.arguments.values(), strict=True))
     else:
-        arguments = {p.name: getattr(shown, p.name) for p in family.parameters if p.needed}
+        arguments = {p.name: getattr(subject, p.name) for p in family.parameters if p.needed}
     return {
         name: tuple(value.tolist()) if isinstance(value, np.ndarray) else value
         for name, value in arguments.items()

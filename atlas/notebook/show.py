@@ -28,51 +28,51 @@ SIDES = dict.fromkeys(("Quantity", "Name", "Value", "Unit", "Equation", "Proven"
 FLOW = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">'
 
 
-def html(shown: Shown) -> str:
+def html(subject: Shown) -> str:
     """Return the call that makes an object, the picture, and the table; only single objects of a family have one."""
-    lines = rows(shown)
+    lines = rows(subject)
     heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in lines)])
     table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if lines else ""
-    beside = f"{table}{picture(shown)}"
-    head = f'<pre style="word-break:normal">{escape(repr(shown))}</pre>'
+    beside = f"{table}{picture(subject)}"
+    head = f'<pre style="word-break:normal">{escape(repr(subject))}</pre>'
     return f"{head}{f'{FLOW}{beside}</div>' if beside else ''}"
 
 
-def latex(shown: Shown) -> str | None:
+def latex(subject: Shown) -> str | None:
     """Return the values as an array in LaTeX."""
     lines = [
         rf"\text{{{_words(says)}}} & {value.tex()[1:-1] if isinstance(value, Number) else _text(value)} & "
         rf"{_unit(unit)} \\"
-        for says, _, value, unit, _, _ in rows(shown)
+        for says, _, value, unit, _, _ in rows(subject)
     ]
     return "\n".join([r"$$\begin{array}{lrl}", *lines, r"\end{array}$$"]) if lines else None
 
 
-def rows(shown: Shown) -> Sequence[Row]:
+def rows(subject: Shown) -> Sequence[Row]:
     """Return the rows of the table of one object that the register knows."""
-    family = FAMILIES.get(shown.family)
-    values = tuple(shown.arguments.values())
-    several = bool(getattr(shown, "shape", ()))
-    if family is None or several or shown.made_by or len(values) != len(family.parameters):
+    family = FAMILIES.get(subject.family)
+    values = tuple(subject.arguments.values())
+    count = bool(getattr(subject, "shape", ()))
+    if family is None or count or subject.made_by or len(values) != len(family.parameters):
         return ()
-    thing = Thing(family, {}, values, values, {}, described=False)
-    return [row for q in family.quantities for row in rows_of(thing, q, DIGITS) if row[2] != NONE]
+    item = Thing(family, {}, values, values, {}, described=False)
+    return [row for q in family.quantities for row in rows_of(item, q, DIGITS) if row[2] != NONE]
 
 
-def body(shown: SymmetricBody) -> str:
+def body(subject: SymmetricBody) -> str:
     """Return the moments of a body with a small picture of such a cylinder as HTML; for an array, a summary."""
-    if hasattr(shown.I2, "shape"):
-        return f"<pre>{escape(repr(shown))}</pre>"
-    lines = [("I<sub>2</sub>, across the axis", shown.I2), ("I<sub>3</sub>, along it", shown.I3)]
-    lines.append(("I = I<sub>3</sub>/I<sub>2</sub>", shown.ratio))
+    if hasattr(subject.I2, "shape"):
+        return f"<pre>{escape(repr(subject))}</pre>"
+    lines = [("I<sub>2</sub>, across the axis", subject.I2), ("I<sub>3</sub>, along it", subject.I3)]
+    lines.append(("I = I<sub>3</sub>/I<sub>2</sub>", subject.ratio))
     table = "".join(f"<tr><td>{says}</td><td>{value:.10g}</td></tr>" for says, value in lines)
-    drawn = _image(lambda: figure("lssc", ratio=shown, field=(0.0, 0.0))) if shown.I3 else ""
-    return f"<pre>{escape(repr(shown))}</pre>{FLOW}<table>{table}</table>{drawn}</div>"
+    image = _image(lambda: figure("lssc", ratio=subject, field=(0.0, 0.0))) if subject.I3 else ""
+    return f"<pre>{escape(repr(subject))}</pre>{FLOW}<table>{table}</table>{image}</div>"
 
 
-def picture(shown: Shown) -> str:
+def picture(subject: Shown) -> str:
     """Return the first panel of the figure of an object, small; nothing where there is none."""
-    return _image(lambda: plot(shown, None, 1, None, None, None, {}))
+    return _image(lambda: plot(subject, None, 1, None, None, None, {}))
 
 
 def _image(draw: Callable[[], Any]) -> str:
@@ -82,9 +82,9 @@ def _image(draw: Callable[[], Any]) -> str:
     with suppress(AtlasError):
         file, small, figure = BytesIO(), BytesIO(), draw()
         figure.savefig(file, dpi=2 * WIDTH / figure.get_figwidth())
-        with Image.open(file) as drawn:
-            white = Image.new("RGBA", drawn.size, "white")
-            white.alpha_composite(drawn.convert("RGBA"))
+        with Image.open(file) as image:
+            white = Image.new("RGBA", image.size, "white")
+            white.alpha_composite(image.convert("RGBA"))
         few = white.convert("RGB").quantize(COLOURS, kmeans=3, dither=Image.Dither.NONE)
         few.save(small, "png", optimize=True)
         return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(small.getvalue()).decode()}">'

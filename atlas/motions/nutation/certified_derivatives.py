@@ -108,12 +108,12 @@ def variations(
     """
     h = [scale / fmpq(2) ** STEP_BITS for scale in scales]
 
-    def at(changed: Sequence[int], sign: int) -> Constants:
+    def constants_at(changed: Sequence[int], sign: int) -> Constants:
         return make(*(x + sign * h[i] if i in changed else x for i, x in enumerate(values)))
 
     with workprec(4 * STEP_BITS + 64):
         try:
-            ways = [at([], 0), *(at([i], 1) for i in places), at(places, -1)]
+            ways = [constants_at([], 0), *(constants_at([i], 1) for i in places), constants_at(places, -1)]
         except DomainError:
             ways = []
         if ways and all(x.form == ways[0].form for x in ways):
@@ -149,7 +149,7 @@ def _differences(
 ) -> Variation | None:
     """Return values and slopes by differences over h; None where they are not known well enough."""
 
-    def at(steps: int) -> Constants | None:
+    def constants_at(steps: int) -> Constants | None:
         changed = [*values[:place], values[place] + steps * h, *values[place + 1 :]]
         try:
             return make(*changed)
@@ -162,7 +162,7 @@ def _differences(
         ((-1, -2, -3), (3, -3, 1), (fmpq(5, 2), -4, fmpq(3, 2))),
     ]
     for nodes, weights, slopes in ways:
-        three = [at(n) for n in nodes]
+        three = [constants_at(n) for n in nodes]
         if nodes[1] == 0 and three[1] is None:
             raise DomainError(SEPARATRIX)
         complete = [x for x in three if x is not None]

@@ -111,9 +111,9 @@ class EllipticMotion(Nutating):
 
     def _change(self) -> fmpq:
         """Return the squared frequency of a small change in the family of a K that is constant."""
-        left, right, nutating = self.places
+        first, second, nutating = self.places
         e = self._e
-        return (e[left] - e[nutating]) * (e[right] - e[nutating]) * self.square * self.quartic.N
+        return (e[first] - e[nutating]) * (e[second] - e[nutating]) * self.square * self.quartic.N
 
     @property
     def is_steady(self) -> bool:

@@ -124,8 +124,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
             tuple(plain(x) for x in columns[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
         )
         names = ("inertia", "coupling", "direction", "omega", "linear", "quadratic")
-        kept = (tuple(map(as_given, columns[i:j])) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9)))
-        self.arguments = dict(zip(names, (*kept, *map(as_given, columns[9:])), strict=True))
+        vectors = (tuple(map(as_given, columns[i:j])) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9)))
+        self.arguments = dict(zip(names, (*vectors, *map(as_given, columns[9:])), strict=True))
 
     @classmethod
     def heavy(

@@ -118,9 +118,9 @@ class OnTorus:
             passed = [t for t in ascending if NEAR < side * t <= MAX_FLOW_TIME]
             if len(passed) < 2 or not self._without_periods(passed[-1]):
                 continue
-            last = passed[-1]
+            end = passed[-1]
             try:
-                arrivals = self.torus.flow.pass_by(last, [t / last for t in passed], ctx.prec + 2 * GUARD_BITS)
+                arrivals = self.torus.flow.pass_by(end, [t / end for t in passed], ctx.prec + 2 * GUARD_BITS)
                 for t, arrival in zip(passed, arrivals, strict=True):
                     self._arrived[t, ctx.prec] = arrival, self._turn(t)
             except NotCertifiedError:

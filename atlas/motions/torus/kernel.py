@@ -248,16 +248,16 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     family = "asymmetric"
 
     def __init__(self, inertia: BodyLike, field: FieldLike, omega: RealArrayLike) -> None:
-        parts = [
+        columns = [
             *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
             *components(field, ("B1", "B2", "B3"), "The field", RATE),
             *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
         ]
-        super().__init__(_single, *parts)
+        super().__init__(_single, *columns)
         self._of_each(lambda single: single.exact.kind)  # inputs of no motion are refused here
-        self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
-        kept = (tuple(map(as_given, parts[i : i + 3])) for i in (0, 3, 6))
-        self.arguments = dict(zip(("inertia", "field", "omega"), kept, strict=True))
+        self.inertia, self.field, self.omega = (tuple(plain(x) for x in columns[i : i + 3]) for i in (0, 3, 6))
+        arguments = (tuple(map(as_given, columns[i : i + 3])) for i in (0, 3, 6))
+        self.arguments = dict(zip(("inertia", "field", "omega"), arguments, strict=True))
 
     @kept
     def kind(self) -> NameOrArray:

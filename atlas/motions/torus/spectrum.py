@@ -19,13 +19,13 @@ def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: Flo
     f = np.array([float(x.mid()) for x in enclosed(lambda: exact.frequencies, BITS)])
     n = L @ kernel.axis
 
-    def at(quantity: str, x: FloatArray) -> FloatArray:
+    def values_at(quantity: str, x: FloatArray) -> FloatArray:
         R, Omega, K = kernel.on_torus(x)
         if quantity == "angular_velocity":
             return Omega @ C
         return K @ C if quantity == "field" else L @ R @ C
 
-    return Wheels(n, float(f[2]), np.array([0.0, 0.0, 1.0]), 0.0, f[:2], at, partial(_actions, exact, kernel))
+    return Wheels(n, float(f[2]), np.array([0.0, 0.0, 1.0]), 0.0, f[:2], values_at, partial(_actions, exact, kernel))
 
 
 def _actions(exact: Any, kernel: ThetaKernel, J: FloatArray) -> list[float]:
