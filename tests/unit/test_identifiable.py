@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from atlas.book.tables import compute
+from atlas.book.tables.table import Request
+
 ATTITUDES = 40
 """Attitudes of a motion at which the equations are set up."""
 
@@ -63,3 +66,14 @@ def test_a_plane_motion_does_not() -> None:
     """With M along an axis and K across it three numbers are free, too."""
     inertia, field = np.array([0.5, 1.0, 1.25]), np.array([0.6, 0.8, 0.0])
     assert rank(inertia, field, np.array([-0.6, -0.8, 0.9])) == 3
+
+
+def test_the_table_of_open_combinations_agrees_with_ranks_and_the_theorem() -> None:
+    """A general motion leaves the common factor, and a fit nothing; one of the family three numbers, and a fit one."""
+    field, omega = [0.3, 0.75, 0.5], [0.3, -0.5, 0.8]
+    bodies = [[0.5, 1.0, 1.25], [1.0, 1.0, 0.6]]
+    parameters = {"bodies": bodies, "field": field, "omega": omega, "z": 0.3}
+    rows = compute("identified", Request((), parameters, 2)).rows
+    found = [(int(row[2].digits), int(row[4].digits)) for row in rows]
+    assert found == [(1, 0), (3, 1)] * 2
+    assert [6 - rank(np.array(body), np.array(field), np.array(omega)) for body in bodies] == [1, 1]

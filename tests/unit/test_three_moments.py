@@ -43,9 +43,10 @@ def test_the_letter_is_about_one_body() -> None:
     assert figures
     assert {block.recipe for block in figures} <= set(recipes.names())
     tables = [block for block in BLOCKS if isinstance(block, Table)]
-    assert all(block.parameters["inertia"] == DATA[0] for block in tables)
+    bodies = [block.parameters.get("bodies", [block.parameters.get("inertia")])[0] for block in tables]
+    assert bodies == len(tables) * [DATA[0]]
     fields = [block.parameters["field"] for block in tables if "field" in block.parameters]
-    assert fields == 3 * [DATA[1]]
+    assert fields == 4 * [DATA[1]]
 
 
 @pytest.mark.parametrize("moment", [1.25, 1.125])

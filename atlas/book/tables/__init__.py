@@ -12,7 +12,7 @@ from atlas.book.tables.laboratory import beyond_larmor, fits, inferred, levitate
 from atlas.book.tables.particle import ball, flight, particle
 from atlas.book.tables.properties import Thing, body_and_field, properties
 from atlas.book.tables.table import Data, Maker, Request
-from atlas.book.tables.tops import asymmetric, critical, elliptic, monodromy, periods, tops
+from atlas.book.tables.tops import asymmetric, critical, elliptic, identified, monodromy, periods, tops
 from atlas.errors import unknown
 
 TABLES: dict[str, Maker] = {
@@ -20,7 +20,7 @@ TABLES: dict[str, Maker] = {
     for made in (
         *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
         *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
-        *(periods, asymmetric, critical, roles, levitated, lines, inferred, beyond_larmor, fits),
+        *(periods, asymmetric, critical, identified, roles, levitated, lines, inferred, beyond_larmor, fits),
     )
 }
 """The tables by name; `atlas.book.keys` adds those that explain the records of a report file."""

@@ -3,9 +3,16 @@
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from atlas.book.digits import Number, plain
 from atlas.book.schema import StrictStruct
 from atlas.book.tables.table import Data, Request, certified, column, heads
+
+TIMES = np.linspace(0.0, 12.0, 40)
+"""Times at which a motion is observed."""
+OPEN = 1e-9, 1e-5
+"""Singular values of equations and of a fit's derivatives, in parts of the largest, that count as zero."""
 
 
 class Top(StrictStruct, frozen=True):
@@ -144,6 +151,15 @@ class Samples(Motion, frozen=True):
     times: tuple[float, ...]
 
 
+class Observed(StrictStruct, frozen=True):
+    """Bodies by their moments, a field, an initial angular velocity, and the place z of an elliptic motion of each."""
+
+    bodies: tuple[Triple, ...]
+    field: Triple
+    omega: Triple
+    z: float
+
+
 class Momenta(StrictStruct, frozen=True):
     """A body in a field of strength b, and values p = (M, K)/b of the momentum along the field."""
 
@@ -182,6 +198,64 @@ def critical(request: Request, setup: Momenta) -> Data:
         r"$C<0$; plane pendulums from one value of $F$ to another; and spins along the field, with their $F$.",
         ("Four digits of doubles, not proven.",),
     )
+
+
+def identified(request: Request, setup: Observed) -> Data:
+    """Count the combinations of moments and field that a motion leaves open, a motion in each row.
+
+    In the equations of theorem-identifiable and in the derivatives of a fit to its attitudes at the same times.
+    """
+    del request  # doubles of two digits
+    rows: list[tuple[str | Number, ...]] = []
+    for body in setup.bodies:
+        I, K = np.array(body), np.array(setup.field)
+        places = setup.z + I.prod() / I
+        family = -(1 + np.sqrt(places.prod()) / (I * places)) * K
+        for name, omega in (("general", np.array(setup.omega)), ("of the family", family)):
+            texts = list[Number]()
+            for sizes, least in zip(_singular_values(I, K, omega), OPEN, strict=True):
+                shares = sizes / sizes[0]
+                texts += [Number(str((shares < least).sum())), Number(f"{shares[shares >= least].min():.2g}")]
+            rows.append((f"${_row(body)}$", name, *texts))
+    return Data(
+        heads("$I_i$", "Motion", "Equations: open", "least", "Fit: open", "least"),
+        tuple(rows),
+        rf"Combinations that a motion leaves open in $\mathbf{{B}}'={_row(setup.field)}$: of $(x_i,y_i)$ in the linear "
+        r"equations of motion, the common factor among them, and of all parameters in the Fisher matrix $S^TS$ of a "
+        rf"fit to attitudes. General motions start from $\boldsymbol\omega={_row(setup.omega)}$, those of the family "
+        rf"from $z={plain(setup.z)}$, $v>0$. With each the least singular value, of $S$ in a fit, that is not open, in "
+        "units of the largest.",
+        (
+            (
+                f"Computed in doubles, not proven, at {TIMES.size} times up to {TIMES[-1]:g}: singular values below "
+                f"$10^{{-9}}$ of the largest count as open, in the fit, whose derivatives are differences, $10^{{-5}}$."
+            ),
+        ),
+    )
+
+
+def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
+    """Return singular values of the equations in (x_i, y_i), and of a fit's derivatives by its parameters."""
+    from atlas.fitting.data import of_arrays
+    from atlas.fitting.models import model_of
+    from atlas.fitting.parameters import parameters_of
+    from atlas.fitting.problem import Problem
+    from atlas.fitting.search import rate_of
+    from atlas.motions.any_body import motion
+
+    path = motion(tuple(I), tuple(K), tuple(omega))
+    equations = []
+    for Omega, field in zip(path.angular_velocity(TIMES), path.field_in_body(TIMES), strict=True):
+        rate = (np.cross(I * Omega, Omega) - np.cross((I.sum() - 2 * I) * field, Omega)) / I
+        columns = [axis * rate - np.cross(axis * Omega, Omega) for axis in np.eye(3)]
+        columns += [np.cross((1 - 2 * axis) * field, Omega) for axis in np.eye(3)]
+        equations.append(np.stack(columns, axis=-1))
+    data = of_arrays(TIMES, {"rotation": path.rotation(TIMES)}, 1.0, 0.0, scalar_first=False, nan_policy="raise")
+    model = model_of("asymmetric")
+    problem = Problem(model, data, parameters_of(model, data, None, None)[0], "linear", rate_of(data))
+    values = dict(zip(model.names, (I[0] / I[1], I[2] / I[1], *K, *omega, 0.0, 0.0, 0.0), strict=True))
+    slopes = problem.jacobian([values[name] for name in problem.names]) * problem.units_of_free
+    return np.linalg.svd(np.concatenate(equations), compute_uv=False), np.linalg.svd(slopes, compute_uv=False)
 
 
 def elliptic(request: Request, setup: Family) -> Data:

@@ -44,7 +44,7 @@ def _entries() -> Iterator[tuple[str, Equation]]:
                 outside = tuple(said.pop("outside", ()))
                 kind = said.pop("kind", _KINDS.get(name.partition("-")[0], "derivation step"))
                 texts = {key: _joined(text) for key, text in said.items()}
-                fixed = {"name": name, "section": section, "kind": kind}
+                fixed: dict[str, Any] = {"name": name, "section": section, "kind": kind}
                 yield stem, Equation(**fixed, assumptions=assumptions, outside=outside, **texts)
 
 
