@@ -38,22 +38,24 @@ ROD_REASON = (
 
 def points_option(axes: str) -> Callable[[F], F]:
     """Return the option for point masses; `axes` ends its help."""
-    says = f"Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge{axes}."
+    says = f"Body of point masses: a CSV file with the columns x, y, z, mass and, for --magnetic, charge{axes}."
     return click.option("--points", type=FILE, metavar="FILE", help=says)
 
 
 shape_options: Callable[[F], F] = stack(
     numbers("ratio", "I = I3/I2, in (0, 2].", callback=nearest_moments),
-    click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
+    click.option(
+        "--shape", metavar="NAME", help="Body given by its dimensions: ring, disk, ...; see atlas list shapes."
+    ),
     numbers("radius", "Radius of the shape."),
     numbers("height", "Height of a cylinder or cylindrical shell."),
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
     numbers("equatorial", "Equatorial semi-axis of a spheroid."),
     numbers("polar", "Polar semi-axis of a spheroid."),
-    numbers("density", "Density of a solid shape, for --mass."),
+    numbers("density", "Density of a solid shape, in the place of --mass."),
 )
 body_options: Callable[[F], F] = stack(
-    numbers("inertia", "The two moments of inertia instead of I.", "I2 I3", callback=nearest_moments),
+    numbers("inertia", "Moments of inertia in the place of --ratio.", "I2 I3", callback=nearest_moments),
     shape_options,
     points_option(""),
 )
@@ -67,20 +69,23 @@ def field_options_of(components: str, axes: str = "") -> Callable[[F], F]:
         numbers("mass", "Mass of the body, with --charge."),
         numbers("charge", "Charge of the body, either sign; with --magnetic."),
         click.option(
-            "--mu", "--charge-to-mass", type=REAL, help="Charge-to-mass ratio mu = e/m instead (no magnetic moment)."
+            "--mu",
+            "--charge-to-mass",
+            type=REAL,
+            help="Charge-to-mass ratio mu = e/m, in the place of --mass and --charge.",
         ),
         click.option(
             "--units",
             type=click.Choice(["natural", "gaussian", "si"]),
-            help="Of --magnetic, --mu, --mass, --charge: c = 1; gauss, esu/g, g, esu; tesla, C/kg, kg, C (no factor "
-            "c). SI where a charge is given, else natural.",
+            help="Units of --magnetic, --mu, --mass, --charge: natural, with c = 1; gaussian: gauss, esu/g, g, esu; "
+            "si: tesla, C/kg, kg, C. By default si where a charge is given, else natural.",
         ),
     )
 
 
 field_options: Callable[[F], F] = stack(
     field_options_of("B2 B3"),
-    numbers("angle", "Angle between field and axis: --magnetic or --field is one number then."),
+    numbers("angle", "Angle between field and axis; --magnetic or --field is then one number, the strength."),
 )
 any_body_options: Callable[[F], F] = stack(
     numbers("inertia", "Principal moments of inertia.", "I1 I2 I3", callback=nearest_moments),

@@ -21,7 +21,9 @@ graded_options: Callable[[Any], Any] = stack(
         "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
     ),
     click.option(
-        "--order", is_flag=True, help="Of several files, with other steps: the order of convergence, and its figure."
+        "--order",
+        is_flag=True,
+        help="Order of convergence, from files of one motion with several steps, and its figure.",
     ),
     json_option,
 )
@@ -68,12 +70,12 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @body.field_options
 @body.start_option
 @body.spin_option
-@numbers("omega2", "Its second component alone, of an elementary motion.")
-@numbers("omega3", "Third component, where (71) leaves it free.")
-@numbers("direction", "Of a top, as in atlas top, in place of a field.", "N2 N3")
-@numbers("coupling", "Of a top, as in atlas top.", "K2 K3")
-@numbers("linear", "Of a top, as in atlas top.")
-@numbers("quadratic", "Of a top, as in atlas top.")
+@numbers("omega2", "Second component of the angular velocity, of an elementary motion.")
+@numbers("omega3", "Third component, with --omega2, where (71) leaves it free.")
+@numbers("direction", "Vector along n of a top in its field, across and along the axis, as in atlas top.", "N2 N3")
+@numbers("coupling", "Coupling k of a top, M = I Omega + k b, as in atlas top.", "K2 K3")
+@numbers("linear", "Linear part of the potential of a top, m g l of a heavy one.")
+@numbers("quadratic", "Quadratic part of the potential of a top.")
 @graded_options
 def command(files: tuple[Path, ...], **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.

@@ -66,7 +66,7 @@ class FigureCommand(Command):
     ),
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
-@click.option("--all", "everything", is_flag=True, help="Every recipe in figures/.")
+@click.option("--all", "everything", is_flag=True, help="All figures of figures/.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Parameters; a list is a,b,c.")
 @click.option(
     "--format",
@@ -80,7 +80,7 @@ class FigureCommand(Command):
     type=click.Choice(["vector", "shaded"]),
     default="vector",
     show_default=True,
-    help="On paper with hidden lines, or shaded (PNG).",
+    help="Line drawing with hidden lines, or a shaded picture (PNG).",
 )
 @click.option(
     "--for",
@@ -110,10 +110,11 @@ def command(
 
     A NAME that ends with .py is a recipe's file of your own, anywhere. With a NAME, --help tells its parameters.
 
-    --gallery makes gallery/gallery.html, pictures in rows that lead to each figure with its code and command.
+    --gallery makes gallery/gallery.html, a page of small pictures, each with its code and its command.
 
     --for makes NAME-TARGET with the width, type, lines and resolution that are asked there; the guide has the table. A
-    figure that can't be read at that width says so; `atlas list` tells which need more than a column.
+    figure that can't be read at that width says so, and one whose panels have no room for all names those that are
+    left out; `atlas list` tells which figures need more than a column.
 
     A figure drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
     others; then the exit status is 1. Beside a file that you edited, or put there, the new one is written, as
@@ -186,6 +187,8 @@ def warned(figures: "list[Files]", renderer: str) -> int:
     """Print the figures that were not drawn as requested, with the reasons; return the exit status."""
     for note in dict.fromkeys(figure.note for figure in figures if figure.note):
         click.echo(f"atlas: {note}", err=True)
+    for figure in (figure for figure in figures if figure.left_out):
+        click.echo(f"atlas: figure {figure.name}: {figure.left_out}", err=True)
     flat = [figure.name for figure in figures if figure.files and figure.renderer != renderer and not figure.note]
     if flat:
         click.echo(f"atlas: no panel in space, so drawn by the vector renderer: {', '.join(flat)}", err=True)

@@ -17,17 +17,31 @@ KINDS = ("rotation", "quaternion", "axis", "angular_velocity", "field_in_body", 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
 fit_options: Callable[[Any], Any] = stack(
-    click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions."),
-    click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, of several kinds."),
+    click.option(
+        "--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Family of motions."
+    ),
+    click.option(
+        "--of", "kind", type=click.Choice(KINDS), help="Columns that are fitted, where the file has several kinds."
+    ),
     numbers("sigma", "Standard error of each number, of attitudes in radians, or with a unit: 1deg."),
     click.option("--fix", multiple=True, metavar="NAME=VALUE [...]", help="Parameters that are known."),
-    click.option("--start", multiple=True, metavar="NAME=VALUE [...]", help="Where a parameter is sought first."),
+    click.option("--start", multiple=True, metavar="NAME=VALUE [...]", help="Values from which parameters are sought."),
     numbers("epoch", "Time at which the parameters hold.", default="0", show_default=True),
     click.option(
-        "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
+        "--loss",
+        type=click.Choice(LOSSES),
+        default="linear",
+        show_default=True,
+        help="Loss of the residuals; all but linear bear outliers.",
     ),
-    click.option("--predict", multiple=True, type=REAL, metavar="T [T ...]", help="Predict the measured quantity."),
-    numbers("horizon", "Until when a prediction is that good.", "ERROR"),
+    click.option(
+        "--predict",
+        multiple=True,
+        type=REAL,
+        metavar="T [T ...]",
+        help="Times at which the measured quantity is predicted.",
+    ),
+    numbers("horizon", "Time until which predictions are within ERROR.", "ERROR"),
 )
 
 

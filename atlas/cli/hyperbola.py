@@ -33,9 +33,13 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @body_options
 @field_options
-@click.option("--omega2", multiple=True, type=REAL, metavar="W [W ...]", help="Points at these omega2.")
+@click.option("--omega2", multiple=True, type=REAL, metavar="W [W ...]", help="Values of omega2 of the points.")
 @click.option(
-    "--count", type=click.IntRange(2, 100_000), default=12, show_default=True, help="Else so many, on both branches."
+    "--count",
+    type=click.IntRange(2, 100_000),
+    default=12,
+    show_default=True,
+    help="Number of points on both branches, without --omega2.",
 )
 @output_options
 def command(**options: Any) -> None:

@@ -75,8 +75,8 @@ output_options: Callable[[F], F] = stack(
     click.option(
         "--digits",
         type=click.IntRange(1, 1000),
-        help="So many certified significant digits; in JSON they come as strings. Three moments of inertia take a "
-        "minute for 300 of them, and five minutes and 1 GB for 1000.",
+        help="Number of certified significant digits; in JSON numbers are then strings. Three moments of inertia "
+        "take a minute for 300 of them, and five minutes and 1 GB for 1000.",
     ),
     click.option("--decimal", is_flag=True, help="Take typed decimals exactly: 0.1 is 1/10, not the nearest double."),
 )
@@ -93,7 +93,7 @@ def out_option(standard: str) -> Callable[[F], F]:
 
 
 jobs_option: Callable[[F], F] = click.option(
-    "--jobs", "-j", type=click.IntRange(min=1), help="Figures drawn at once; else one a core."
+    "--jobs", "-j", type=click.IntRange(min=1), help="Number of figures drawn at a time; by default one per core."
 )
 
 
@@ -108,7 +108,7 @@ times_options: Callable[[F], F] = stack(
     click.option(
         "--times", multiple=True, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT[:log]."
     ),
-    numbers("grid", "The same by a step; or START:STOP:COUNT.", "START STEP COUNT"),
+    numbers("grid", "Times by their step; or a range START:STOP:COUNT.", "START STEP COUNT"),
 )
 
 

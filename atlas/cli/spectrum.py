@@ -13,7 +13,7 @@ spectrum_options = stack(
         flag_value="axis", metavar="[OF]",
         help="Lines of the axis, or of the rotation, angular_velocity or field in the body: frequencies, amplitudes.",
     ),
-    numbers("least", "Least amplitude, of the whole.", default="1e-3", show_default=True),
+    numbers("least", "Least amplitude of a line, as a part of the whole.", default="1e-3", show_default=True),
 )  # fmt: skip
 
 

@@ -25,9 +25,9 @@ HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, o
 
 FAMILY is {NAMES}, or motion where the parameters say which; a wrong name of a parameter or quantity is answered with
 the right ones. A row takes microseconds, of the family general some tens of them, of asymmetric up to seconds. A CSV
-file has units in its heading, as in k [1/time]. Where an angle a period, or the like, has no value its cell is empty,
-and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep with status 2,
-its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was stopped goes on when
+file has units in its heading, as in k [1/time]. Where an angle per period, or another quantity, has no value, its cell
+is empty, and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep with
+status 2, its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was stopped goes on when
 it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes
 a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited, or put there, the
 table is OUT.new.csv, and then the exit status is 2.
@@ -75,7 +75,10 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         ),
         *of_body,
         click.option(
-            "--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading."
+            "--list",
+            "listing",
+            type=click.Path(dir_okay=False, path_type=Path),
+            help="CSV file with a heading and a row of parameters for each row of the table.",
         ),
         click.option(
             "--quantity",
@@ -85,12 +88,27 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
             help="Quantities to compute: k, R11, all of R.",
         ),
         click.option(
-            "--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file."
+            "--file",
+            "toml",
+            type=click.Path(dir_okay=False, path_type=Path),
+            help="TOML file with family, parameters and quantities, in the place of the options.",
         ),
         click.option("--out", type=OUT, help="The table: .csv, .npz, .parquet; a folder table.parquet/ or an address."),
-        click.option("--digits", type=click.IntRange(1, 1000), help="So many certified significant digits, as text."),
-        click.option("--rows", type=click.IntRange(1), default=None, help="Rows a part; else some seconds' worth."),
-        click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core."),
+        click.option(
+            "--digits",
+            type=click.IntRange(1, 1000),
+            help="Number of certified significant digits; the table then has text.",
+        ),
+        click.option(
+            "--rows", type=click.IntRange(1), default=None, help="Rows per part; by default a part takes some seconds."
+        ),
+        click.option(
+            "--jobs",
+            "-j",
+            type=click.IntRange(min=1),
+            default=None,
+            help="Number of processes; by default one per core.",
+        ),
     )
 
 
@@ -208,7 +226,7 @@ def of_three_moments() -> click.Command:
     body.field_options,
     body.start_option,
     body.spin_option,
-    numbers("omega2", "Its second component alone, of an elementary motion."),
+    numbers("omega2", "Second component of the angular velocity, of an elementary motion."),
 )
 def command(**options: Any) -> None:
     """Sweep over symmetric bodies."""

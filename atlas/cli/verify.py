@@ -33,7 +33,14 @@ COLUMNS = (
 @click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
 @click.option("--record", is_flag=True, help="Keep the verdicts as the recorded ones that reports show.")
 @click.option("--anew", is_flag=True, help="Run every proof, also those that have a verdict.")
-@click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
+@click.option(
+    "--jobs",
+    "-j",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="Number of trials that run at a time.",
+)
 @click.option("--script", is_flag=True, help="Print the proof of one equation as a script of SymPy, nothing else.")
 @json_option
 def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script: bool, as_json: bool) -> int:

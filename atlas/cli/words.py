@@ -40,6 +40,17 @@ START = ("omega", "spin")
 """Options of a start that any body has, also a free one."""
 
 
+SECTIONS = {
+    "Body": ("ratio", "inertia", "tensor", "shape", "radius", "height", "equatorial", "polar", "density", "points"),
+    "Field": (
+        "field", "magnetic", "angle", "mass", "charge", "mu", "units", "direction", "coupling", "linear", "quadratic",
+        "heavy", "charged", "coat", "moment", "polarizability", "larmor", "electric",
+    ),
+    "Start": ("omega", "spin", "omega2", "omega3", "attitude", "momentum", "position", "velocity", "z", "branch"),
+}  # fmt: skip
+"""Names of options by the title under which help shows them."""
+
+
 class Option(NamedTuple):
     """An option as it was typed, --field=1 2, its name --field, and the values 1 and 2 after it."""
 
@@ -133,6 +144,18 @@ class Command(click.Command):
         """Let the command to which the words belong read them."""
         command = self.other(Words(args))
         return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the help of the options, those of body, field and start under a title each."""
+        sections: dict[str, list[tuple[str, str]]] = {}
+        for param in self.get_params(ctx):
+            title = next((title for title, names in SECTIONS.items() if param.name in names), "Options")
+            if record := param.get_help_record(ctx):
+                sections.setdefault(title, []).append(record)
+        for title in (*SECTIONS, "Options"):
+            if title in sections:
+                with formatter.section(title):
+                    formatter.write_dl(sections[title])
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the words; where help is asked for, nothing else is read."""

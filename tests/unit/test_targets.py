@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from drawing import made
 from marks import faults
 from PIL import Image
@@ -16,6 +17,7 @@ from atlas import AtlasError
 from atlas.book.building.figures import build_figures
 from atlas.book.tables import compute
 from atlas.book.tables.table import Request
+from atlas.cli.app import atlas as command
 from atlas.pictures import Curve, Label, Plane, Scene, Space, recipes
 from atlas.pictures.arrange import arranged, suited
 from atlas.pictures.drawing import save, to_figure
@@ -59,6 +61,16 @@ def test_panels_that_can_be_spared_are_left_out_of_a_slide_and_named(name: str) 
     assert re.findall(r"\(\w\)", missing) == [scene.panels[k].title[:3] for k in scene.spare]
     assert all(panel.x_label and panel.y_label for panel in slide.panels if isinstance(panel, Plane))
     assert len(arranged(scene, find("aps-double")).panels) == len(scene.panels)
+
+
+def test_the_command_names_panels_that_are_left_out(tmp_path: Path) -> None:
+    """A slide lacks panels, which a line on standard error names; a whole page has all, and no line."""
+    letters = [made("cusps").panels[k].title[:3] for k in made("cusps").spare]
+    for target, expected in (("beamer", letters), ("aps-double", [])):
+        words = ["figure", "cusps", "--for", target, "--format", "svg", "--out", str(tmp_path)]
+        told = CliRunner().invoke(command, words).stderr
+        assert re.findall(r"\(\w\)", told) == expected
+        assert ("atlas: figure cusps: Left out at this size: " in told) == bool(expected)
 
 
 def test_a_fault_is_found() -> None:

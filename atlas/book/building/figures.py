@@ -192,7 +192,8 @@ def cores() -> int:
 class Files:
     """Result of one figure: its files, their renderer, a line for the user, and the reason; or its failure.
 
-    `edited` says which files stand beside those that were not written here, or edited since.
+    `left_out` names the panels without room at the target's size. `edited` says which files stand beside those that
+    were not written here, or edited since.
     """
 
     name: str
@@ -202,6 +203,7 @@ class Files:
     reason: str = ""
     failure: str = ""
     edited: str = ""
+    left_out: str = ""
 
 
 def build_figures(
@@ -253,7 +255,8 @@ def _put(figure: FigureBuild, out: Path) -> Files:
         publish(files, out, stem)
     except AtlasError as error:
         edited = str(error)
-    return Files(name, paths, figure.facts["renderer"], figure.facts["note"], figure.reason, edited=edited)
+    renderer, note, left_out = (str(figure.facts[fact]) for fact in ("renderer", "note", "left_out"))
+    return Files(name, paths, renderer, note, figure.reason, edited=edited, left_out=left_out)
 
 
 HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms]", "peak [MB]", "kB")

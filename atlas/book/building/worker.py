@@ -80,12 +80,14 @@ def _draw(task: Task) -> None:
     figure = not target and {*files} >= {version for version in (scene, small) if version}
     figures = list(files.values()) if figure else []
     contents |= _beside(task, scene, figures)
+    placed = arranged(scene, target) if target else scene
     facts = {
         "title": scene.title,
         "caption": scene.caption,
         "commands": list(scene.commands),
         "alt": scene.alt,
-        "size": arranged(scene, target).size if target else scene.size,
+        "left_out": placed.caption.removeprefix(scene.caption).strip(),
+        "size": placed.size,
         "parameters": scene.parameters,
         "renderer": renderer,
         "note": note,
