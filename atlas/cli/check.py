@@ -85,10 +85,10 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     parameters are options, or lines such as '# field = 1 2' at the head of the file.
 
     The motion is one of a symmetric body in a field, of a top (with a direction, as in atlas top), or of a body with
-    three moments of inertia (--inertia I1 I2 I3, --field B1 B2 B3 and --omega; at the head of the file '# inertia = 0.8
-    1 1.3' and so on). Without omega, or with the six elements J11 J22 J33 J12 J13 J23 of a tensor, drifts of its
-    integrals H, F, (M,K), K^2 and T are printed, and no digits. Errors of Omega are in units of its length, of a top and of a
-    body with three moments in units of the largest rate there is.
+    three moments of inertia (--inertia I1 I2 I3, --field B1 B2 B3 and --omega; at the head of the file '# inertia =
+    0.8 1 1.3' and so on). Without omega, or with the six elements J11 J22 J33 J12 J13 J23 of a tensor, drifts of its
+    integrals H, F, (M,K), K^2 and T are printed, and no digits. Errors of Omega are in units of its length, of a top
+    and of a body with three moments in units of the largest rate there is.
 
     Several files, of several integrators, say, are graded one after the other, and --figure draws the errors of all.
     With --order they are runs of one motion with several steps, '# step = 0.01' or the mean distance of the times:

@@ -26,11 +26,11 @@ HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, o
 FAMILY is {NAMES}, or motion where the parameters say which; a wrong name of a parameter or quantity is answered with
 the right ones. A row takes microseconds, of the family general some tens of them, of asymmetric up to seconds. A CSV
 file has units in its heading, as in k [1/time]. Where an angle per period, or another quantity, has no value, its cell
-is empty, and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep with
-status 2, its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was stopped goes
-on when it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes
-a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited, or put there, the
-table is OUT.new.csv, and then the exit status is 2.
+is empty, and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep
+with status 2, its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was
+stopped goes on when it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of
+fsspec for it), takes a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited,
+or put there, the table is OUT.new.csv, and then the exit status is 2.
 """
 
 MAX_RANGE_LENGTH = 10**7
