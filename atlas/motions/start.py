@@ -11,7 +11,7 @@ from flint import fmpq
 
 from atlas.arithmetic.dimensions import INERTIA, RATE
 from atlas.arithmetic.given import Given, element
-from atlas.arithmetic.inputs import FloatArray, common_shape, components, frozen, plain, real, vectors
+from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, frozen, plain, real, vectors
 from atlas.arithmetic.numbers import as_rational, length, nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import SymmetricBody, moments
@@ -205,7 +205,9 @@ def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
 
 def of_moments(moments: Any, axes: FloatArray) -> Body:
     """Return the body of principal moments along axes. Raises DomainError for moments that no body has."""
-    rows, exact = _stacked([real(x, "A moment of inertia") for x in moments]), None
+    principal_moments = [real(x, "A moment of inertia") for x in moments]
+    common_shape(*(x.shape for x in principal_moments))
+    rows, exact = joined_columns(principal_moments), None
     if rows.ndim == 1 and any(isinstance(x, Given) for x in moments):
         for third in [i for i in range(3) if moments[i - 2] == moments[i - 1]][:1]:
             order = [third - 2, third - 1, third]
@@ -226,7 +228,7 @@ def columns(value: Any, name: str, letter: str) -> list[Any]:
     listed = isinstance(value, list) and any(isinstance(x, Fraction) for x in value)
     if isinstance(value, tuple) or listed or hasattr(value, "exact"):
         names = [f"{letter}{i}" for i in (1, 2, 3)]
-        return [x if isinstance(x, Given) else plain(x) for x in components(value, names, name, RATE)]
+        return [*map(as_given, components(value, names, name, RATE))]
     return list(parts(vectors(value, name, RATE)))
 
 
@@ -243,12 +245,6 @@ def argument(value: Any, parts: list[Any]) -> Any:
 def exactly(*numbers: Any) -> tuple[fmpq, ...]:
     """Return the numbers of one motion as rational ones."""
     return exact(*(element(x, ()) for x in numbers))
-
-
-def _stacked(parts: list[FloatArray]) -> FloatArray:
-    """Return components, which broadcast, as the last axis of an array."""
-    shape = common_shape(*(x.shape for x in parts))
-    return np.stack([np.broadcast_to(x, shape) for x in parts], -1)
 
 
 def attitude_of(attitude: Any) -> FloatArray:

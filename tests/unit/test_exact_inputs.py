@@ -23,6 +23,7 @@ from atlas.errors import DomainError, NearlySymmetricWarning
 from atlas.motions.elementary.certified_hyperbola import Hyperbola as CertifiedHyperbola
 from atlas.motions.elementary.formula_hyperbola import closing
 from atlas.motions.nutation.certified_general import GeneralMotion as Certified
+from atlas.motions.register import FAMILIES
 from atlas.surfaces.certified import Quadric as CertifiedQuadric
 
 FIELD, OMEGA = (1.0, 2.0), (0.3, 0.7, 0.2)
@@ -187,3 +188,12 @@ def test_a_body_that_is_nearly_a_ball_has_its_pole() -> None:
         assert np.all(np.equal(atlas.ElementaryMotion(1.0, FIELD, omega2, 0.5).omega3, 0.5))
         with pytest.raises(DomainError, match="pole"):
             atlas.ElementaryMotion(1 + Fraction(1, 10**20), FIELD, omega2, 0.5)
+
+
+def test_stability_of_a_motion_is_that_of_the_ratio_that_was_given() -> None:
+    """The register takes ratio and field of a motion without rounding, in doubles as in balls."""
+    ratio, field = Fraction(11, 7), (Fraction(3, 11), Fraction(1, 30))
+    motion, family = atlas.ElementaryMotion(ratio, field, 1.7), FAMILIES["elementary"]
+    (quantity,) = (x for x in family.quantities if x.name == "stability")
+    with workprec():
+        assert quantity.value(motion) == nearest(CertifiedHyperbola(ratio, field).stability(1.7))

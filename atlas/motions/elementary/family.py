@@ -16,18 +16,20 @@ def _stability(motion: Any) -> Any:
     """Return the square of the frequency of small nutations: of the hyperbola, at the motion's omega2."""
     from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 
-    return Hyperbola(motion.ratio, motion.field).stability(motion.omega2)
+    return Hyperbola(*_ratio_and_field(motion)).stability(motion.omega2)
 
 
 def _curve(motion: Any) -> Any:
-    """Return the exact hyperbola that a motion is on, one of kernels, which has a ratio and a field, or of balls."""
+    """Return the certified hyperbola of a motion, in doubles or certified."""
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
-    return Hyperbola(*((motion.I, (motion.B2, motion.B3)) if hasattr(motion, "I") else (motion.ratio, motion.field)))
+    return Hyperbola(*((motion.I, (motion.B2, motion.B3)) if hasattr(motion, "I") else _ratio_and_field(motion)))
 
 
-def _exact_stability(motion: Any) -> Any:
-    return _curve(motion).stability(motion.omega2)
+def _ratio_and_field(motion: Any) -> tuple[Any, Any]:
+    """Return ratio and field (B2, B3) of a motion in doubles, along the axes of its class, without rounding."""
+    arguments = motion.own.arguments
+    return arguments["ratio"], arguments["field"]
 
 
 def _verdict(motion: Any) -> str:
@@ -68,7 +70,7 @@ FAMILY = Family(
         ),
         Quantity(
             "stability", "square of the frequency of small nutations", "1/time^2", "theorem-stability", get=_stability,
-            exact=_exact_stability, certified=True, printed=False,
+            exact=lambda motion: _curve(motion).stability(motion.omega2), certified=True, printed=False,
         ),
         Quantity("nutation", "stable or not against small nutations", "", "theorem-band", get=_verdict,
                  certified=True, printed=False, tabled=False),

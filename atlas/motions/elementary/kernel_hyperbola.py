@@ -9,10 +9,8 @@ import numpy as np
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.given import element
 from atlas.arithmetic.inputs import FloatArray, as_given, components, plain, positive, real, whole
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
-from atlas.arithmetic.words import exact
 from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
 from atlas.display import Shown
@@ -21,6 +19,7 @@ from atlas.lazy import cached_property
 from atlas.motions.elementary.closed import ClosedMotion
 from atlas.motions.elementary.formula_hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.motions.nutation.top_hyperbola import Branch, halves
+from atlas.motions.start import exactly
 
 if TYPE_CHECKING:
     from atlas.motions.nutation.kernel_general import GeneralMotion
@@ -123,7 +122,7 @@ class Hyperbola(Shown):
         """Exact I2, I3, B2, B3 of one curve."""
         if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
             raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
-        return exact(*(element(x, ()) for x in self._inputs))
+        return exactly(*self._inputs)
 
     @property
     def pole(self) -> FloatOrArray:

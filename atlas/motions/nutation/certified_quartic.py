@@ -92,11 +92,6 @@ class Quartic:
         return evaluated(derivative(self.polynomial), self.u)
 
     @property
-    def bias(self) -> int:
-        """Sign of the second derivative of u at t = 0."""
-        return self.slope.sign
-
-    @property
     def curvature(self) -> Real:
         """Q''(u) at t = 0."""
         return evaluated(derivative(derivative(self.polynomial)), self.u).value
@@ -144,7 +139,7 @@ class Quartic:
                     high = next(i for i, x in enumerate(real) if x > u)
                     return high - 1, high
                 if not self.sense and len(hits) == 1:
-                    place, second = hits[0], hits[0] + self.bias
+                    place, second = hits[0], hits[0] + self.slope.sign
                     return min(place, second), max(place, second)
             precision *= 2
 

@@ -79,18 +79,13 @@ class ParticleMotion:
         if not self._force:
             return [v + a * t for v, a in zip(self.launch, self._pull, strict=True)]
         s, c = self._circle(t)
-        terms, w2 = zip(self.launch, *self._vectors(), strict=True), self._square
+        terms, w2 = zip(self.launch, *self._vectors(), strict=True), self.mu**2 * dot(self.B, self.B) / self.c**2
         return [v + p * t - w2 * s * r + (c - 1) * q for v, _, p, r, q in terms]
 
     @property
     def _pull(self) -> Vector:
         """The acceleration mu E."""
         return tuple(self.mu * e for e in self.E)
-
-    @property
-    def _square(self) -> fmpq:
-        """The square of the frequency, which is rational."""
-        return self.mu**2 * dot(self.B, self.B) / self.c**2
 
     def _vectors(self) -> tuple[Vector, Vector, Vector, Vector]:
         """Return d (steady velocity), p (acceleration along B), r and q (the two radii of the circle), all rational."""
