@@ -46,7 +46,7 @@ def scene(
     def third_axis(t: FloatArray) -> FloatArray:
         return np.asarray(axis(t) / np.linalg.norm(axis(t), axis=-1, keepdims=True))
 
-    sampled_motion = SimpleNamespace(third_axis=third_axis, angular_velocity=CubicSpline(times, steps.Omega))
+    samples = SimpleNamespace(third_axis=third_axis, angular_velocity=CubicSpline(times, steps.Omega))
     moment, words = any_motion.start(omega)
     inside = rf" in $\mathbf{{B}}'={tex_vector(field)}$" if any(field) else ""
     setting = (
@@ -54,12 +54,5 @@ def scene(
         f"The motion of a body with the moments {plain_vector(inertia)} from {words}",
     )
     return any_motion.picture(
-        sampled_motion,
-        setting,
-        period,
-        turns,
-        upright=Upright.of_motion(motion),
-        word="",
-        elevation=elevation,
-        unit=unit,
+        samples, setting, period, turns, upright=Upright.of_motion(motion), word="", elevation=elevation, unit=unit
     )

@@ -29,9 +29,9 @@ def scene(
         raise DomainError("figure ball needs a field, larmor other than 0: without one the momentum stays as it is.")
     ball = BallMotion(inertia, larmor, momentum=momentum)
     size = float(np.hypot(*momentum))
-    radius, resolution = 0.62, tolerance(2.0)
+    radius, sag = 0.62, tolerance(2.0)
     layers: list[Layer] = [
-        solids.sphere(O, radius, resolution, role="ball"),
+        solids.sphere(O, radius, sag, role="ball"),
         *quadric_panel.basis((1.6, 1.75, 2.0)),
         Arrow(O, 1.6 * E3, "field", r"$\mathbf{B}$", offset=(-7.0, 0.0)),
         Points(O[None], "origin", r"$O$"),
@@ -42,7 +42,7 @@ def scene(
         m2, m3 = (1.65 / size * m for m in momentum)
         layers.append(Arrow(O, in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
         if m2 != 0.0:
-            layers.append(Curve(solids.circle(m3 * E3, E3, abs(m2), resolution), "precession"))
+            layers.append(Curve(solids.circle(m3 * E3, E3, abs(m2), sag), "precession"))
             quarter = np.pi / 5.0 * float(np.sign(larmor))
             tips = np.array(
                 [[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)]

@@ -14,7 +14,7 @@ from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space, solids
 from atlas.pictures.captions import listed, plain, tex
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 from atlas.pictures.sample import curve
-from atlas.pictures.torus import VIEW, net, on_torus, visible_parts
+from atlas.pictures.torus import VIEW, net, on_torus, visible
 
 ROW = "a body"
 SEEN = "A ball's attitude runs round a torus with two constant rates."
@@ -54,14 +54,12 @@ def scene(
         letters = "abcdefgh"[len(panels) :]
         names = rf"({letters[0]}) $\gamma/\alpha={tex(ratio)}$", rf"({letters[1]}) path of $\mathbf{{R}}_1$"
         panels += pair(names, ball, larmor, stop, named=not panels)
-    ratio_words = listed(
-        [rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)]
-    )
+    phrase = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         caption=(
             r"Left, $\alpha t$ runs the long way and $\gamma t$ the short way, dashed behind it "
             r"where there are few turns; right, the path of its point $\mathbf{R}_1$. "
-            rf"Here $\gamma/\alpha$ is {ratio_words}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
+            rf"Here $\gamma/\alpha$ is {phrase}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(
             f"{len(ratios)} rows of two pictures: a line that winds round a torus, closed in the first row and dense "
@@ -80,28 +78,21 @@ def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *
 
     The latter shows the field and k at t = 0, too; its start has a name or not.
     """
-    resolution, is_bold = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
+    sag, is_bold = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
-    line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, resolution, pieces=pieces)
-    path = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, resolution, pieces=pieces)
+    line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, sag, pieces=pieces)
+    path = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, sag, pieces=pieces)
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, resolution, role="ball"),
+        solids.sphere(O, 1.0, sag, role="ball"),
         Curve(path, "second_trace" if is_bold else "fine_trace"),
         Points(path[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
         Arrow(E3, 1.5 * E3, "field", r"$\mathbf{B}$"),
     ]
     k = in_plane(*ball.k_hat)
     layers.append(Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$"))
-    winding = [
-        *net(),
-        *visible_parts(line, "second_trace", "hidden_trace" if is_bold else ""),
-        Points(line[:1], "start"),
-    ]
+    winding = [*net(), *visible(line, "second_trace", "hidden_trace" if is_bold else ""), Points(line[:1], "start")]
     s = np.linspace(0.0, 1.0, 25) if named else np.empty(0)
-    for long_angle, short_angle, role, name in (
-        (0.5 * s, 0 * s, "field", r"$\alpha t$"),
-        (0 * s, s, "turn", r"$\gamma t$"),
-    ):
-        arc = on_torus(long_angle, short_angle)
+    for u, v, role, name in ((0.5 * s, 0 * s, "field", r"$\alpha t$"), (0 * s, s, "turn", r"$\gamma t$")):
+        arc = on_torus(u, v)
         winding += [Curve(arc[:-8], role), Arrow(arc[-9], arc[-1], role, name)] if named else []
     return [Space(tuple(winding), *VIEW, title=names[0]), Space(tuple(layers), 25.0, 20.0, title=names[1])]

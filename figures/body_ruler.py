@@ -71,7 +71,7 @@ def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> t
     """Return the layers of some of the bodies and the part of the scale on which they stand."""
     bodies = BODIES[begin:end]
     start, stop = np.floor(bodies[0][1]), bodies[-1][1]
-    resolution, reach = tolerance(STEP * len(bodies) / 2), REACH * float(np.hypot(*prime))
+    sag, reach = tolerance(STEP * len(bodies) / 2), REACH * float(np.hypot(*prime))
     places = row(len(bodies), STEP, azimuth)
     low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
 
@@ -81,14 +81,14 @@ def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> t
 
     layers: list[Layer] = []
     for place, (name, I) in zip(places, bodies, strict=True):
-        layers += body(name, I, place, resolution)
+        layers += body(name, I, place, sag)
         layers.append(Label(place + NAMES * E3, name, body_role(I)))
         foot = place + (NAMES - 0.3) * E3
         layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
         layers.append(Points(on_scale(I)[None], "point"))
-        surfaces = quadrics.pieces(I, prime, reach, resolution)
+        surfaces = quadrics.pieces(I, prime, reach, sag)
         shift = place + ABOVE * E3 + in_plane(*prime)
-        layers += quadrics.placed(surfaces, quadrics.quadric_matrix(I, prime), shift, resolution)
+        layers += quadrics.placed(surfaces, quadrics.quadric_matrix(I, prime), shift, sag)
     layers.append(Curve(np.stack([on_scale(start), on_scale(stop)]), "basis"))
     for mark in np.arange(start, stop + 0.25, 0.25):
         layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))

@@ -99,34 +99,30 @@ def one_each(
 def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
     """Return the curves of one top."""
     scale = max(b, abs(linear) ** 0.5)
-    wells, energy_shift = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
+    wells, shift = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
     branches = list(wells.precessions(3.0 * reach * scale))
     lines = [
-        (run, "unstable_line" if unstable else "main")
-        for branch in branches
-        for run, unstable in runs(branch, energy_shift)
+        (run, "unstable_line" if unstable else "main") for branch in branches for run, unstable in runs(branch, shift)
     ]
     has_zero_rate = any(not branch.w.any() for branch in branches)  # w = 0 at any nu, as of a ball
-    visible_points = np.concatenate(
-        [np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)]
-    )
-    if not len(visible_points):
+    inside = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
+    if not len(inside):
         raise DomainError(
             f"figure energy_momentum: with M3 = {M3:g} and b = {b:g} no steady precession at I = {I:g} has |p| below "
             f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
         )
-    spins = [(p, g + energy_shift, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
-    visible_points = np.array([*visible_points, *(spin[:2] for spin in spins)])
-    low, high = float(visible_points[:, 1].min()), float(visible_points[:, 1].max())
+    spins = [(p, g + shift, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
+    inside = np.array([*inside, *(spin[:2] for spin in spins)])
+    low, high = float(inside[:, 1].min()), float(inside[:, 1].max())
     high = high if high > low else low + scale * scale
     pad = 0.08 * (high - low)
     p, nu = np.linspace(-reach * scale, reach * scale, 401), np.tanh(np.linspace(-7.0, 7.0, 701))
-    least = np.minimum(np.asarray(wells.potential(p[:, None], nu)).min(axis=1) + energy_shift, high + pad)
+    least = np.minimum(np.asarray(wells.potential(p[:, None], nu)).min(axis=1) + shift, high + pad)
     above = [[p[-1], high + pad], [p[0], high + pad]]
     layers: list[Layer] = [Region(np.array([*np.stack([p, least], axis=1), *above]), "region")]
     layers += [Curve(line, role) for line, role in lines]
-    layers += [label for x in branches if x.w.any() for label in names(x, reach * scale, energy_shift)]
-    layers += [Label(np.array([0.0, energy_shift]), "$w=0$", "note", (0.0, 6.0))] if has_zero_rate else []
+    layers += [label for x in branches if x.w.any() for label in names(x, reach * scale, shift)]
+    layers += [Label(np.array([0.0, shift]), "$w=0$", "note", (0.0, 6.0))] if has_zero_rate else []
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     spin_name = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers += [Label(np.array(spin[:2]), spin_name, "note", (9, -4) if has_zero_rate else (5, 6)) for spin in spins[:1]]
@@ -151,9 +147,7 @@ def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
         return []
     p, H2 = np.concatenate(folds).T
     x = room(p, 0.3)
-    low = min(
-        float(H2.min()), *(line[:, 1].min() for line in (branch_curve.points for branch_curve in curves) if len(line))
-    )
+    low = min(float(H2.min()), *(line[:, 1].min() for line in (fold.points for fold in curves) if len(line)))
     y = room([low, float(H2.max())], 0.3)
     ends = np.transpose([x, y])
     layers: list[Layer] = []
@@ -168,11 +162,11 @@ def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
     return [replace(diagram, layers=tuple(layers), x_limits=x, y_limits=y, title=title)]
 
 
-def names(branch: Branch, reach: float, energy_shift: float) -> list[Layer]:
+def names(branch: Branch, reach: float, shift: float) -> list[Layer]:
     """Return labels of a curve inside the view: "unstable", else the sign of its rate w."""
     w, stable, is_visible = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
     order = np.argsort(-branch.g, kind="stable")
-    points = np.stack([branch.p, branch.g + energy_shift], axis=1)
+    points = np.stack([branch.p, branch.g + shift], axis=1)
     kinds = (
         ("$w<0$", "note", stable & (w < 0), (-6.0, 0.0), 1),
         ("$w>0$", "note", stable & (w > 0), (6.0, 0.0), 1),
@@ -185,10 +179,10 @@ def names(branch: Branch, reach: float, energy_shift: float) -> list[Layer]:
     ]
 
 
-def runs(branch: Branch, energy_shift: float) -> list[tuple[FloatArray, bool]]:
+def runs(branch: Branch, shift: float) -> list[tuple[FloatArray, bool]]:
     """Return the pieces (N, 2) of a curve (p, 2H) that are stable or unstable throughout, and which."""
     unstable = np.asarray(branch.stable) < 0
-    points = np.stack([branch.p, branch.g + energy_shift], axis=1)
+    points = np.stack([branch.p, branch.g + shift], axis=1)
     cuts = np.flatnonzero(np.diff(unstable)) + 1
     edges = [0, *cuts.tolist(), len(points)]
     return [(points[a : b + 1], bool(unstable[a])) for a, b in pairwise(edges)]

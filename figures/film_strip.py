@@ -46,14 +46,14 @@ def scene(
     times = np.linspace(0.0, 2 * np.pi / abs(motion.k), count)
     axis = in_plane(*field) / np.hypot(*field)
     angle = float(np.arctan2(field[0], field[1]))
-    resolution = tolerance(STEP * count / 2)
+    sag = tolerance(STEP * count / 2)
     cells: list[list[Layer]] = []
     places = row(count, STEP, azimuth)
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
-        ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), resolution)
+        ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), sag)
         cells.append(
             [
-                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, resolution)], f"body {i}"),
+                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, sag)], f"body {i}"),
                 Curve(ring, "trace"),
                 Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides=f"body {i}"),
                 Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),

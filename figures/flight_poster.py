@@ -64,9 +64,9 @@ def scene(
             f"figure flight_poster needs bodies that do not all cover one another: for {count} on a path of {path:.3g} "
             f"the size is at most {MAX_SIZES_PER_PATH * path / count:.3g}, not {size:g}."
         )
-    resolution = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
+    sag = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
     end = 0.5 * size * proportions(I)[1]
-    layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, resolution, pieces=64), "flight_path")]
+    layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, sag, pieces=64), "flight_path")]
     for between in HEADS:  # the sense of the flight
         tail, tip = particle.position(stop / (count - 1) * np.array([between - 0.1, between + 0.1]))
         layers.append(Arrow(tail, tip, "flight_path"))
@@ -74,7 +74,7 @@ def scene(
     sight = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
     for i in np.argsort(centres @ sight):  # from the farthest to the nearest, as they cover one another
         centre, R = centres[i], attitudes[i]
-        layers += solenoid(I, R, centre, size, resolution)
+        layers += solenoid(I, R, centre, size, sag)
         layers.append(Arrow(centre + end * R[:, 2], centre + AXIS * size * R[:, 2], "body_axis"))
     layers += fields(B, np.asarray(E, dtype=float), centres, size, (azimuth, elevation))
     return Scene(

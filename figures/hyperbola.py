@@ -35,11 +35,9 @@ def scene(
         layers.append(Curve(asymptote(ratio, field, view), "asymptote"))
     layers += [Curve(piece, "hyperbola") for piece in pieces]
     layers += [Curve(stretch, "unstable") for piece in pieces for stretch in within(piece, bands)]
-    free_limit = free_spin(ratio, field)
-    if free_limit:
-        layers.append(
-            Curve(np.array([[-B2, max(-free_limit, view.y[0])], [-B2, min(free_limit, view.y[1])]]), "unstable")
-        )
+    limit = free_spin(ratio, field)
+    if limit:
+        layers.append(Curve(np.array([[-B2, max(-limit, view.y[0])], [-B2, min(limit, view.y[1])]]), "unstable"))
     layers += marked(places(ratio, field), field)
     if B2:
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))
@@ -100,14 +98,12 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
         zeros = rf"$\omega_3$ is zero at rest and at $\omega_2=-(2-I)B'_2={tex((I - 2) * B2)}$."
         sentences.append(zeros if I != 2 else r"Both zeros of $\omega_3$ have met in the state of rest.")
     order = r"\le" if B3 else "<"  # the ends of a band belong to it, theorem-band-ends; for B3 = 0 they do not
-    band_words = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
+    spans = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
     if bands and B3:
-        sentences.append(
-            f"On the shaded bands, {band_words}, ends included, the motions are unstable against nutation."
-        )
+        sentences.append(f"On the shaded bands, {spans}, ends included, the motions are unstable against nutation.")
     elif bands:
         sentences.append(
-            rf"Unstable against nutation are those on the first line with {band_words}, and those on the second with "
+            rf"Unstable against nutation are those on the first line with {spans}, and those on the second with "
             rf"$\lvert\omega_3\rvert<{tex(free_spin(ratio, field))}$."
         )
     elif B2 and one_less == 0:

@@ -77,13 +77,13 @@ def scene(
 
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
     """Return one sphere with the traces of both motions."""
-    resolution = tolerance(1.4)
+    sag = tolerance(1.4)
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, resolution),
+        solids.sphere(O, 1.0, sag),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
     ]
     for path, role in zip(paths, ("trace", "second_launch"), strict=True):
-        points = curve(path, 0.0, time, resolution, pieces=48)
+        points = curve(path, 0.0, time, sag, pieces=48)
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
         ends = np.stack([np.interp(HEAD, length, coordinate) for coordinate in points.T], axis=1)
         tail, tip = ends / np.linalg.norm(ends, axis=1, keepdims=True)

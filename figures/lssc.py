@@ -25,20 +25,20 @@ def scene(
     """Show a solenoid with I = I3/I2 = ``ratio`` and the field B with the components ``field`` = (B2, B3)."""
     I = quotient(ratio)
     radius, height = (SIZE * length for length in proportions(I))
-    resolution = tolerance(2.5)
+    sag = tolerance(2.5)
     reach = 0.5 * height
     b = float(np.hypot(*field)) or 1.0
     tip = in_plane(*field) * (max(1.75 * SIZE, reach + 1.0) / b)
     second, third = tip[1] * E2, tip[2] * E3
     layers: list[Layer] = []
     if height > 0.0:
-        shell = solids.cylinder(O, E3, radius, height, resolution, role="body")
+        shell = solids.cylinder(O, E3, radius, height, sag, role="body")
         count = max(2, round(WINDINGS * height))
-        coils = [solids.circle(h * E3, E3, radius, resolution) for h in np.linspace(-reach, reach, count + 1)[1:-1]]
+        coils = [solids.circle(h * E3, E3, radius, sag) for h in np.linspace(-reach, reach, count + 1)[1:-1]]
         layers.append(shell)
         layers += [Curve(coil, "coil") for coil in coils]
     else:
-        layers.append(Curve(solids.circle(O, E3, radius, resolution), "loop"))
+        layers.append(Curve(solids.circle(O, E3, radius, sag), "loop"))
     layers += [
         Arrow(O, max(2.0, 1.4 * radius) * E1, "basis", r"$\mathbf{e}_1$"),
         Arrow(O, max(2.0, 1.4 * radius, 1.15 * float(tip[1])) * E2, "basis", r"$\mathbf{e}_2$"),

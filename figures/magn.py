@@ -36,8 +36,8 @@ def scene(
     particle = ParticleMotion(mu, (0.0, *E), (0.0, 0.0, B), (0.0, 0.0, 0.0), (speed, 0.0, 0.0), c)
     rough = particle.position(np.linspace(0.0, turns * particle.period, 200))
     span = float(np.ptp(rough, axis=0).max()) or 1.0
-    resolution = tolerance(0.5 * span)
-    path = curve(particle.position, 0.0, turns * particle.period, resolution, pieces=max(8, round(8 * turns)))
+    sag = tolerance(0.5 * span)
+    path = curve(particle.position, 0.0, turns * particle.period, sag, pieces=max(8, round(8 * turns)))
     reach = 0.55 * span
     strength = float(np.hypot(*E))
     layers: list[Layer] = [

@@ -53,20 +53,10 @@ def scene(
     swings, least, largest = (
         x.reshape(-1, cells, cells) for x in (amplitudes(columns, field), columns["least"], columns["largest"])
     )
-    last_letter = "b" if len(ratios) > 1 else "a"
+    end = "b" if len(ratios) > 1 else "a"
     most = STEP * float(np.ceil(np.max(swings) / STEP))
     panels = tuple(
-        panel(
-            f"({letter}) {body_name(I)}, $I={tex(I)}$",
-            I,
-            field,
-            edges,
-            swing.T,
-            ends,
-            unit,
-            most,
-            letter == last_letter,
-        )
+        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, ends, unit, most, letter == end)
         for letter, I, swing, *ends in zip("abcd", ratios, swings, least, largest, strict=False)
     )
     return Scene(

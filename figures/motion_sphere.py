@@ -40,23 +40,23 @@ def scene(
     pole = in_plane(*field) if any(field) else motion.angular_momentum(0.0)
     size = float(np.linalg.norm(pole))
     axis = pole / size if size else E3
-    resolution = tolerance(1.6)
+    sag = tolerance(1.6)
     angle = float(np.arctan2(np.hypot(axis[0], axis[1]), axis[2]))
     rate = max(abs(motion.k), abs(motion.phi)) or 1.0
     time = turns * 2.0 * np.pi / (abs(motion.k) or rate)
     eye = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
-    layers: Layers = [solids.sphere(O, 1.0, resolution), *quadric_panel.basis((1.7, 1.55, 1.45))]
+    layers: Layers = [solids.sphere(O, 1.0, sag), *quadric_panel.basis((1.7, 1.55, 1.45))]
     named = ("field", r"$\mathbf{B}$") if any(field) else ("momentum", r"$\mathbf{m}$")
     layers.append(Arrow(O, 1.65 * axis, *named))
     if np.sin(angle) > 1e-9 and motion.k:
-        layers.append(solids.cone(O, axis, angle, 1.0, resolution))
+        layers.append(solids.cone(O, axis, angle, 1.0, sag))
         period = 2.0 * np.pi / abs(motion.k)
-        layers.append(Curve(curve(motion.third_axis, 0.0, period, resolution), "trace"))
+        layers.append(Curve(curve(motion.third_axis, 0.0, period, sag), "trace"))
         layers += heads(motion.third_axis, period * np.array([0.2, 0.7]), eye, "trace", "")
     has_trace = rate * time < MAX_AXIS_PHASE
     if has_trace:
         pieces = max(8, int(4.0 * rate * time / np.pi))
-        layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, resolution, pieces=pieces), "second_trace"))
+        layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, sag, pieces=pieces), "second_trace"))
         starts = np.arange(1.0, 2.0 * turns) * time / (2.0 * turns)
         layers += heads(lambda t: motion.column(1, t), starts, eye, "second_trace", r"$\mathbf{R}_1(t)$")
     later = 0.42 * 2.0 * np.pi / (abs(motion.k) or rate)

@@ -116,14 +116,14 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
 
     The angular momentum of a free body is on the side of its angular velocity: (m, omega) is twice the energy.
     """
-    resolution = tolerance(1.8)
+    sag = tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))
     space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, E3))  # the half-angles
     omega /= np.linalg.norm(omega)
     layers: list[Layer] = []
     for line, angle, share, word in ((axis, space, "cone", "space"), (E3, body, "body", "body")):
         towards = line * np.copysign(1.0, line @ omega)
-        cone = solids.cone(O, towards, angle, 1.0, resolution)
+        cone = solids.cone(O, towards, angle, 1.0, sag)
         place, offset = name_place(cone.rims[0], omega, view, narrow=angle == min(space, body))
         cone_layers: list[Layer] = [
             replace(cone, role=share),

@@ -76,17 +76,17 @@ def golden(ratio: Any, field: tuple[float, float]) -> float:
 
 def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
     """Return one sphere with the trace of a point over ``turns`` turns of the precession, seen along the field."""
-    resolution = tolerance(1.6)
+    sag = tolerance(1.6)
     period = 2 * np.pi / abs(motion.k)
 
     def point(t: FloatArray) -> FloatArray:
         return np.asarray(np.sin(LEAN) * motion.column(1, t) + np.cos(LEAN) * motion.third_axis(t))
 
     pieces = max(16, int(16 * turns))
-    trace = curve(point, 0.0, turns * period, resolution, pieces=pieces)
+    trace = curve(point, 0.0, turns * period, sag, pieces=pieces)
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, resolution),
-        Curve(curve(motion.third_axis, 0.0, period, resolution), "body_axis"),
+        solids.sphere(O, 1.0, sag),
+        Curve(curve(motion.third_axis, 0.0, period, sag), "body_axis"),
         Curve(trace, "trajectory" if turns <= DENSE else "fine_trajectory"),
         Points(trace[:1], "start"),
     ]

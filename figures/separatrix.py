@@ -92,11 +92,11 @@ def sphere(
     motions: list[GeneralMotion], field: tuple[float, float], half_time: float, view: tuple[float, float]
 ) -> Space:
     """Panel (a): the traces of the axis on the sphere in the looks of panel (b), with the field upright."""
-    resolution, r = tolerance(1.4), field[1] / float(np.hypot(*field))
-    ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), resolution)
+    sag, r = tolerance(1.4), field[1] / float(np.hypot(*field))
+    ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), sag)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, resolution),
+        solids.sphere(O, 1.0, sag),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
         Curve(ring, "limit"),
         Label(ring[int(np.argmax(ring @ aside))], "precession", "note", (6.0, 0.0)),
@@ -107,7 +107,7 @@ def sphere(
             return axis_trace.erected(motion.third_axis(t), motion.field)
 
         place = axis(np.zeros(1))
-        layers += [Curve(curve(axis, -half_time, half_time, resolution, pieces=64), role), Points(place, "start")]
+        layers += [Curve(curve(axis, -half_time, half_time, sag, pieces=64), role), Points(place, "start")]
         layers.append(Label(place[0], "$t=0$", "label", (0.0, 8.0)))
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
 

@@ -109,12 +109,12 @@ def moments(motion: GeneralMotion, count: int) -> FloatArray:
 
 def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray) -> list[list[Layer]]:
     """Return the layers of the body at each of these times, in its place."""
-    resolution = tolerance(STEP * len(times) / 2)
+    sag = tolerance(STEP * len(times) / 2)
     cells: list[list[Layer]] = []
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
         cells.append(
             [
-                *riding([*drawn_body(I, R, centre, 1.0, resolution)], f"body {i}"),
+                *riding([*drawn_body(I, R, centre, 1.0, sag)], f"body {i}"),
                 Arrow(centre, centre + 1.15 * R[:, 2], "body_axis", rides=f"body {i}"),
                 Arrow(centre, centre + 1.5 * E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
                 Label(centre - 1.15 * E3, f"{i + 1}", "note", (0.0, -4.0)),

@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 from atlas.pictures import Arrow, Curve, Label, Points, Scene, Space, solids
 from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 from atlas.pictures.quadric_panel import O, tolerance
-from atlas.pictures.torus import VIEW, net, on_torus, visible_parts
+from atlas.pictures.torus import VIEW, net, on_torus, visible
 
 ROW = "three moments"
 SEEN = "The motion winds round a torus."
@@ -97,9 +97,9 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     roles = ("fine_trajectory", "trajectory", "turn")
     layers = net()
     for line, role in zip((orbit, out, back), roles, strict=True):
-        layers += visible_parts(on_torus(*line.T), role)
+        layers += visible(on_torus(*line.T), role)
     for line, role, name in ((out, "trajectory", "$T_H$"), (back, "turn", "$T_F$")):
-        longest = max((arc.points for arc in visible_parts(on_torus(*line.T), role) if isinstance(arc, Curve)), key=len)
+        longest = max((arc.points for arc in visible(on_torus(*line.T), role) if isinstance(arc, Curve)), key=len)
         layers.append(Label(middle(longest), name, role, (-5.0, -5.0)))
     return Space((*layers, Points(on_torus(*orbit[:1].T), "start")), *VIEW, title="(a) torus of the motion")
 
@@ -107,9 +107,9 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
 def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     """Return the sphere of K with the same lines."""
     b = float(np.linalg.norm(orbit[0]))
-    resolution = tolerance(1.4)
+    sag = tolerance(1.4)
     layers = [
-        solids.sphere(O, 1.0, resolution),
+        solids.sphere(O, 1.0, sag),
         Curve(orbit / b, "fine_trajectory"),
         Curve(out / b, "trajectory"),
         Curve(back / b, "turn"),

@@ -45,12 +45,12 @@ def scene(
     C, S = np.cos(proper), np.sin(proper)
     about_axis = np.array([[C, -S, 0.0], [S, C, 0.0], [0.0, 0.0, 1.0]])
     axis = in_plane(*field) / np.hypot(*field)
-    resolution = tolerance(1.5 * STEP)
+    sag = tolerance(1.5 * STEP)
     steps = ((np.eye(3), r"(a) $1$"), (about_axis, r"(b) $R_z(\phi t)$"), (R, r"(c) $R_\mathbf{B}(kt)\,R_z(\phi t)$"))
     cells: list[list[Layer]] = []
     for i, (centre, (attitude, name)) in enumerate(zip(row(3, STEP, azimuth), steps, strict=True)):
         layers = [
-            *drawn_body(quotient(ratio), attitude, centre, 1.0, resolution),
+            *drawn_body(quotient(ratio), attitude, centre, 1.0, sag),
             Arrow(
                 centre,
                 centre + REACH * attitude[:, 2],
@@ -62,12 +62,12 @@ def scene(
             Label(centre - 1.6 * E3, name, "label", (0.0, -6.0)),
         ]
         if i == 1:
-            layers += sweep(centre + 1.25 * E3, E3, 0.45 * E1, proper, r"$\phi t$", resolution, 0.0)
+            layers += sweep(centre + 1.25 * E3, E3, 0.45 * E1, proper, r"$\phi t$", sag, 0.0)
         if i == 2:
             layers.append(Curve(np.stack([centre, centre + REACH * E3]), "construction"))
             cosine = float(E3 @ axis)
             layers += sweep(
-                centre + REACH * cosine * axis, axis, REACH * (E3 - cosine * axis), precession, r"$kt$", resolution, 0.6
+                centre + REACH * cosine * axis, axis, REACH * (E3 - cosine * axis), precession, r"$kt$", sag, 0.6
             )
         cells.append(layers)
     return Scene(
@@ -89,17 +89,11 @@ def scene(
 
 
 def sweep(
-    centre: FloatArray,
-    axis: FloatArray,
-    radius: FloatArray,
-    angle: float,
-    name: str,
-    tolerance: float,
-    label_share: float,
+    centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float, share: float
 ) -> list[Layer]:
     """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, with an arrow and its name."""
     arc_angle = angle - np.sign(angle) * min(0.35, 0.5 * abs(angle))
     arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, arc_angle, tolerance)
     tip = solids.ellipse(centre, radius, np.cross(axis, radius))(np.array([angle]))[0]
-    middle = solids.ellipse(centre, 1.25 * radius, 1.25 * np.cross(axis, radius))(np.array([label_share * angle]))[0]
+    middle = solids.ellipse(centre, 1.25 * radius, 1.25 * np.cross(axis, radius))(np.array([share * angle]))[0]
     return [Curve(arc, "turn"), Arrow(arc[-1], tip, "turn"), Label(middle, name, "turn", (0.0, 4.0))]

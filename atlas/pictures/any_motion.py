@@ -43,8 +43,8 @@ def course(
     pad = (0.14 if level is None else 0.2) * (high - low) or 0.5 * abs(high) or 1.0
     limits = (low - pad, high + pad)
     wide, high = (size[0] - MARGIN) / stop, (size[1] - MARGIN) / (limits[1] - limits[0])
-    scale, resolution = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
-    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, resolution, pieces=pieces, scale=scale)
+    scale, sag = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
+    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, sag, pieces=pieces, scale=scale)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
     if level is not None:
         layers.append(Curve(np.array([[0.0, level], [stop, level]]), "reference"))

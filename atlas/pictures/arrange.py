@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.pictures.captions import listed
-from atlas.pictures.layers import FloatArray, Image, Layer, Panel, Plane, Scene, Space, frame, panel_points
+from atlas.pictures.layers import FloatArray, Image, Layer, Panel, Plane, Scene, Space, cloud, frame
 from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.35
@@ -74,7 +74,7 @@ def _arranged(scene: Scene, target: Target) -> Scene:
     """Return a scene with all its panels in the rows and columns that leave them largest."""
     width = target.width / target.zoom
     if width < scene.narrowest:
-        wide = [name for name, candidate in TARGETS.items() if candidate.width / candidate.zoom >= scene.narrowest]
+        wide = [name for name, option in TARGETS.items() if option.width / option.zoom >= scene.narrowest]
         needs = target.zoom * scene.narrowest
         larger = f" with type of {target.type:g} points" if target.zoom != 1 else ""
         raise AtlasError(
@@ -84,10 +84,10 @@ def _arranged(scene: Scene, target: Target) -> Scene:
     height = min(target.height / target.zoom, _TALL * width)
     best = max(
         _arrangements(scene, width, height),
-        key=lambda candidate: log(min(candidate.scale, 1.0)) - _PAPER * sum(candidate.rows) / width,
+        key=lambda option: log(min(option.scale, 1.0)) - _PAPER * sum(option.rows) / width,
     )
     if best.scale < _SMALLEST:
-        tall = max(candidate.scale for candidate in _arrangements(scene, width, len(scene.panels) * _TALL * width))
+        tall = max(option.scale for option in _arrangements(scene, width, len(scene.panels) * _TALL * width))
         side = f"height of {target.height:g}" if tall >= _SMALLEST else f"width of {target.width:g}"
         complaint = f"its panels would have only {best.scale:.2f} of their size"
         raise AtlasError(f"{scene.title}: it can't be read at a {side} mm; {complaint}.")
@@ -155,11 +155,8 @@ def _fitted(
 
 def _has_bar(panel: Panel) -> bool:
     """Return whether a panel of equal scales has a bar of colours beside it, which takes width from all panels."""
-    return (
-        isinstance(panel, Plane)
-        and panel.equal
-        and any(isinstance(layer, Image) and layer.label for layer in panel.layers)
-    )
+    layers = panel.layers if isinstance(panel, Plane) and panel.equal else ()
+    return any(isinstance(layer, Image) and layer.label for layer in layers)
 
 
 def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
@@ -229,4 +226,4 @@ def stacked(
 
 def extent(panel: Space) -> FloatArray:
     """Return how much of the plane of view (right, up) the layers of a panel cover."""
-    return np.asarray(np.ptp(panel_points(panel) @ frame(panel)[:2].T, axis=0))
+    return np.asarray(np.ptp(cloud(panel) @ frame(panel)[:2].T, axis=0))

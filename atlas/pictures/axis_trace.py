@@ -27,8 +27,8 @@ def sphere(
     `upright` has its components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
     to `length` in so many pieces at first.
     """
-    resolution = tolerance(1.4)
-    trace = curve(lambda t: erected(third_axis(t), upright), 0.0, length, resolution, pieces=pieces)
+    sag = tolerance(1.4)
+    trace = curve(lambda t: erected(third_axis(t), upright), 0.0, length, sag, pieces=pieces)
     return traced_sphere(name, trace, label=label, elevation=elevation, role=role)
 
 
@@ -41,15 +41,12 @@ def traced_sphere(
     name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float, role: str = "field"
 ) -> Space:
     """Return the sphere with a trace (N, 3) that is turned already."""
-    resolution = tolerance(1.4)
+    sag = tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [
-        solids.sphere(O, 1.0, resolution),
+        solids.sphere(O, 1.0, sag),
         Arrow(O, 1.45 * E3, role, label),
-        *(
-            Curve(solids.circle(z * E3, E3, float(np.sqrt(max(0.0, 1 - z * z))), resolution), "reference")
-            for z in height
-        ),
+        *(Curve(solids.circle(z * E3, E3, float(np.sqrt(max(0.0, 1 - z * z))), sag), "reference") for z in height),
         Curve(trace, "trace"),
         Points(trace[:1], "start"),
     ]

@@ -131,9 +131,9 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
     """
     rough = flight.position(np.linspace(0.0, stop, 257))
     extents = (np.ptp(rough @ plane, axis=0) / [WIDTH / 2, HEIGHT] for plane in (frame(view)[:2].T, axes))
-    resolution = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
-    centre = curve(flight.particle.position, 0.0, stop, resolution, pieces=64)
-    point = curve(flight.position, 0.0, stop, resolution, pieces=64)
+    sag = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
+    centre = curve(flight.particle.position, 0.0, stop, sag, pieces=64)
+    point = curve(flight.position, 0.0, stop, sag, pieces=64)
     times = np.linspace(0.0, stop, 33)
     return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
 

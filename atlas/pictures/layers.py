@@ -197,7 +197,7 @@ def frame(space: Space) -> FloatArray:
     return np.array([rightward, up, towards])
 
 
-def panel_points(space: Space) -> FloatArray:
+def cloud(space: Space) -> FloatArray:
     """Return all the points (N, 3) of a panel that must be seen. Raises AtlasError for a layer without a depth."""
     return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in points_of(layer)])
 
@@ -221,7 +221,7 @@ _SIDES = np.array([1.0, 1.0, 1.0, -1.0])
 """A half space n . x <= d is one linear form of (x, 1), (n, -d)."""
 
 
-def transformed(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
+def mapped(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
     """Return a layer under the map x -> A x + s, A (D, D) regular; a region or a map stays as it is."""
 
     def image(points: FloatArray) -> FloatArray:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from atlas.motions.base import Motion
-from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, points_of, transformed
+from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, mapped, points_of
 
 SEAM = 0.01
 """Distance, in units of the extent of the moving layers, below which the seam of a loop is not seen."""
@@ -18,7 +18,7 @@ def scene_at(scene: Scene, t: float) -> Scene:
 
     def advanced(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
         return tuple(
-            transformed(layer, *moves[rides]) if (rides := getattr(layer, "rides", "")) else layer for layer in layers
+            mapped(layer, *moves[rides]) if (rides := getattr(layer, "rides", "")) else layer for layer in layers
         )
 
     wide, small = (

@@ -11,19 +11,7 @@ import numpy as np
 
 from atlas.pictures import quadrics, solids
 from atlas.pictures.captions import quotient
-from atlas.pictures.layers import (
-    Arrow,
-    Curve,
-    FloatArray,
-    Label,
-    Layer,
-    Points,
-    Scene,
-    Space,
-    Surface,
-    frame,
-    panel_points,
-)
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Scene, Space, Surface, cloud, frame
 from atlas.pictures.sample import quarter_pixel
 from atlas.surfaces.kernel import Quadric
 
@@ -61,7 +49,7 @@ def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) ->
     It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
     panel = Space(tuple(layers), *view)
-    points = panel_points(panel)
+    points = cloud(panel)
     flat = points / np.abs(points).max() @ frame(panel)[:2].T
     span = np.ptp(flat, axis=0)
     filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
@@ -96,10 +84,10 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str =
     ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
     """
     high, low = extent(quadric, field)
-    resolution = tolerance(high if choice == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
+    sag = tolerance(high if choice == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
     upwards = rises(quadric, field)
     span = (-low, high) if upwards else (-high, low)
-    pieces = quadrics.sheets(quadric, quadrics.quadric_matrix(I, field), *span, resolution)[:: 1 if upwards else -1]
+    pieces = quadrics.sheets(quadric, quadrics.quadric_matrix(I, field), *span, sag)[:: 1 if upwards else -1]
     return pieces if choice == "both" else pieces[:1]
 
 
@@ -158,8 +146,8 @@ def quadric_layers(ratio: Any, field: tuple[float, float], choice: str = "both")
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
     """Return the section omega_1 = 0 of the surfaces, (67), as curves (N, 3)."""
     Q = quadrics.quadric_matrix(I, field)
-    resolution = tolerance(float(np.hypot(*field)))
-    return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, resolution)]
+    sag = tolerance(float(np.hypot(*field)))
+    return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, sag)]
 
 
 def basis(lengths: tuple[float, float, float]) -> list[Layer]:

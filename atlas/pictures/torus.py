@@ -11,12 +11,10 @@ VIEW = (25.0, 52.0)
 GRAZE = 1e-9
 
 
-def on_torus(long_angle: FloatArray, tube_angle: FloatArray) -> FloatArray:
+def on_torus(u: FloatArray, v: FloatArray) -> FloatArray:
     """Return the point (..., 3) of the torus with these angles, round its axis e3 and round its tube."""
-    distance = RADII[0] + RADII[1] * np.cos(tube_angle)
-    return np.stack(
-        [distance * np.cos(long_angle), distance * np.sin(long_angle), RADII[1] * np.sin(tube_angle)], axis=-1
-    )
+    distance = RADII[0] + RADII[1] * np.cos(v)
+    return np.stack([distance * np.cos(u), distance * np.sin(u), RADII[1] * np.sin(v)], axis=-1)
 
 
 def hidden(points: FloatArray) -> FloatArray:
@@ -33,16 +31,12 @@ def hidden(points: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(c0, c0 + least * (c1 + least * (4 * b + least))) < -GRAZE)
 
 
-def visible_parts(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
+def visible(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
     """Return the visible parts of a line on the torus, and in the role `behind`, if any, those that it hides."""
     gone = hidden(points)
     pieces = np.split(np.arange(len(points)), np.flatnonzero(np.diff(gone)) + 1)
     roles = [behind if gone[piece[0]] else role for piece in pieces]
-    return [
-        Curve(points[piece[0] : piece[-1] + 2], piece_role)
-        for piece, piece_role in zip(pieces, roles, strict=True)
-        if piece_role
-    ]
+    return [Curve(points[piece[0] : piece[-1] + 2], look) for piece, look in zip(pieces, roles, strict=True) if look]
 
 
 def net() -> list[Layer]:
@@ -50,9 +44,9 @@ def net() -> list[Layer]:
     round_ = np.linspace(0.0, 2 * np.pi, 181)
     layers: list[Layer] = []
     for angle in np.arange(24) * np.pi / 12:
-        layers += visible_parts(on_torus(np.full_like(round_, angle), round_), "guide")
+        layers += visible(on_torus(np.full_like(round_, angle), round_), "guide")
     for angle in np.arange(8) * np.pi / 4:
-        layers += visible_parts(on_torus(round_, np.full_like(round_, angle)), "guide")
+        layers += visible(on_torus(round_, np.full_like(round_, angle)), "guide")
     return [*layers, *_outline(round_)]
 
 
@@ -60,8 +54,4 @@ def _outline(round_: FloatArray) -> list[Layer]:
     """Return the visible parts of the two lines along which rays to the eye graze the torus."""
     towards = frame(Space((), *VIEW))[2]
     slope = -np.arctan2(towards[0] * np.cos(round_) + towards[1] * np.sin(round_), towards[2])
-    return [
-        layer
-        for tube_angle in (slope, slope + np.pi)
-        for layer in visible_parts(on_torus(round_, tube_angle), "silhouette")
-    ]
+    return [layer for v in (slope, slope + np.pi) for layer in visible(on_torus(round_, v), "silhouette")]

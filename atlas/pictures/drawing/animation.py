@@ -19,7 +19,7 @@ from atlas.pictures import any_motion, movement, recipes
 from atlas.pictures.drawing.panels import laid_out, to_figure
 from atlas.pictures.drawing.style import context
 from atlas.pictures.drawing.view import Placement, hold, named
-from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, frame, panel_points
+from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, cloud, frame
 
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
@@ -107,7 +107,7 @@ def _extents(scene: Scene) -> Iterator[Extent]:
 def _reduced(panel: Space) -> Space:
     """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
     eye = frame(panel)
-    points = panel_points(panel)
+    points = cloud(panel)
     heights = points @ np.concatenate([np.eye(3), eye[:2]]).T
     extremes = points[np.unique(np.concatenate([heights.argmin(axis=0), heights.argmax(axis=0)]))]
     names = filter(None, (named(layer, eye) for layer in panel.layers))

@@ -47,7 +47,7 @@ class Tag:
     owner: int = -1
 
 
-def preferred_centre(tag: Tag) -> FloatArray:
+def spot(tag: Tag) -> FloatArray:
     """Return the centre (2,) of the text where it would like to stand, in points."""
     return _candidate_centres(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
@@ -73,18 +73,16 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
     point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
     ink, counts = np.concatenate(point_sets), list(map(len, point_sets))
     weights, owners = (np.repeat(values, counts) for values in attributes)
-    centres = np.array([preferred_centre(tag) for tag in tags]).reshape(-1, 2)
+    centres = np.array([spot(tag) for tag in tags]).reshape(-1, 2)
     sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
     fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
     is_placed = fixed.copy()
     choices = {}
     for i in np.flatnonzero(~fixed):
         tag, anchors = tags[i], np.array([tags[i].anchor, *tags[i].elsewhere])
-        anchor_index, steps, turns = (
-            g.ravel() for g in np.meshgrid(np.arange(len(anchors)), _STEPS, _TURNS, indexing="ij")
-        )
-        candidates = _candidate_centres(tag, anchors[anchor_index], turns, steps)
-        cost = _TURN * np.abs(turns) + _STEP * steps + _ELSEWHERE * anchor_index
+        index, steps, turns = (g.ravel() for g in np.meshgrid(np.arange(len(anchors)), _STEPS, _TURNS, indexing="ij"))
+        candidates = _candidate_centres(tag, anchors[index], turns, steps)
+        cost = _TURN * np.abs(turns) + _STEP * steps + _ELSEWHERE * index
         groups = np.split(candidates, len(anchors))  # about one anchor there is little ink
         cost += np.concatenate([_covers(group, tag.extent, ink, weights, window) for group in groups])
         best = np.argsort(cost, kind="stable")[:_KEPT]

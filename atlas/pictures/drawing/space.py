@@ -36,7 +36,7 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement | None = None) -> None:
     """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure.
 
-    Its scale is the largest at which it fits, or the one that is a given placement.
+    Its scale is the largest at which it fits, or the scale of a given placement.
     """
     view = fit(panel, window(axes), placement)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
@@ -116,21 +116,17 @@ class _Drawing:
 
     def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
         """Draw a polyline: visible parts in its own style, hidden parts thin and dashed, or not at all."""
-        for piece, is_visible in split(points, self.view.surfaces, self.view.towards):
+        for piece, visible in split(points, self.view.surfaces, self.view.towards):
             length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
-            if length < _SPECK or not (is_visible or look.hidden):
+            if length < _SPECK or not (visible or look.hidden):
                 continue
             flat = self.view.on_paper(piece)
             hidden_width = max(0.4, 0.6 * look.width)
-            key = (
-                (look.width, look.dash, height + self.rise)
-                if is_visible
-                else (hidden_width, _DASH, _HIDDEN + self.rise)
-            )
+            key = (look.width, look.dash, height + self.rise) if visible else (hidden_width, _DASH, _HIDDEN + self.rise)
             if (look.colour, *key) not in self._name:
                 self._name[look.colour, *key] = next(self._names)
             self._lines[look.colour, *key].append(flat)
-            self.ink.append((ink_points(flat), weight if is_visible else 0.4 * weight))
+            self.ink.append((ink_points(flat), weight if visible else 0.4 * weight))
 
     def arrow(self, arrow: Arrow) -> None:
         """Draw shaft and head; a hidden head is a pale one."""
@@ -192,10 +188,7 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
     dpi = mpl.rcParams["savefig.dpi"]
     dpi = zoom() * (axes.figure.dpi if dpi == "figure" else float(dpi))
     width, height = (max(1, round(length * dpi / 72.0)) for length in view.window)
-    page_width, page_height = (
-        width * 72.0 / dpi,
-        height * 72.0 / dpi,
-    )  # so that a pixel of the picture is one of the file
+    page_width, page_height = width * 72.0 / dpi, height * 72.0 / dpi  # a pixel of the picture is one of the file
     picture = still_picture(replace(view, window=(page_width, page_height)), width, height)
     axes.imshow(picture, extent=(0.0, page_width, 0.0, page_height), aspect="auto", interpolation="none")
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))

@@ -5,22 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from atlas.pictures.drawing.labels import Tag, preferred_centre
+from atlas.pictures.drawing.labels import Tag, spot
 from atlas.pictures.drawing.style import style_of
 from atlas.pictures.drawing.text import extent, points
-from atlas.pictures.layers import (
-    Arrow,
-    Curve,
-    FloatArray,
-    Label,
-    Layer,
-    Points,
-    Space,
-    Surface,
-    frame,
-    panel_points,
-    transformed,
-)
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface, cloud, frame, mapped
 from atlas.pictures.style import Style, readable
 
 
@@ -30,7 +18,7 @@ def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
 
 
 def _scaled(layer: Layer, centre: FloatArray, size: float) -> Layer:
-    layer_scaled = transformed(layer, np.eye(3) / size, -centre / size)
+    layer_scaled = mapped(layer, np.eye(3) / size, -centre / size)
     if isinstance(layer_scaled, Surface):
         forms = [form / np.abs(form).max() for form in (layer_scaled.quadric, *layer_scaled.within)]
         layer_scaled = replace(layer_scaled, quadric=forms[0], within=tuple(forms[1:]), clip=layer_scaled.clip / size)
@@ -85,14 +73,14 @@ class View(Placement):
 
 def hold(panels: Sequence[Space], window: tuple[float, float]) -> Placement:
     """Fit panels into one window (width, height) in points: the largest scale at which each stays inside, names too."""
-    low = np.min([panel_points(panel).min(axis=0) for panel in panels], axis=0)
-    high = np.max([panel_points(panel).max(axis=0) for panel in panels], axis=0)
+    low = np.min([cloud(panel).min(axis=0) for panel in panels], axis=0)
+    high = np.max([cloud(panel).max(axis=0) for panel in panels], axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
     flats, tags = [], []
     for unscaled in panels:
         panel = scaled(unscaled, centre, size)
         eye = frame(panel)
-        flat = panel_points(panel) @ eye[:2].T
+        flat = cloud(panel) @ eye[:2].T
         wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
         middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
         flats += [flat, np.stack([middle - wide, middle + wide])]
@@ -164,9 +152,7 @@ def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
 
 def _boxes(tags: list[Tag]) -> FloatArray:
     """Return anchor at scale 1, middle from there, and half the extent of each name, (3, N, 2)."""
-    boxes = [
-        (tag.anchor, preferred_centre(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags
-    ]
+    boxes = [(tag.anchor, spot(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
     return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
 
 

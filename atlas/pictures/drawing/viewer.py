@@ -24,7 +24,7 @@ from atlas.pictures.drawing.panels import places
 from atlas.pictures.drawing.style import HEAD_LENGTH, HEAD_WIDTH, context, style_of
 from atlas.pictures.drawing.text import extent, line, points, typeset
 from atlas.pictures.drawing.view import View, dashes, fit, named
-from atlas.pictures.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, panel_points
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, cloud, frame
 from atlas.pictures.style import Style, readable
 
 STEPS, GRID = 16000, 16
@@ -78,7 +78,7 @@ def _laid_out(
 
 def _deep(panel: Space) -> bool:
     """Tell whether a panel is more than a drawing across the direction of view."""
-    depth = panel_points(panel) @ frame(panel)[2]
+    depth = cloud(panel) @ frame(panel)[2]
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 
 
@@ -112,7 +112,7 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
 def _surface(surface: Surface) -> list[Any]:
     """Return quadric, half spaces, quadrics within which it lies, both colours, opacity, and the corners of a box."""
     look = style_of(surface.role)
-    points = panel_points(Space((surface,)))
+    points = cloud(Space((surface,)))
     box = points.min(axis=0) - 1e-3, points.max(axis=0) + 1e-3
     within = [_form(quadric) for quadric in surface.within]
     return [
