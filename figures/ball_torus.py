@@ -31,7 +31,7 @@ def scene(
     ratios: tuple[float, ...] = (2.5, 2.618034),
     turns: tuple[float, ...] = (2.0, 13.0),
 ) -> Scene:
-    """Draw balls (I0 = 1) with gamma/alpha in ``ratios`` for ``turns`` of alpha = ``larmor``; m3 is that of m."""
+    """Draw balls (I0 = 1) with gamma/alpha in ``ratios`` for ``turns`` of alpha = ``larmor``; m3 is along B."""
     larmor = positive(larmor, "larmor")
     least = abs(1.0 + m3 / larmor)
     if not 0 < len(ratios) == len(turns) <= 4:

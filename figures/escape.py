@@ -72,7 +72,7 @@ def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
 
 
 def dot_path(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how the dot of a motion goes along its curve."""
+    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a motion's dot along its curve."""
     return translations(point(motion, t), point(motion, np.zeros(1))[0])
 
 

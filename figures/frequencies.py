@@ -90,7 +90,7 @@ def scene(
 def closed(hyperbola: Hyperbola, free_quotient: float, order: int) -> dict[Fraction, ElementaryMotion]:
     """Return the motions with phi/k = p/q, |p| and q up to ``order``, that panel (b) shows, by p/q.
 
-    Neither ``free``, which no motion has, is among them nor twice that, which belongs to the state of rest.
+    Neither ``free_quotient``, which no motion has, is among them nor twice that, which belongs to the state of rest.
     """
     fractions = {Fraction(p, q) for q in range(1, order + 1) for p in range(-order, order + 1) if p}
     return {
@@ -158,7 +158,7 @@ def quotients(
     motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
-    """Panel (b): phi/k by (86), which is finite at rest, where both vanish; ``free`` is that of the free body."""
+    """Panel (b): phi/k by (86), which is finite at rest, where both vanish; ``free_quotient`` is by (87)."""
     B2, _ = field
     top = TOP * abs(free_quotient) or 1.0
     view = Window(ends, (-top, top))

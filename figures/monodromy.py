@@ -22,7 +22,7 @@ SEEN = "Carried round an unstable spin, a lattice of periods comes back, and not
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
 LOOP_POINTS = 480
-"""Points of a line through those of a loop, by their Fourier series."""
+"""Points of a drawn line through the points of a loop, by the Fourier series of the latter."""
 
 
 def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 40, unit: str = "time") -> Scene:

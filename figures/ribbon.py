@@ -79,7 +79,7 @@ def radius_squared(quadric: Quadric, height: FloatArray) -> FloatArray:
 
 
 def quadric_rest(quadric: Quadric) -> float:
-    """Return the square of C1, with the sign of I - 1: that of (54) with its sign changed."""
+    """Return sign(I - 1) C1^2, minus the constant of the canonical form (54)."""
     return float(quadric.semi_axes[0]) ** 2 * (1.0 if quadric.kind == "two-sheet hyperboloid" else -1.0)
 
 

@@ -32,7 +32,7 @@ def scene(
     azimuth: float = 20.0,
     elevation: float = 12.0,
 ) -> Scene:
-    """Show the cones in the field and, beside them, those of the free body with the same precession."""
+    """Show the cones in the field and, beside them, the cones of the free body with the same precession."""
     motion = ElementaryMotion(ratio, field, omega2)
     if motion.case != "precession" or not field[1]:
         raise DomainError(
@@ -68,12 +68,12 @@ def scene(
 
 
 def rolled(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how the body turns, and its cone with it."""
+    """Return rotations (N, 3, 3) and shifts (N, 3) of the body and its cone at times t (N,)."""
     return rotations_about(O, motion.rotation(t))
 
 
 def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how the line of contact turns about the axis of the space cone: R without the proper rotation, (85)."""
+    """Return rotations (N, 3, 3), R without the proper rotation, (85), and shifts (N, 3) of the line of contact."""
     spin = motion.phi * t
     back = np.zeros((len(t), 3, 3))
     back[:, 0, 0], back[:, 1, 1], back[:, 2, 2] = np.cos(spin), np.cos(spin), 1.0
@@ -92,7 +92,7 @@ def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
 
 
 def reach(line: FloatArray, omega: FloatArray) -> float:
-    """Return how long an arrow along a line is: out of the cones where it runs in them, else short."""
+    """Length of an arrow along a line: 1.35, beyond the rims, on the side of omega, where the cones are; else 0.6."""
     return 1.35 if line @ omega > 0.0 else 0.6
 
 

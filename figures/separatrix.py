@@ -113,7 +113,7 @@ def sphere(
 
 
 def course(motions: list[GeneralMotion], level: float, half_time: float, unit: str) -> Plane:
-    """Panel (b): Omega3 of both motions over time; at rest it is that of the precession."""
+    """Panel (b): Omega3 of both motions over time, and the line Omega3 = ``level`` of the precession."""
     view = ((-half_time, half_time), room([level, *(motion.omega[2] for motion in motions)], 0.1))
     layers: list[Layer] = [Curve(np.array([[-half_time, level], [half_time, level]]), "unstable")]
     for motion, role in zip(motions, ROLES, strict=True):

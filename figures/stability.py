@@ -113,7 +113,7 @@ def course(
 
 
 def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
-    """Panel (b): the levels over tau and |x|, and where the body is unstable; ``tau`` is that of the field of (a)."""
+    """Panel (b): the levels over tau and |x|, and the unstable region; ``tau`` is |B3/B2| of the field of (a)."""
     _, one_less, _ = shape_factors(ratio)
     view = Window((0.0, max(WIDE, 1.15 * tau) if tau <= FAR else WIDE), (0.0, HIGH))
     layers: list[Layer] = []

@@ -86,7 +86,7 @@ def scene(
 
 
 def dot_path(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how its dot goes on along the curve."""
+    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a moment's dot along the curve of the angle."""
     return translations(point(motion, start + t), point(motion, np.array([start]))[0])
 
 

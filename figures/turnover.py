@@ -71,7 +71,7 @@ def scene(
 
 
 def panel(title: str, x_label: str, view: tuple[float, float], curves: list[Curve], *, log: bool) -> Plane:
-    """Return the distances over one measure of time, with that of a body that is turned upside down."""
+    """Return a panel of the distances over one measure of time, with a line at 2: the body upside down."""
     top = Curve(np.array([[view[0], 2.0], [view[1], 2.0]]), "limit")
     name = Label(np.array([view[0], 2.0]), "upside down", "note", (6.0, -6.0))
     scale: Literal["log", "linear"] = "log" if log else "linear"

@@ -194,7 +194,7 @@ def scene_at(motion: Any, t: float, begin: float) -> Scene:
 
 
 def period(motion: Any) -> float:
-    """Return how long a motion takes to come back but for a turn: its period, of a symmetric free body 2 pi/k.
+    """Return the time after which a motion is back but for a turn: its period, of a symmetric free body 2 pi/k.
 
     Raises AtlasError for an array of motions.
     """
@@ -226,11 +226,11 @@ def start(omega: Sequence[float]) -> tuple[str, str]:
 
 
 def turns(motion: Any, stop: float) -> float:
-    """Return how many turns in a unit of time a motion makes at most, by looks from t = 0 to `stop`."""
+    """Return the largest |Omega|/(2 pi) of a motion, in turns per unit of time, at 65 times from t = 0 to `stop`."""
     looks = motion.angular_velocity(np.linspace(0.0, stop, 65 if stop else 1))
     return float(np.linalg.norm(looks, axis=-1).max()) / (2 * pi)
 
 
 def pieces(count: float) -> int:
-    """Return into how many pieces the way of an axis is first cut, over so many turns."""
+    """Return the number of pieces into which the path of an axis over `count` turns is first cut."""
     return max(32, ceil(min(8 * count, 2.0 * MAX_POINTS)))

@@ -160,7 +160,7 @@ def _has_bar(panel: Panel) -> bool:
 
 
 def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
-    """Return how high a panel would be at its best; drawings in space and equal scales keep their shape."""
+    """Return the preferred height of a panel of this width, in millimetres."""
     high = before[1] * wide / before[0]
     if not isinstance(panel, Plane):
         width, height = extent(panel)
@@ -172,14 +172,14 @@ def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
 
 
 def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float]) -> float:
-    """Return how large a panel is beside before, without the room of its words."""
+    """Return the size of a panel in this cell over its size in the cell of the scene, without the room of its words."""
     words = _AXES if isinstance(panel, Plane) else (0.0, 0.0)  # names go along with a drawing
     sizes = zip(cell, (before[0], _high(panel, before[0], before)), words, strict=True)
     return max(min((now - word) / (then - word) for now, then, word in sizes), _LEAST)
 
 
 def _words(panel: Panel) -> tuple[float, float]:
-    """Return the room beside and below a panel for labels, which do not shrink with the panel."""
+    """Return the millimetres beside and below a panel for labels, which do not shrink with the panel."""
     return _AXES if isinstance(panel, Plane) else _NAMES
 
 
@@ -225,5 +225,5 @@ def stacked(
 
 
 def extent(panel: Space) -> FloatArray:
-    """Return how much of the plane of view (right, up) the layers of a panel cover."""
+    """Return width and height, shape (2,), of a panel's layers in the plane of view."""
     return np.asarray(np.ptp(cloud(panel) @ frame(panel)[:2].T, axis=0))

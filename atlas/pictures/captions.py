@@ -24,7 +24,7 @@ def tex_equals(value: float) -> str:
 
 
 def spelt(count: float) -> str:
-    """Return how many periods as words."""
+    """Return a number of periods in words: 'one period', '2.5 periods'."""
     return "one period" if count == 1.0 else f"{plain(count)} periods"
 
 
@@ -72,7 +72,7 @@ def body_role(ratio: Any) -> str:
 def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> str:
     """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3), free where it is zero.
 
-    ``first`` is its first word: 'A' where a sentence begins with it.
+    ``article`` is its first word: 'A' where a sentence begins with it.
     """
     body = f"{body_name(ratio)} with $I={tex(quotient(ratio))}$"
     if not any(field):

@@ -43,7 +43,7 @@ def table(scene: Scene) -> str:
 
 
 def _heading(scene: Scene) -> Iterator[str]:
-    """Return the lines on the figure that precede its data."""
+    """Yield the heading lines of a table: title, parameters, and the axes of each panel."""
     yield scene.title
     if scene.parameters:
         yield "; ".join(f"{name} = {value}" for name, value in scene.parameters.items())

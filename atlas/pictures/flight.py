@@ -1,4 +1,4 @@
-"""The flight of a point of a body: its path and that of the centre of mass, in space and across the field."""
+"""The flight of a point of a body: its path and the path of the centre of mass, in space and across the field."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -98,7 +98,7 @@ def picture(
 def mark_path(
     position: Callable[[FloatArray], FloatArray], axes: FloatArray, t: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return how a mark goes along a path, as it is seen along these axes (columns)."""
+    """Return identity matrices (N, D, D) and shifts (N, D) of a mark on a path, along the D columns of ``axes``."""
     return translations(position(t) @ axes, position(np.zeros(1))[0] @ axes)
 
 

@@ -100,7 +100,7 @@ def graph(
 ) -> tuple[FloatArray, ...]:
     """Return the pieces (N, 2) that the window shows of a graph over omega2 with the pole -B2.
 
-    ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``near``, where the graph has left the
+    ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``inner``, where the graph has left the
     window at the pole.
     """
     outer = max(abs(edge + B2) for edge in view.x) / abs(B2)

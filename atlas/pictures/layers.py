@@ -240,7 +240,7 @@ def mapped(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
 
 
 def moved_surface(surface: Surface, A: FloatArray, s: FloatArray) -> Surface:
-    """Return a surface under the map x -> A x + s: its forms are those of the points that come to a place."""
+    """Return a surface under the map x -> A x + s, with the forms Q, W carried to the new points."""
     back = np.eye(4)
     back[:3, :3] = np.linalg.inv(A)
     back[:3, 3] = -back[:3, :3] @ s

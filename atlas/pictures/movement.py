@@ -34,7 +34,7 @@ def rotations_about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, 
 
 
 def body_path(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how a body about a centre (3,) goes on from the time ``start`` of its motion, at which it is drawn."""
+    """Return rotations (N, 3, 3) and shifts (N, 3) at times t (N,) of a body drawn at ``start``."""
     return rotations_about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
 
 

@@ -72,7 +72,7 @@ def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tu
 
 
 def described(hint: Any, default: Any) -> str:
-    """Return in a few words the type of a parameter: a number, two numbers, a list of numbers, left or right."""
+    """Return the type of a parameter in a few words: a number, two numbers, a list of numbers, left or right."""
     kind = _kind(default) if hint is None else hint
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:

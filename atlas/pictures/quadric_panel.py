@@ -63,7 +63,7 @@ def tolerance(reach: float) -> float:
 
 
 def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
-    """Return how far from -B' along its axis a sheet is drawn, in 1/time: on the side of the origin and on the other.
+    """Return two lengths of a sheet along its axis from -B', in 1/time: on the side of the origin and on the other.
 
     On its side a sheet goes past the origin, towards the tip of B'; a tube no further than it is wide, on either side.
     """
@@ -110,7 +110,7 @@ def planes(field: tuple[float, float]) -> list[Layer]:
 def surface_layers(ratio: Any, field: tuple[float, float], choice: str = "both") -> list[Layer]:
     """Return the surface (51) with the hyperbola (67) on it and, for hyperboloids and cones, the canonical axes omega'.
 
-    ``ratio`` is I = I3/I2 or a body, ``field`` (B2, B3) of B'; ``which`` is as for `sheets`. A pair of planes and a
+    ``ratio`` is I = I3/I2 or a body, ``field`` (B2, B3) of B'; ``choice`` is as for `sheets`. A pair of planes and a
     line are drawn as such; for B' = 0, where every omega qualifies, the list is empty.
     """
     I, quadric = quotient(ratio), Quadric(ratio, field)
@@ -188,7 +188,7 @@ def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[La
 def canonical(quadric: Quadric, reach: float, side_length: float) -> list[Layer]:
     """Return the canonical axes omega'_1..3 through -B', (53), and the angle beta/2 + pi/4 from e2 to omega'_2.
 
-    The axis of the sheets is ``reach`` long, the others ``across``.
+    The axis of the sheets is ``reach`` long, the others ``side_length``.
     """
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
     w = quadrics.sheet_axis(quadric)

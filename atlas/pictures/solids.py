@@ -138,6 +138,6 @@ def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str
 
 
 def extent(surfaces: Sequence[Surface], direction: FloatArray) -> tuple[float, float]:
-    """Return the least and the largest coordinate of surfaces along the unit vector ``along`` (3,)."""
+    """Return the least and the largest coordinate of surfaces along the unit vector ``direction`` (3,)."""
     heights = np.concatenate([np.ravel(grid @ direction) for surface in surfaces for grid in surface.grids])
     return float(heights.min()), float(heights.max())

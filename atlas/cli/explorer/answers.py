@@ -94,7 +94,7 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
 
 
 def _has(balls: Any, q: Quantity) -> bool:
-    """Whether balls have a quantity."""
+    """Return whether a quantity has a certified value."""
     return bool(q.certified or q.printed or q.checked) and bool(q.exact or q.get or hasattr(balls, q.name))
 
 

@@ -35,7 +35,7 @@ class OfFamily:
 
     @property
     def moves(self) -> bool:
-        """Whether it has a rotation matrix, so that a body can be shown at a time."""
+        """Return whether the subject has a rotation matrix, so that a body can be shown at a time."""
         return any(sampled.name == "R" for sampled in self.family.sampled)
 
     @cached_property

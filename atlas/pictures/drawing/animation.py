@@ -199,7 +199,7 @@ def animate(
 
 
 def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> Moving:
-    """Return a motion at these times as an animation; `options` are those of `animation`.
+    """Return a motion at these times as an animation; `options` as for `animation`.
 
     Without times it lasts as many periods, up to `MAX_PERIODS`, as bring the body back; where none do, it lasts one,
     and its loop jumps. In a loop that closes every frame has the whole trace.

@@ -49,7 +49,7 @@ def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[
 def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
     """Return triangles (T, 3, K) cut so that each has one place in front of every quadric.
 
-    The first three of the K numbers of a corner are a point of the quadric number ``own``; the others come along.
+    The first three of the K numbers of a corner are a point of the quadric number ``owner``; the others come along.
     """
     for number, form in enumerate(forms):
         corners = _cut(corners, lambda x, form=form: facing(form, x, towards))

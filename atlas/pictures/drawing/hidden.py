@@ -63,7 +63,7 @@ def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) 
 
 
 def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> BoolArray:
-    """Whether each of the points (N, 3) is hidden."""
+    """Return a mask (N,) of the hidden points among points (N, 3)."""
     answer = np.zeros(len(points), dtype=bool)
     for surface in _before(points, surfaces, towards):
         answer |= _hides(surface, points, towards, _on(surface.quadric, points))
@@ -71,7 +71,7 @@ def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray)
 
 
 def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[Surface]:
-    """Return the surfaces that may hide some of the points: those whose images overlap with that of the points."""
+    """Return the surfaces whose images overlap the image of the points: no other can hide one."""
     plane_axes = np.linalg.svd(towards[None])[2][1:]
     flat = points @ plane_axes.T
     low, high = flat.min(axis=0), flat.max(axis=0)
@@ -83,7 +83,7 @@ def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray
 
 @lru_cache(maxsize=4096)
 def _image(surface: Surface, plane_axes: bytes) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of a rectangle that holds the image of a surface: that of its mesh and a little more.
+    """Return the corners of a rectangle that holds the image of a surface: the image of its mesh and a margin.
 
     Without a mesh it is the whole plane.
     """
@@ -119,17 +119,20 @@ def _weight(quadric: FloatArray, points: FloatArray) -> FloatArray:
 
 
 def _on(quadric: FloatArray, points: FloatArray) -> BoolArray:
-    """Which of the points lie on the surface, but for rounding."""
+    """Return a mask of the points (..., 3) that lie on the quadric, but for rounding."""
     return np.abs(values(quadric, points)) <= _ON * _weight(quadric, points)
 
 
 def _is_flat(quadric: FloatArray) -> bool:
-    """Whether the surface is a plane."""
+    """Return whether the quadric is a plane."""
     return bool(np.abs(quadric[:3, :3]).max() <= _NOTHING * np.abs(quadric[:3, 3]).max())
 
 
 def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) -> BoolArray:
-    """Whether the surface hides the points x (..., 3); from a point ``on`` it one root is t = 0 and does not count."""
+    """Return a mask of the points x (..., 3) that the surface hides.
+
+    From a point ``on`` the surface one root is t = 0 and does not count.
+    """
     quadric, d = surface.quadric, _lift(towards, 0.0)
     A = float(_form(quadric, d, d))
     B = 2.0 * _form(quadric, _lift(x), d)
@@ -150,7 +153,7 @@ def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) 
 
 
 def _within(surface: Surface, x: FloatArray) -> BoolArray:
-    """Whether points (..., 3) lie in all half spaces, and inside all quadrics, that cut the surface out."""
+    """Return a mask of the points (..., 3) inside all half spaces and quadrics that cut the surface out."""
     inside = np.ones(x.shape[:-1], dtype=bool)
     for *n, d in surface.clip:
         inside &= x @ np.array(n) <= d + _ON * np.linalg.norm(n)
@@ -160,7 +163,7 @@ def _within(surface: Surface, x: FloatArray) -> BoolArray:
 
 
 def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: FloatArray) -> FloatArray:
-    """Where along the chords start + s step the answer may change: s (N, K), not a number where it cannot."""
+    """Return the parameters s (N, K) on chords start + s step at which visibility may change; NaN for none."""
     quadric, d = surface.quadric, _lift(towards, 0.0)
     a, b = _lift(start), _lift(step, 0.0)
     A = float(_form(quadric, d, d))

@@ -68,7 +68,7 @@ def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: 
 def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
     """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
 
-    Tags keep clear of the ink ``drawn``; ``window`` is (left, bottom, right, top).
+    Tags keep clear of the ``inks``; ``window`` is (left, bottom, right, top).
     """
     point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
     ink, counts = np.concatenate(point_sets), list(map(len, point_sets))
@@ -101,7 +101,7 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
 
 
 def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_]) -> FloatArray:
-    """Return how doubtful it is, at each of the centres (N, 2), to which ink a text belongs."""
+    """Return the cost (N,) of a text at centres (N, 2) whose owner is not clearly the nearest ink."""
     if not owned.any() or owned.all():
         return np.zeros(len(centres))
     half = 0.5 * np.array(extent)
@@ -128,7 +128,7 @@ def _covers(
     weights: FloatArray,
     window: tuple[float, float, float, float],
 ) -> FloatArray:
-    """Return how much ink a text covers at each of the centres (N, 2), and how far it leaves the window."""
+    """Return the cost (N,) of the ink that a text at centres (N, 2) covers, and of its part outside the window."""
     half = 0.5 * np.array(extent) + _AIR
     low, high = centres - half, centres + half
     is_near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
@@ -140,7 +140,7 @@ def _covers(
 
 
 def _meets(centres: FloatArray, extent: tuple[float, float], obstacles: FloatArray, sizes: FloatArray) -> FloatArray:
-    """Return how much a text at each of the centres (N, 2) covers of other texts (M, 2) of their sizes."""
+    """Return the cost (N,) of the overlap of a text at centres (N, 2) with other texts at centres (M, 2)."""
     half, reach = 0.5 * np.array(extent) + _AIR, 0.5 * sizes + _APART
     high = np.minimum((centres + half)[:, None], obstacles + reach)
     overlap = high - np.maximum((centres - half)[:, None], obstacles - reach)

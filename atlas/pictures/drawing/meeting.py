@@ -42,7 +42,7 @@ class Texts(RendererBase):
 
 
 def unreadable(figure: Figure) -> str:
-    """Return in words which texts of a figure stand on one another, or which leaves the page; empty where none do."""
+    """Return a sentence on two texts of a figure that overlap, or on one outside the page; empty if there is none."""
     page_texts = Texts(figure)
     for (lower_text, a), (upper_text, b) in combinations(page_texts.texts, 2):
         size = page_texts.points_to_pixels(min(lower_text.get_fontsize(), upper_text.get_fontsize()))

@@ -60,7 +60,7 @@ def _riders(panel: Any) -> Iterator[Any]:
 
 
 def _steps(path: Path, lasts: float) -> int:
-    """Return how many steps of `_TURN` a path makes."""
+    """Return the number of table steps of a path: its whole turn over `_TURN`, at most `_MOST`."""
     R, _ = path(np.linspace(0.0, lasts, _LOOKS))
     traces = np.einsum("nij,nij->n", R[1:], R[:-1])
     angle = np.arccos(np.clip(0.5 * (traces - 1.0), -1.0, 1.0))

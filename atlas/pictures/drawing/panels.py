@@ -187,7 +187,7 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
 
 
 def places(scene: Scene) -> list[Bbox]:
-    """Return where each panel is, as shares of the figure; panels that fill it need no axes, which cost most of it."""
+    """Return the box of each panel, in shares of the figure; no axes are made for panels that fill the figure."""
     if _framed(scene):
         return [axes.get_position() for axes, _ in laid_out(scene)[1]]
     figure = Figure()

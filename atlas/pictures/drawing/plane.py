@@ -163,7 +163,7 @@ def _factor(axis: Axis) -> str:
 
 
 def _threshold(panel: Plane, column: int) -> float:
-    """Return where a symmetric logarithm turns linear: the power of ten below the smallest value."""
+    """Return the end of the linear part of a symmetric logarithm: the power of ten below the smallest value."""
     columns = [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
     sizes = np.abs(np.concatenate([np.empty(0), *columns]))
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]

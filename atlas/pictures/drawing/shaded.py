@@ -110,7 +110,7 @@ def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterato
 
 
 def _sides(radius: float) -> int:
-    """Return how many sides something round has, whose radius is in pixels."""
+    """Return the number of sides of a tube or ball whose radius is in pixels."""
     return max(8, math.ceil(math.pi * math.sqrt(radius / (2.0 * _OFF))))
 
 

@@ -100,7 +100,7 @@ def _target_settings(target: Target) -> dict[str, Any]:
 
 
 def zoom() -> float:
-    """Return how much larger than in a journal's figure all is that is measured in points."""
+    """Return the scale of all lengths in points over their lengths in a journal's figure."""
     target = _TARGET.get()
     return target.zoom if target else 1.0
 
@@ -173,13 +173,13 @@ def _use(styles: Sequence[Any]) -> None:
 
 
 def ground(face: Any = None) -> str:
-    """Return the colour that panels are drawn upon, or that of this ``face`` if it is not transparent."""
+    """Return this ``face`` if it is not transparent, else the colour behind the panels."""
     faces = mpl.rcParams["axes.facecolor"] if face is None else face, mpl.rcParams["figure.facecolor"]
     return next((to_hex(colour) for colour in faces if to_rgba(colour)[3]), WHITE)
 
 
 def style_of(role: str) -> Style:
-    """Return the look of a role; that of plotted lines is the cycle of the style sheet, ``axes.prop_cycle``.
+    """Return the look of a role; plotted lines take the cycle of the style sheet, ``axes.prop_cycle``.
 
     A sheet's ``lines.linewidth`` holds before the widths of the atlas's own cycle. On a dark ground lines and marks are
     as light as a text is there, but for lines of a cycle of the user's.

@@ -64,7 +64,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
 def _laid_out(
     scene: Scene, figures: Sequence[Figure], texts: dict[tuple[str, float], int], *, same: bool = False
 ) -> dict[str, Any]:
-    """Return where the panels in space are in a figure, and their layers if they are not the same as before."""
+    """Return the places of the panels in space in a figure, and their layers unless they are the `same`."""
     boxes = [axes.get_position() for figure in figures for axes in figure.axes] or places(scene)
     size = _POINT * np.array(scene.size)
     views = [
