@@ -102,7 +102,7 @@ def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
 
 
 def named(line: FloatArray, occupied: list[FloatArray]) -> FloatArray | None:
-    """Return the point of a level line for its value, far from the cone and the edges; none beside an ``occupied`` place."""
+    """Return the point of a level line for its value, far from the cone and the edges; None beside ``occupied``."""
     I, beta = line.T
     quality = np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))
     for neighbour in occupied:
