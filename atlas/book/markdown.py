@@ -158,8 +158,12 @@ def written(report: Mapping[str, Any]) -> str:
     pieces = [f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n", f"{report['abstract']}\n"]
     for page in report["pages"]:
         pieces.append(f"# {page['title']}\n")
-        for block in page["blocks"]:
-            keys = {key: value for key, value in block.items() if key != "kind" and value is not None}
-            lines = "".join(f"{key} = {toml.written(value)}\n" for key, value in keys.items())
-            pieces.append(f"{block['text']}\n" if block["kind"] == "prose" else f"```{{{block['kind']}}}\n{lines}```\n")
+        pieces += [f"{block['text']}\n" if block["kind"] == "prose" else fenced(block) for block in page["blocks"]]
     return "\n".join(pieces)
+
+
+def fenced(block: Mapping[str, Any]) -> str:
+    """Write a block of values in its fence."""
+    keys = {key: value for key, value in block.items() if key != "kind" and value is not None}
+    lines = "".join(f"{key} = {toml.written(value)}\n" for key, value in keys.items())
+    return f"```{{{block['kind']}}}\n{lines}```\n"

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import chain
 from math import pi
+from types import MappingProxyType
 from typing import Any
 
 from atlas.book.body_and_field import Body, Field, body_and_field
@@ -36,7 +37,7 @@ class Asked:
     called    the name of its files, if it has one of its own
     note      a sentence on its axes
     deviations   quantity, symbol, value with its standard deviation, unit: rows, where inputs have an uncertainty;
-              `deviation_notes` say how they were found
+              `deviation_notes` say how they were found, `sigma` has the standard deviations of the numbers of a card
     """
 
     family: Family
@@ -52,6 +53,7 @@ class Asked:
     note: str = ""
     deviations: Sequence[Sequence[str]] = ()
     deviation_notes: Sequence[str] = ()
+    sigma: Mapping[str, float] | None = None
 
     @property
     def words(self) -> list[str]:
@@ -111,12 +113,16 @@ def name_of(words: Iterable[str]) -> str:
     return name if len(name) <= MAX_NAME_LENGTH else f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
 
 
-def headed(request: Any, content: str) -> str:
-    """Return a file of a page, with the command that makes it at its head."""
+def headed(request: Any, content: str, command: str = "") -> str:
+    """Return a file of a page, with the command that makes it, if not that of the page, at its head."""
     start = f"{RULE}\n" * content.startswith(RULE)
     content = content.removeprefix(start)
     digest = sha256(content.encode()).hexdigest()[:12]
-    return start + HEAD.format(command=request.command.replace("\n", " "), digest=digest, name=request.name) + content
+    return (
+        start
+        + HEAD.format(command=(command or request.command).replace("\n", " "), digest=digest, name=request.name)
+        + content
+    )
 
 
 def edited(file: str) -> bool:
@@ -129,27 +135,22 @@ def edited(file: str) -> bool:
 def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
     """Return the report as the values of its file. Raises AtlasError where there is no such object."""
     family, left_out = request.family, list[str]()
-    thing = Thing.of(Request([_case(request)], {"family": family.name, **request.values}, request.digits))
+    thing = Thing.of(Request([case_of(request)], {"family": family.name, **request.values}, request.digits))
     motion, _ = thing.kernels(), thing.balls()
     parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in request.options.items())
     figures = list(figures_of(request, left_out))
-    left_out += _too_slow(motion, request.time)
-    other_families = [
-        neighbour_family
-        for neighbour_family in FAMILIES.values()
-        if neighbour_family is not family and _holds(family, neighbour_family)
-    ]
+    left_out += too_slow(motion, request.time)
     blocks = [
-        _table(request, "properties", family.name, request.values),
-        *_deviations(request),
+        table_of(request, "properties", family.name, request.values),
+        *deviations_of(request),
         *figures[:1],
         *([SETTING] if request.field and "B" in request.field else []),
         *(
-            _table(request, "properties", neighbour_family.name, {"given": False})
-            for neighbour_family in other_families
+            table_of(request, "properties", neighbour_family.name, {"given": False})
+            for neighbour_family in other_families(family)
         ),
         *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
-        *_closed(request, left_out),
+        *closed_of(request, left_out),
         *_neighbours(request, exists),
         {"kind": "prose", "text": _reproduce(request, motion)},
         *([{"kind": "prose", "text": "\n- ".join(["## Left out\n", *left_out])}] if left_out else []),
@@ -167,7 +168,7 @@ def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _deviations(request: Asked) -> Iterator[dict[str, Any]]:
+def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
     """Yield the table of quantities with their standard deviations, where inputs have an uncertainty."""
     if request.deviations:
         yield {
@@ -178,10 +179,11 @@ def _deviations(request: Asked) -> Iterator[dict[str, Any]]:
         }  # fmt: skip
 
 
-def _holds(family: Family, kind: Family) -> bool:
-    """Whether the inputs of one family are among those of another."""
+def other_families(family: Family) -> list[Family]:
+    """Return the other families of a body in a field whose inputs are among those of this one."""
     names = {p.name for p in family.parameters}
-    return {"ratio", "field"} <= {p.name for p in kind.parameters} <= names
+    parameters = {other.name: {p.name for p in other.parameters} for other in FAMILIES.values() if other is not family}
+    return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
 
 
 def _calls(request: Asked, family: Family) -> dict[str, str]:
@@ -193,7 +195,8 @@ def _calls(request: Asked, family: Family) -> dict[str, str]:
     }
 
 
-def _table(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the block of a computed table of a family, with these values of its parameters."""
     unit = {"units": request.units} if request.units else {"time": request.time} if request.time != "time" else {}
     return {
         "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(request, FAMILIES[family]),
@@ -201,7 +204,7 @@ def _table(request: Asked, table: str, family: str, values: Mapping[str, Any]) -
     }  # fmt: skip
 
 
-def _too_slow(motion: Any, time: str) -> Iterator[str]:
+def too_slow(motion: Any, time: str) -> Iterator[str]:
     """Yield sentences on rotations too slow or too small to be seen in a figure of some periods of nutation."""
     from atlas.pictures.any_motion import slow_turn
     from atlas.pictures.captions import lasting
@@ -224,15 +227,22 @@ def _too_slow(motion: Any, time: str) -> Iterator[str]:
         )
 
 
-def figures_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
-    """Yield the figures that take the numbers, and note of the others why they don't."""
+def figures_of(
+    request: Asked, left_out: list[str], maps: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
+) -> Iterator[dict[str, Any]]:
+    """Yield the figures of the family, and the `maps` with their parameters; note in `left_out` why others are not.
+
+    A figure is left out where its recipe does not take the numbers.
+    """
     from atlas.bodies.units import system
     from atlas.pictures import recipes
 
-    case = _case(request)
-    for name in request.family.figures:
+    case = case_of(request)
+    for name in dict.fromkeys((*request.family.figures, *maps)):
         recipe = recipes.load(name)
-        values = {key: value for key, value in request.values.items() if key in recipe.parameters}
+        values = {key: value for key, value in request.values.items() if key in recipe.parameters} | dict(
+            maps.get(name, {})
+        )
         if recipe.parameters.get("unit") == "time":
             values["unit"] = request.time
         if request.units and "length" in recipe.parameters:
@@ -243,22 +253,22 @@ def figures_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
         except AtlasError as reason:
             left_out.append(f"The figure `{name}`: {reason}")
         else:
-            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **_calls(request, request.family),
-                   "parameters": values}  # fmt: skip
+            calls = _calls(request, request.family) if "ratio" in recipe.parameters else {}
+            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **calls, "parameters": values}
 
 
-def _case(request: Asked) -> Any:
+def case_of(request: Asked) -> Any:
     """Return the body in the field as tables have it."""
     body = convert(request.body, Body) if request.body else None
     return body_and_field(body, convert(request.field, Field) if request.field else None)
 
 
-def _closed(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the table of the nearest closed motions, if there are any."""
     if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
-        block = _table(request, "closed", request.family.name, request.values)
+        block = table_of(request, "closed", request.family.name, request.values)
         try:
-            compute("closed", Request([_case(request)], block["parameters"], request.digits))
+            compute("closed", Request([case_of(request)], block["parameters"], request.digits))
         except AtlasError as reason:
             left_out.append(f"The nearest closed motions: {reason}")
         else:
@@ -289,7 +299,7 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
     values, name = request.values, request.family.name
     if not request.body:
         return
-    B2, B3 = _case(request).components
+    B2, B3 = case_of(request).components
     if "omega2" in values:
         w2 = values["omega2"]
         without_third = {"omega3": None} if "omega3" in values else {}
@@ -318,7 +328,7 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
 
 def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
     """Yield the object with a ball and with a disk or loop for its body."""
-    ratio = _case(request).ratio
+    ratio = case_of(request).ratio
     shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
     if request.body and "density" in request.options:
         shape |= {"density": None, "mass": request.body["mass"]}

@@ -2,10 +2,10 @@
 
 import os
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -26,40 +26,54 @@ from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES, Family
 
+if TYPE_CHECKING:
+    from atlas.book.building.report import Built
+
+Action = Callable[[Any, dict[str, Any]], int]
+"""Function of a request and the options of its command, which returns the exit status."""
+
 OWN = {"out", "digits", "title", "name", "jobs", "note"}
 """Options of a page, not of its object."""
 
-page_options: Callable[[Any], Any] = stack(
-    out_option("build/pages"),
-    click.option("--title", help="Title of the page."),
-    click.option("--name", metavar="NAME", help="Name of its files, in the place of its options."),
-    jobs_option,
-)
+
+def page_options(out: str) -> Callable[[Any], Any]:
+    """Return the options of a page, whose folder is `out` if none is given."""
+    return stack(
+        out_option(out),
+        click.option("--title", help="Title of the page."),
+        click.option("--name", metavar="NAME", help="Name of its files, in the place of its options."),
+        jobs_option,
+    )
 
 
-def command_of(family: Family, name: str) -> click.Command:
-    """Make the command of a family."""
+def command_of(family: Family, name: str, action: Action, out: str) -> click.Command:
+    """Make the command of a family, which does something with the request that its options are."""
     more = [
-        page_options,
+        page_options(out),
         click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
         click.option("--note", default="", hidden=True),
     ]
 
     def run(**options: Any) -> int:
-        return make(asked(family, options), options["out"], options["jobs"])
+        return action(asked(family, options), options)
 
     command = click.command(name, cls=Command, carries=True, help=f"Make a page: {family.says}.", hidden=name in GONE)
     return command(stack(*object_options(family), *more)(run))
 
 
-COMMANDS = {name: command_of(one, name) for one in FAMILIES.values() if one.command for name in [one.page]}
+def commands_of(action: Action, out: str) -> dict[str, click.Command]:
+    """Return the commands of all families that do this with a request."""
+    return {one.page: command_of(one, one.page, action, out) for one in FAMILIES.values() if one.command}
+
+
+COMMANDS = commands_of(lambda wanted, options: make(wanted, options["out"], options["jobs"]), "build/pages")
 """By the name of the command; the families that are no command of their own have no name here, only options."""
 
 
 @click.command("fit", cls=Command, help="Make a page: a motion out of measured data, as atlas fit finds it.")
 @click.option("--fit", "file", type=FILE, required=True, metavar="FILE.csv", help="The data.")
 @fit_options
-@page_options
+@page_options("build/pages")
 def of_fit(file: Path, **options: Any) -> int:
     """Fit a file, and make the page of the motion found; return the exit status of `atlas fit`."""
     from atlas.book.fit_report import Fitted
@@ -303,10 +317,20 @@ def _shown(field: Any, unit: str = "") -> str:
 
 
 def make(wanted: Any, out: Path, jobs: int | None) -> int:
-    """Write the report file of a page and build it. Raises AtlasError where a file was changed since it was made."""
+    """Write the report file of a page, build it, and print where it is; return the exit status."""
+    built = build(
+        wanted.name, wanted.sources(lambda name: (out / f"{name}.html").exists()), out, jobs, ("single", "pdf")
+    )
+    click.echo(built.single)
+    click.echo(built.pdf)
+    return status_of(built)
+
+
+def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, formats: Sequence[str]) -> "Built":
+    """Write the sources of a page and build it. Raises AtlasError where a file was changed since it was made."""
     from atlas import processes
 
-    file, recipe = (out / f"{wanted.name}{suffix}" for suffix in (".md", ".py"))
+    file, recipe = (out / f"{name}{suffix}" for suffix in (".md", ".py"))
     if not file.exists():  # its figures are to be drawn: their libraries are loaded meanwhile
         processes.prepare(processes.DRAWING)
     from atlas.book.building.report import build_report
@@ -319,9 +343,6 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
                 "it."
             )
     with bar("page") as tell:
-        for name, content in wanted.sources(lambda name: (out / f"{name}.html").exists()).items():
-            files.write(out / name, content)
-        built = build_report(file, out, tell, formats=("single", "pdf"), jobs=jobs)
-    click.echo(built.single)
-    click.echo(built.pdf)
-    return status_of(built)
+        for source, content in sources.items():
+            files.write(out / source, content)
+        return build_report(file, out, tell, formats=formats, jobs=jobs)

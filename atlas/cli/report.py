@@ -40,9 +40,19 @@ class ReportCommand(Command):
         super().format_options(ctx, formatter)
 
 
+def _of_your_body(words: Words) -> click.Command | None:
+    """Return the command of the report your_body where that is its name."""
+    if "your_body" not in words.loose:
+        return None
+    from atlas.cli.your_body import command as your_body
+
+    return your_body
+
+
 @click.command(
     "report",
     cls=ReportCommand,
+    other=_of_your_body,
     epilog=examples(
         "atlas report",
         "atlas report short_solenoid --explain",
@@ -50,6 +60,7 @@ class ReportCommand(Command):
         "atlas report my_paper.md --out paper",
         "atlas report my_paper.md --set ratio=0.7 height=1.2um",
         "atlas report my_paper.md --help",
+        "atlas report your_body --ratio 0.7 --field 1 2 --omega2 0.7",
         "atlas report atlas trial guide",
         "atlas report my_page.md --format single pdf",
     ),

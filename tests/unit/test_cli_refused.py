@@ -262,6 +262,8 @@ CASES = [
     ("page --ratio 1.3 --field 1 2 --omeg 1 2 3 --out {place}/new", "--omeg"),
     ("page motion --ratio 1.3 --field 1 2 --out {place}/new", "--omega2"),
     ("page nosuch --ratio 1", "nosuch"),
+    ("report your_body", "your_body takes a body, a field and a start"),
+    ("report your_body --from {place}/bad.toml", "--from takes a file NAME.inputs.toml"),
     ("sweep general --ratio 1.5 --mu 1 --magnetic 1 2 2 --quantity k", "--magnetic takes 2 numbers, B2 B3"),
     ("sweep general --ratio 1.5 --set omega3=1kg:2kg:3 --quantity k", "--omega is in rad/s"),
     ("top --inertia 1 0.5 --direction 0 0 --omega 0 0 1", "zero vector"),

@@ -1,0 +1,437 @@
+"""The report of a reader's own body: the numbers of its card, its title and verdict in words, and what it leaves out.
+
+`templates/report/your_body.md` has the prose; it sees the values that `values_of` returns, and decides nothing.
+"""
+
+import json
+import math
+import re
+import shlex
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from hashlib import sha256
+from typing import Any
+
+from atlas.arithmetic.certified_digits import MARK
+from atlas.book import toml
+from atlas.book.digits import Number, plain
+from atlas.book.expansion import expanded
+from atlas.book.files import RULE
+from atlas.book.markdown import fenced
+from atlas.book.page import (
+    Asked,
+    case_of,
+    closed_of,
+    deviations_of,
+    figures_of,
+    headed,
+    other_families,
+    table_of,
+    too_slow,
+)
+from atlas.book.tables.properties import Thing
+from atlas.book.tables.table import Request, certified, quantity
+from atlas.book.templates import versions
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.register import Family
+from atlas.places import folder
+
+REPORTED = ("elementary", "general", "asymmetric", "top", "quadric")
+"""Families of bodies that have this report."""
+RATES = {"elementary": ("k", "phi")}
+"""Names of the rates about the field and about the axis; of other families precession_rate and spin_rate."""
+NEEDLE = 0.1
+"""I = I3/I2 below which a body is called a needle."""
+NEAR_BALL = 0.01
+"""|I - 1| below which a body is called nearly a ball."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A number of the card: its key, words, letter in TeX, unit of the register, equations."""
+
+    key: str
+    says: str
+    letter: str
+    unit: str
+    equation: str
+
+
+ENTRIES = (
+    Entry("ratio", "ratio of the moments", "$I=I_3/I_2$", "", "(33)"),
+    Entry("larmor", "field as a rate", r"$|\mathbf{B}'|$", "1/time", "(27)"),
+    Entry("tilt", "angle between axis and field at the start", r"$\theta_0$", "rad", ""),
+    Entry("turn", "time of one turn about the field", "$T$", "time", "(79)"),
+    Entry("spin", "rate about the body's axis", r"$\phi$", "1/time", "(72)"),
+    Entry(
+        "nutation", "period of nutation, or of the angular velocity in the body", "$T_n$", "time", "theorem-stability"
+    ),
+)
+"""The numbers of the card, the same for every body."""
+TEMPLATES = folder("templates") / "report"
+"""Folder of the prose, and of the recipe of the body's picture."""
+NO_FIELD, NO_START, THREE = "there is no field", "no start was given", "the body has three moments"
+
+
+def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
+    """Return the numbers of the card that a body has, in doubles, by key."""
+    motion = family.kernels()(*arguments.values())
+    found = dict[str, float]()
+    for one in ENTRIES:
+        try:
+            found[one.key] = float(_number(one.key, family, motion, arguments, math))
+        except (DomainError, ZeroDivisionError):
+            continue
+    return {key: value for key, value in found.items() if math.isfinite(value)}
+
+
+def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
+    """Return a number of the card by functions of doubles, `math`, or of balls. Raises DomainError with the reason."""
+    if key == "ratio":
+        return _ratio(arguments)
+    if key in {"larmor", "tilt"}:
+        *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
+        if not any((*across, along)):
+            raise DomainError(NO_FIELD)
+        if key == "tilt":
+            return functions.atan2(functions.sqrt(sum(x * x for x in across)), along)
+        if "field" not in arguments:
+            raise DomainError("a top has its weight and coupling in the place of a field")
+        return functions.sqrt(sum(x * x for x in (*across, along)))
+    if family.name == "quadric":
+        raise DomainError(NO_START)
+    pi = functions.pi
+    if key == "nutation":
+        return _nutation(family, motion, functions, pi)
+    name = RATES.get(family.name, ("precession_rate", "spin_rate"))[key == "spin"]
+    rate = getattr(motion, name)
+    if key == "spin":
+        return rate
+    if rate == 0:
+        raise DomainError("the axis does not go round")
+    return 2 * pi / abs(rate)
+
+
+def _ratio(arguments: Mapping[str, Any]) -> Any:
+    """Return I3/I2 of a symmetric body. Raises DomainError for three moments."""
+    if "ratio" in arguments:
+        return getattr(arguments["ratio"], "ratio", arguments["ratio"])
+    moments = arguments["inertia"]
+    if len(moments) == 3:
+        raise DomainError(THREE)
+    return moments[1] / moments[0]
+
+
+def _nutation(family: Family, motion: Any, functions: Any, pi: Any) -> Any:
+    """Return the period of nutation, of small ones about a steady motion. Raises DomainError where there is none."""
+    if family.name != "elementary":
+        return motion.period
+    square = next(q for q in family.quantities if q.name == "stability").value(motion, exact=functions is not math)
+    if not square > 0:
+        raise DomainError("small nutations do not swing back: the motion is not stable")
+    return 2 * pi / functions.sqrt(square)
+
+
+class Balls:
+    """Functions of balls and exact fractions in the place of those of `math`."""
+
+    def __init__(self) -> None:
+        from flint import arb
+
+        self.pi = arb.pi()
+
+    @staticmethod
+    def ball(x: Any) -> Any:
+        """Return a fraction or a ball as a ball."""
+        from flint import arb, fmpq
+
+        return arb(fmpq(x.numerator, x.denominator)) if isinstance(x, Fraction | int) else arb(x)
+
+    def sqrt(self, x: Any) -> Any:
+        """Return the square root."""
+        return self.ball(x).sqrt()
+
+    def atan2(self, y: Any, x: Any) -> Any:
+        """Return the angle of the point (x, y)."""
+        return self.ball(y).atan2(self.ball(y), self.ball(x))
+
+
+def card(request: Asked) -> dict[str, dict[str, Any]]:
+    """Return the card: of each key value, digits as text, unit, sigma, proven digits, equation; or the reason."""
+    item = thing_of(request)
+    names = [p.name for p in request.family.parameters]
+    exact, floats = dict(zip(names, item.exact, strict=True)), dict(zip(names, item.floats, strict=True))
+    there, motion = numbers(request.family, floats), request.family.kernels()(*item.floats)
+    made = dict[str, dict[str, Any]]()
+    for one in ENTRIES:
+        entry: dict[str, Any] = {
+            "says": one.says, "letter": one.letter, "value": there.get(one.key), "unit": _unit(one.unit, request.time),
+            "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
+            "equation": one.equation or None, "reason": None,
+        }  # fmt: skip
+        if entry["value"] is None:
+            entry |= {"unit": None, "reason": reason_of(one.key, request.family, motion, floats)}
+        else:
+            text = _proven(one.key, item, exact, request.digits)
+            entry |= {"digits": text or f"{entry['value']:.10g}", "proven_digits": significant(text)}
+        made[one.key] = entry
+    return made
+
+
+def significant(text: str) -> int:
+    """Return how many significant digits a text has."""
+    return len(text.partition("e")[0].replace("-", "").replace(".", "").lstrip("0"))
+
+
+def _unit(unit: str, time: str) -> str:
+    """Return a unit of the register by the unit of time that the inputs have."""
+    return unit.replace("time", "s" if time in {"s", "1/s"} else time)
+
+
+def reason_of(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> str:
+    """Return why the card lacks a number."""
+    try:
+        _number(key, family, motion, arguments, math)
+    except DomainError as reason:
+        return str(reason).rstrip(".")
+    except ZeroDivisionError:
+        return "the axis does not go round"
+    return "it is infinite"
+
+
+def _proven(key: str, item: Thing, exact: Mapping[str, Any], digits: int) -> str:
+    """Return the proven digits of a number of the card, none where there is no proof."""
+    try:
+        made = item.balls()
+        if key == "ratio" and hasattr(exact.get("ratio"), "I2"):
+            from atlas.bodies.certified_body import ratio_of
+
+            number = quantity(certified(lambda: ratio_of(exact["ratio"]), digits), digits)
+        else:
+            number = quantity(certified(lambda: _number(key, item.family, made, exact, Balls()), digits), digits)
+    except (AtlasError, TypeError, AttributeError, ZeroDivisionError):
+        return ""
+    return number.digits.removesuffix(MARK) if number.proven else ""
+
+
+def thing_of(request: Asked) -> Thing:
+    """Return the object of a request. Raises AtlasError where there is no such object."""
+    return Thing.of(Request([case_of(request)], {"family": request.family.name, **request.values}, request.digits))
+
+
+def stands(ratio: float) -> str:
+    """Return where a body stands between a needle and a disk, in words."""
+    if ratio == 1.0:
+        return "a ball: every axis is like every other"
+    if ratio == 2.0:
+        return "as flat as a body can be, a disk or a loop"
+    if abs(ratio - 1.0) < NEAR_BALL:
+        return "nearly a ball"
+    if ratio < NEEDLE:
+        return "nearly a needle"
+    return "longer than a ball" if ratio < 1.0 else "flatter than a ball"
+
+
+def verdict(family: Family, motion: Any) -> str:
+    """Return what kind of motion it is, and whether a small push stays small, in words."""
+    if family.name == "quadric":
+        return "no start was given, so that all motions are shown and none is followed"
+    if family.name == "elementary":
+        nutation = str(next(q for q in family.quantities if q.name == "nutation").value(motion))
+        return f"{motion.case}, {nutation} against small nutations"
+    kind = str(motion.kind)
+    says = f"its axis nods ({kind})" if kind.startswith("nutation") else kind
+    stable = getattr(motion, "stable", None) if family.name == "top" else None
+    return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
+
+
+def place_of(family: Family, motion: Any) -> str:
+    """Return where the start lies beside the curve of motions without nutation, in words."""
+    if family.name == "quadric":
+        return "Any other start makes the axis nod."
+    if family.name == "elementary":
+        return "The given start lies on it: the axis keeps its angle with the field."
+    nods = str(motion.kind).startswith("nutation")
+    return (
+        "The given start lies off it, so that the axis nods." if nods else "From the given start the axis does not nod."
+    )
+
+
+def body_named(request: Asked, made: Mapping[str, Any]) -> str:
+    """Return the body in words, with its size or its moments as they were typed."""
+    options = request.options
+    if "shape" in options:
+        size = next((options[name][0] for name in ("radius", "length", "equatorial") if name in options), "")
+        unit = " m" if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
+        return f"{options['shape'][0].replace('-', ' ').replace('_', ' ')} of {size}{unit}"
+    if made["ratio"]["value"] is not None:
+        return f"body with I = {made['ratio']['value']:.8g}"
+    return f"body with the moments {', '.join(map(plain, request.values['inertia']))}"
+
+
+def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
+    """Return the title of a report: the body, the time of one turn, and the verdict."""
+    turn, body = made["turn"], body_named(request, made)
+    subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
+    if turn["value"] is None:
+        return f"{subject}: {says}"
+    centre = "the vertical" if request.family.name == "top" else "its momentum"
+    about = "the field" if made["larmor"]["value"] is not None else centre
+    unit = turn["unit"].replace("time", "units of time")
+    return f"{subject} turns about {about} once in {turn['value']:.4g} {unit}; {says}"
+
+
+def shape_of(request: Asked) -> dict[str, Any] | None:
+    """Return radius and height of the body for its picture, None where it is no cylinder and no ball."""
+    body = request.body or {}
+    if "shape" not in body or body["shape"] == "spheroid":
+        return None
+    if "sphere" in body["shape"] or "spherical" in body["shape"]:
+        return {"is_ball": True}
+    return {"radius": body.get("radius", 0.0), "height": body.get("height", body.get("length", 0.0))}
+
+
+def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
+    """Return the parameters of the figures of all motions of a symmetric body in its field, by recipe."""
+    if not request.body:
+        return {}
+    case = case_of(request)
+    b = math.hypot(*case.components)
+    spin = request.values.get("omega", (0.0, 0.0, 0.0))[2]
+    maps: dict[str, dict[str, Any]] = {"quadric": {}, "hyperbola": {}, "frequencies": {}, "stability": {}}
+    maps["motion_map"] = {"ratios": [case.ratio], "field": list(case.components), "cells": 60}
+    return (
+        maps | {"energy_momentum": {"ratios": [case.ratio], "b": [b], "M3": case.ratio * spin or 0.25 * b}} if b else {}
+    )
+
+
+def evaluated(request: Asked) -> dict[str, Any]:
+    """Return the inputs as they are evaluated, by name: two ways to type one body have the same."""
+    records = {"body": request.body, "field": request.field}
+    bare = {name: {k: v for k, v in one.items() if k != "title"} for name, one in records.items() if one}
+    sigma = {"sigma": {key: float(f"{x:.6g}") for key, x in request.sigma.items()}} if request.sigma else {}
+    return {"family": request.family.name, "time": request.time, **bare, "values": dict(request.values), **sigma}
+
+
+def digest_of(request: Asked) -> str:
+    """Return eight characters that stand for the evaluated inputs."""
+    return sha256(json.dumps(evaluated(request), sort_keys=True).encode()).hexdigest()[:8]
+
+
+def name_of(request: Asked) -> str:
+    """Return the name of the report: the given one, or your_body, and the digest of the inputs."""
+    return f"{request.called or 'your_body'}-{digest_of(request)}"
+
+
+def words_of(request: Asked) -> list[str]:
+    """Return the words that make the report, after `atlas report your_body`."""
+    own = (
+        ("title", request.title),
+        ("name", request.called),
+        ("digits", request.digits if request.digits != 10 else ""),
+    )
+    options = dict(request.options) | {name: (str(value),) for name, value in own if value}
+    words = [word for name, texts in options.items() for word in (f"--{name}", *texts)]
+    return [*["top"] * (request.family.name == "top"), *words]
+
+
+def command_of(request: Asked) -> str:
+    """Return the command that makes the report."""
+    return shlex.join(["atlas", "report", "your_body", *words_of(request)])
+
+
+def inputs_of(request: Asked) -> str:
+    """Return the file NAME.inputs.toml: inputs as typed and as evaluated, defaults marked, versions, no clock."""
+    omitted = [
+        p.name
+        for p in request.family.parameters
+        if p.option and p.omitted is not None and p.name in request.values and p.name not in request.options
+    ]
+    content = {"typed": words_of(request), "defaults": omitted, "digest": digest_of(request),
+               "evaluated": evaluated(request), "versions": versions()}  # fmt: skip
+    return f"# {command_of(request)}\n" + "".join(toml.lines(content))
+
+
+def files_of(request: Asked) -> dict[str, str]:
+    """Return the files of a report by name: its Markdown, its card, its inputs, the recipe of its picture.
+
+    Raises
+    ------
+    AtlasError
+        Where there is no such object, or where its family has no such report.
+    """
+    if request.family.name not in REPORTED:
+        name = request.family.page
+        raise AtlasError(f"your_body is the report of a body that turns; atlas page {name} is the page of this {name}.")
+    name, made, command = name_of(request), card(request), command_of(request)
+    values, parameters = template_values(request, made), records_of(request)
+    head = {"name": name, "title": values["title"], "front_matter": False} | parameters
+    source = (TEMPLATES / "your_body.md").read_text(encoding="utf-8")
+    content = f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n\n{expanded(values, {}, source)[1]}"
+    same = replace(request, called=name)
+    made_files = {
+        f"{name}.md": headed(same, content, command),
+        f"{name}.card.json": json.dumps(made, indent=1, ensure_ascii=False) + "\n",
+        f"{name}.inputs.toml": inputs_of(request),
+    }
+    if shape_of(request):
+        recipe = (TEMPLATES / "body.py.txt").read_text(encoding="utf-8")
+        made_files[f"{name}.py"] = headed(same, recipe, command)
+    return made_files
+
+
+def records_of(request: Asked) -> dict[str, Any]:
+    """Return the parameters of a report's head: its body and its field, where there are records of them."""
+    records = (("bodies", "body", request.body), ("fields", "field", request.field))
+    parameters = {kind: {name: record} for kind, name, record in records if record}
+    return {"parameters": parameters} if parameters else {}
+
+
+def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values that the template sees: words, rows, and blocks in their fences."""
+    family, left_out, shape = request.family, list[str](), shape_of(request)
+    motion, ratio = thing_of(request).kernels(), made["ratio"]["value"]
+    figures = {block["recipe"]: fenced(block) for block in figures_of(request, left_out, maps_of(request))}
+    if shape:
+        recipe = f"{name_of(request)}.py"
+        figures["body"] = fenced({"kind": "figure", "recipe": recipe, "id": "body", "parameters": shape})
+    says = verdict(family, motion)
+    closed = [fenced(block) for block in closed_of(request, left_out) if block["kind"] == "table"]
+    reasons = dict[str, list[str]]()
+    for entry in made.values():
+        if entry["reason"]:
+            reasons.setdefault(entry["reason"], []).append(entry["says"])
+    left_out += [f"{', '.join(names)}: {reason}.".capitalize() for reason, names in reasons.items()]
+    left_out += [*too_slow(motion, request.time), *_absent(request, shape)]
+    others = [table_of(request, "properties", one.name, {"given": False}) for one in other_families(family)]
+    return {
+        "name": name_of(request), "title": request.title or title_of(request, made, says), "verdict": says,
+        "place": place_of(family, motion), "command": command_of(request), "note": request.note, "family": family.name,
+        "card": list(_rows(made)), "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
+        "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
+        "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed),
+        "properties": fenced(table_of(request, "properties", family.name, request.values)),
+    }  # fmt: skip
+
+
+def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
+    """Yield the rows of the card: words, letter, value with its error, unit, proven digits, equation."""
+    for entry in made.values():
+        value = "–" if entry["value"] is None else Number(entry["digits"]).words()
+        if entry["sigma"]:
+            value = f"{entry['value']:.6g} ± {entry['sigma']:.2g}"
+        proven = str(entry["proven_digits"] or "") if not entry["sigma"] else ""
+        equation = f"@{entry['equation']}" if entry["equation"] and entry["value"] is not None else ""
+        yield [entry["says"], entry["letter"], value, entry["unit"] or "", proven, equation]
+
+
+def _absent(request: Asked, shape: Mapping[str, Any] | None) -> Iterator[str]:
+    """Yield sentences on parts that this report does not have, with the reason."""
+    if not shape:
+        yield "A picture of the body: no cylinder, ring, disk, rod or ball was given as its shape."
+    if not request.deviations:
+        yield "Errors of the numbers: the inputs have none; type 1.20(5)um for one."
+    if not request.body:
+        yield "Quadric, hyperbola and the map of all motions: they are those of a symmetric body in a field."
+    yield "Gravity, drag, radiation, induced magnetism and a distance between the centres of charge and mass."

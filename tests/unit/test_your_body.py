@@ -1,0 +1,160 @@
+"""The report of a body of the reader's own: its card, names, inputs, prose, and the whole build."""
+
+import json
+import tomllib
+from dataclasses import replace
+from math import hypot, pi, sqrt
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lxml import html
+from syrupy.assertion import SnapshotAssertion
+
+from atlas.book.load import load
+from atlas.book.page import Asked
+from atlas.book.your_body import card, files_of, name_of, stands, thing_of, title_of, verdict
+from atlas.cli.app import main
+from atlas.cli.page import commands_of
+from atlas.cli.your_body import YourBody
+
+SHELL = (
+    "--shape cylindrical-shell --radius 1um --height 0.9um --mass 1.5e-15kg --charge 2e-15C --magnetic 0.8T "
+    "--angle 30deg --spin 2Hz"
+)
+CASES = {
+    "short in SI": SHELL,
+    "negative disk": "--shape disk --radius 1e-6 --mass 1e-15 --charge -2e-15 --magnetic 0.75 1.3 --omega 0.3 0.7 0.2",
+    "long on the curve": "--ratio 0.4 --field 1 2 --omega2 0.7",
+    "ball": "--ratio 1 --field 1 2 --omega 0.3 0.7 0.2",
+    "at rest": "--ratio 1.5 --field 1 2 --omega2 0",
+    "free": "--ratio 1.5 --omega 0.3 0.7 0.2",
+    "heavy top": "top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3",
+    "asteroid": "--inertia 1 3.0836 3.235 --omega 0.02 0 0.1",
+    "no start": "--ratio 0.7 --field 2 0",
+}
+
+
+def request_of(words: str | list[str]) -> Asked:
+    """Return the request that the options of a command are."""
+    requests = list[Any]()
+    group = YourBody("your_body", commands=commands_of(lambda wanted, _: requests.append(wanted) or 0, "build/report"))
+    group.main(["your_body", *(words.split() if isinstance(words, str) else words)], standalone_mode=False)
+    (request,) = requests
+    assert isinstance(request, Asked)
+    return request
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_cards_numbers_stay(name: str, snapshot: SnapshotAssertion) -> None:
+    """Digits, proven digits, units and reasons of each case, and its title."""
+    request = request_of(CASES[name])
+    made = card(request)
+    title = title_of(request, made, verdict(request.family, thing_of(request).kernels()))
+    keys = ("digits", "proven_digits", "unit", "reason")
+    assert {"title": title} | {key: [one[k] for k in keys] for key, one in made.items()} == snapshot
+
+
+def test_numbers_of_the_card_are_those_of_plain_formulas() -> None:
+    """I of a shell and its field in SI; k = omega2 |B'|/B2, eq. (79); the needle's cone of a free body, eq. (87)."""
+    shell = card(request_of(SHELL))
+    assert shell["ratio"]["value"] == pytest.approx(1 / (1 / 2 + 0.9**2 / 12))
+    assert shell["larmor"]["value"] == pytest.approx(2e-15 / 1.5e-15 * 0.8 / 2)
+    assert shell["tilt"]["value"] == pytest.approx(pi / 6)
+    steady = card(request_of("--ratio 0.4 --field 1 2 --omega2 0.7"))
+    assert steady["turn"]["value"] == pytest.approx(2 * pi / (0.7 * sqrt(5)))
+    free = card(request_of("--ratio 1.5 --omega 0.3 0.7 0.2"))
+    assert free["turn"]["value"] == pytest.approx(2 * pi / hypot(0.3, 0.7, 1.5 * 0.2))
+    assert free["spin"]["value"] == pytest.approx((1 - 1.5) * 0.2)
+
+
+def test_every_card_has_the_same_keys_and_a_reason_for_each_gap() -> None:
+    """A number that is not there has the value null and a reason, and one that is there has none."""
+    cards = [card(request_of(words)) for words in CASES.values()]
+    assert len({tuple(made) for made in cards}) == 1
+    assert all((one["value"] is None) == bool(one["reason"]) for made in cards for one in made.values())
+    assert {json.dumps(sorted(one)) for made in cards for one in made.values()} == {
+        json.dumps(sorted(cards[0]["turn"]))
+    }
+
+
+def test_equal_inputs_have_one_name() -> None:
+    """1200nm is 1.2um; another body, start or error has another name."""
+    one, same, other = (request_of(SHELL.replace("0.9um", text)) for text in ("1.2um", "1200nm", "1.3um"))
+    assert name_of(one) == name_of(same) != name_of(other)
+    assert name_of(replace(one, sigma={"ratio": 0.1})) != name_of(one)
+
+
+@pytest.mark.parametrize("name", ["negative disk", "at rest", "free", "heavy top", "asteroid", "no start"])
+def test_every_branch_of_the_prose_is_a_report(name: str, tmp_path: Path) -> None:
+    """The report file loads, names its body, and its last page has a line for each number that is not there."""
+    request = request_of(CASES[name])
+    files = files_of(request)
+    for file, content in files.items():
+        (tmp_path / file).write_text(content, encoding="utf-8")
+    report = load(tmp_path / f"{name_of(request)}.md")
+    assert [page.title for page in report.pages][:2] == ["Card", "The body"]
+    left_out = "".join(getattr(block, "text", "") for block in report.pages[-1].blocks)
+    for one in card(request).values():
+        assert not one["reason"] or one["reason"].lower() in left_out.lower()
+    again = request_of(["--from", str(tmp_path / f"{name_of(request)}.inputs.toml")])
+    assert files_of(again) == files
+
+
+def test_inputs_are_as_typed_and_as_evaluated() -> None:
+    """The file of inputs has both, the defaults by name, and no time of day."""
+    request = request_of(CASES["heavy top"])
+    record = tomllib.loads(files_of(request)[f"{name_of(request)}.inputs.toml"])
+    assert record["typed"][:4] == ["top", "--inertia", "1", "0.5"]
+    assert record["evaluated"]["values"]["linear"] == 3.0
+    assert record["defaults"] == ["coupling", "quadratic"]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "words"),
+    [(0.01, "needle"), (0.5, "longer"), (0.999, "nearly a ball"), (1.0, "a ball:"), (1.5, "flatter"), (2.0, "a disk")],
+)
+def test_a_ratio_has_a_place_between_needle_and_disk(ratio: float, words: str) -> None:
+    """One function says where I stands."""
+    assert words in stands(ratio)
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        ("", "your_body takes a body, a field and a start"),
+        ("--from nosuch.toml", "--from takes a file NAME.inputs.toml that your_body wrote, not 'nosuch.toml'"),
+        ("--shape thin-rod --length 1e-6 --mass 1 --field 1 2 --omega 1 2 3", "a thin rod has I3 = 0"),
+        ("ball --larmor 0.5 --momentum 0.3 -0.7", "atlas page ball is the page of this ball"),
+        ("--ratio 3 --field 1 2 --omega2 1", "3"),
+    ],
+)
+def test_a_body_without_a_report_is_refused_in_one_line(
+    words: str, reason: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Status 2, a line, no file."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as end:
+        main(["report", "your_body", *words.split()])
+    assert end.value.code == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert reason in line
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.slow
+def test_a_report_is_built_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Pages, PDF, card with errors and inputs; all figures are there, and the inputs build the same bytes."""
+    words = "--inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5.0(1) --linear 3"
+    with pytest.raises(SystemExit) as end:
+        main(["report", "your_body", "top", *words.split(), "--out", str(tmp_path / "one")])
+    assert end.value.code == 0
+    index, pdf, numbers, inputs = map(Path, capsys.readouterr().out.split())
+    page = html.parse(str(index)).getroot()
+    assert len(page.findall(".//h1")) == 1
+    assert "turns about the vertical once in" in page.text_content()
+    more, less = (card(request_of(f"top {words}".replace("5.0(1)", x)))["spin"]["value"] for x in ("5.05", "4.95"))
+    assert json.loads(numbers.read_text())["spin"]["sigma"] == pytest.approx(more - less, rel=1e-3)
+    with pytest.raises(SystemExit):
+        main(["report", "your_body", "--from", str(inputs), "--out", str(tmp_path / "two")])
+    assert (tmp_path / "two" / pdf.name).read_bytes() == pdf.read_bytes()
