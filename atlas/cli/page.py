@@ -17,8 +17,7 @@ from atlas.cli.family import family_of, in_field, in_plane, lines_of_quantities,
 from atlas.cli.fit import ahead, arguments, fit_options, fitted
 from atlas.cli.options import FILE, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
-from atlas.cli.present import bar
-from atlas.cli.report import status_of
+from atlas.cli.present import bar, status_of
 from atlas.cli.top import top_units
 from atlas.cli.typed import Inclined, parts_of
 from atlas.cli.uncertain import uncertain

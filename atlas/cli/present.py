@@ -291,3 +291,12 @@ def _lines(title: str, every: float) -> Progress:
             click.echo(f"{title}: {done_of} after {since}", err=True)
 
     return tell
+
+
+def status_of(built: Any) -> int:
+    """Tell the notes of a report and the figures that failed; return the status to end with."""
+    for note in built.notes:
+        click.echo(f"atlas: {note}", err=True)
+    for recipe, reason in built.failures:
+        click.echo(f"atlas: figure {recipe} failed: {reason}", err=True)
+    return 0 if built.ok else 1

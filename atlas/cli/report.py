@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from atlas.cli.options import examples, jobs_option, out_option, pair, style_option
-from atlas.cli.present import Printout, bar, dump, explained, show
+from atlas.cli.present import Printout, bar, dump, explained, show, status_of
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
@@ -121,15 +121,6 @@ def command(
             _explain(built)
         status = max(status, status_of(built))
     return status
-
-
-def status_of(built: "Built") -> int:
-    """Tell the notes of a report and the figures that failed; return the status to end with."""
-    for note in built.notes:
-        click.echo(f"atlas: {note}", err=True)
-    for recipe, reason in built.failures:
-        click.echo(f"atlas: figure {recipe} failed: {reason}", err=True)
-    return 0 if built.ok else 1
 
 
 def _explain(built: "Built") -> None:

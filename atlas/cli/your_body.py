@@ -11,7 +11,7 @@ import click
 from atlas.cli.family import values_of
 from atlas.cli.options import examples
 from atlas.cli.page import ByOptions, build, commands_of
-from atlas.cli.report import status_of
+from atlas.cli.present import status_of
 from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Words
 

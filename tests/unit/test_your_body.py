@@ -38,7 +38,12 @@ CASES = {
 def request_of(words: str | list[str]) -> Asked:
     """Return the request that the options of a command are."""
     requests = list[Any]()
-    group = YourBody("your_body", commands=commands_of(lambda wanted, _: requests.append(wanted) or 0, "build/report"))
+
+    def note(wanted: Any, _: dict[str, Any]) -> int:
+        requests.append(wanted)
+        return 0
+
+    group = YourBody("your_body", commands=commands_of(note, "build/report"))
     group.main(["your_body", *(words.split() if isinstance(words, str) else words)], standalone_mode=False)
     (request,) = requests
     assert isinstance(request, Asked)
