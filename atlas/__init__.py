@@ -60,7 +60,7 @@ _HOMES = {
     "fit": "atlas.fitting",
     "sweep": "atlas.sweeps.run",
     "simulate": "atlas.checking.simulate",
-    "drift": "atlas.motions.nutation.drift",
+    "drift": "atlas.motions.drift",
     "figure": "atlas.pictures.drawing",
     "plotter": "atlas.pictures.drawing",
     "animate": "atlas.pictures.drawing.animation",

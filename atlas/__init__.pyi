@@ -17,13 +17,13 @@ from atlas.errors import (
 from atlas.fitting import fit
 from atlas.maps.monodromy import monodromy
 from atlas.motions.any_body import motion
+from atlas.motions.drift import drift
 from atlas.motions.elementary.kernel import (
     ElementaryMotion,
     FreeMotion,
 )
 from atlas.motions.elementary.kernel_ball import BallMotion
 from atlas.motions.elementary.kernel_hyperbola import Hyperbola
-from atlas.motions.nutation.drift import drift
 from atlas.motions.nutation.kernel_elliptic import EllipticMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.nutation.kernel_top import TopMotion

@@ -93,10 +93,10 @@ def test_drag_in_proportion_to_the_moments_leaves_the_motion_and_slows_it() -> N
 
 
 def test_what_has_no_drift_is_refused() -> None:
-    """Three moments, arrays, times that go back, and fields that are gone before the last of them."""
+    """Curves, arrays, times that go back, and fields that are gone before the last of them."""
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
-    with pytest.raises(atlas.AtlasError, match="not AsymmetricMotion"):
-        atlas.drift(atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)), 1.0)
+    with pytest.raises(atlas.AtlasError, match="not EllipticMotion"):
+        atlas.drift(atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7), 1.0)  # type: ignore[call-overload]
     with pytest.raises(atlas.DomainError, match="along"):
         atlas.drift(atlas.GeneralMotion(1.5, (0.0, 2.0), (0.0, 0.0, 0.2)), 1.0)
     with pytest.raises(atlas.AtlasError, match="ascending"):

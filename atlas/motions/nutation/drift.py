@@ -19,12 +19,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.arithmetic.annotations import RealArrayLike
-from atlas.arithmetic.dimensions import TIME, bare
-from atlas.arithmetic.inputs import FloatArray, number, real
+from atlas.arithmetic.inputs import FloatArray
 from atlas.bodies.body import moments
 from atlas.errors import AtlasError, DomainError
-from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.nutation.kernel_top import TopMotion
 
 FIRST_NODES, MAX_NODES = 16, 4096
@@ -104,65 +101,12 @@ class Drift:
         return TopMotion((b.I2, b.I3), (b.k2, b.k3), (transverse, nu), (0.0, w2, w3), b.linear, b.quadratic)
 
 
-def drift(
-    motion: GeneralMotion | TopMotion,
-    t: RealArrayLike,
-    *,
-    field: float = 0.0,
-    drag: RealArrayLike = 0.0,
-    linear: float = 0.0,
-    quadratic: float = 0.0,
-) -> Drift:
-    """Slow change of a symmetric body's motion, averaged over the fast phases: an approximation.
-
-    Parameters
-    ----------
-    motion : GeneralMotion or TopMotion
-        One motion, also from `atlas.motion`.
-    t : array_like, shape (m,)
-        Times, ascending from 0.
-    field : float
-        Relative growth rate of the field: its strength, and the coupling, are multiplied by 1 + `field` t.
-    drag : float or (float, float)
-        Rates d or (d2, d3) of the torque -I (d2, d2, d3) Omega, in 1/time.
-    linear, quadratic : float
-        Growth rates of the potential of a top, in inertia/time^3.
-
-    Returns
-    -------
-    Drift
-        Constants, actions, mean rates and phases at the times.
-
-    Raises
-    ------
-    DomainError
-        Where the motion reaches a separatrix, and averaging fails.
-    AtlasError
-        For another motion, and for an input that is no number.
-
-    Notes
-    -----
-    Let e be the largest of these rates relative to those of the motion. Up to times of order 1/e, constants, actions
-    and mean rates are accurate to order e. Phases are accurate to order one. Nothing is certified. The cost depends on
-    the amount of change, not on the number of turns.
-
-    Examples
-    --------
-    >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
-    >>> slowed = atlas.drift(motion, [0.0, 5e4], field=1e-5)
-    >>> slowed.action.round(6), slowed.nutation.round(4)
-    (array([0.038207, 0.038207]), array([2.8804, 2.6824]))
-    """
+def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatArray) -> Drift:
+    """Return the slow change of a symmetric body, see `atlas.drift`; `rates` are those of field and potential."""
     from scipy.integrate import solve_ivp
 
     body, state, nu = _start(motion)
-    times = np.atleast_1d(real(bare(t, "The time", TIME), "The time"))
-    if times.ndim != 1 or not times.size or times[0] < 0 or (np.diff(times) < 0).any():
-        raise AtlasError("The times of a drift are a row of them, ascending from zero on.")
-    d2, d3 = np.broadcast_to(real(drag, "The drag"), (2,)).tolist()
-    rates = [number(x, name) for x, name in ((field, "field"), (linear, "linear"), (quadratic, "quadratic"))]
-    if 1 + rates[0] * times[-1] <= 0:
-        raise DomainError(f"The field is gone at t = {-1 / rates[0]:g}: 1 + field t must stay positive.")
+    d2, d3 = _drag_of(motion, drag)
 
     def body_at(time: float) -> Body:
         growth = 1 + rates[0] * time
@@ -203,24 +147,39 @@ def drift(
     return Drift(times, h, M3, p, action, nutation, precession, spin, rows[:, 3:], np.array(ends).T, bodies)
 
 
+def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
+    """Return the drag across and along the body's axis."""
+    order = _order(motion) if drag.shape == (3,) else [0, 0, 1]
+    rates = np.broadcast_to(drag, (3,) if drag.shape == (3,) else (2,))[order]
+    if rates[0] != rates[1]:
+        raise AtlasError("The drag has different rates across the axis of a symmetric body: give (d2, d3).")
+    return float(rates[0]), float(rates[2])
+
+
+def _order(motion: Any) -> list[int]:
+    """Return the order of the principal axes in which that of a symmetric body is the last."""
+    inertia = tuple(getattr(motion, "inertia", ()))
+    last = next((i for i in (2, 0, 1) if inertia[i - 1] == inertia[i - 2]), 2) if len(inertia) == 3 else 2
+    return [(last + 1) % 3, (last + 2) % 3, last]
+
+
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:
     """Return a body, its energy, M3 and p, and nu at t = 0."""
-    unplaced = getattr(motion, "own", motion)
-    names = set(getattr(unplaced, "arguments", ()))
-    if getattr(unplaced, "shape", None) != () or not (names > {"ratio", "field"} or "coupling" in names):
-        three = {"inertia", "field"} <= names
-        why = ": a body with three moments has two phases to average over" if three else ""
-        name = type(unplaced).__name__
-        raise AtlasError(f"A drift takes one GeneralMotion, ElementaryMotion or TopMotion, not {name}{why}.")
-    Omega, b = unplaced.angular_velocity(0.0), unplaced.field_in_body(0.0)
+    names = set(motion.arguments)
+    order = _order(motion)
+    Omega, b = motion.angular_velocity(0.0)[order], motion.field_in_body(0.0)[order]
     if "coupling" in names:
-        (I2, I3), (k2, k3) = unplaced.inertia, unplaced.coupling
-        body = Body(I2, I3, k2, k3, unplaced.linear, unplaced.quadratic)
+        (I2, I3), (k2, k3) = motion.inertia, motion.coupling
+        body = Body(I2, I3, k2, k3, motion.linear, motion.quadratic)
     else:
-        size, (I2, I3) = float(np.linalg.norm(b)), moments(unplaced.ratio)
+        size = float(np.linalg.norm(b))
         if not size:
             raise DomainError("A body without a field has no direction: take a TopMotion with no coupling.")
-        body, b = Body(1.0, I3 / I2, size, size * I3 / I2, 0.0, 0.0), b / size
+        if "inertia" in names:
+            I2, I3 = (motion.inertia[i] for i in order[1:])
+        else:
+            I2, I3 = 1.0, float(np.divide(*reversed(moments(motion.ratio))))
+        body, b = Body(I2, I3, size * I2, size * I3, 0.0, 0.0), b / size
     if np.hypot(b[0], b[1]) < MIN_WIDTH:
         raise DomainError("The axis stands along the field, where a nutation has no phase to average over.")
     J, k, nu = np.array([body.I2, body.I2, body.I3]), np.array([body.k2, body.k2, body.k3]), float(b[2])
