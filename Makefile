@@ -48,11 +48,10 @@ $(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat 
 figures: setup
 	@$(ATLAS) figure --all
 
-# The picture of the README: one precession, moment by moment, small.
+# The film of the README: one precession of a closed motion.
 picture: setup
-	@$(ATLAS) figure film_strip --format png >/dev/null
-	@$(BIN)/python -c "from PIL import Image; im = Image.open('build/figures/film_strip.png').convert('RGB'); im.resize((1000, round(1000 * im.height / im.width)), Image.Resampling.LANCZOS).quantize(128).save('reports/data/precession.png', optimize=True)"
-	@echo reports/data/precession.png
+	@$(BIN)/python -c "import atlas; atlas.Hyperbola(0.5, (1.0, 1.2)).closed(1, 1).animate().save('reports/data/precession.gif', writer='pillow', fps=20, dpi=90)"
+	@echo reports/data/precession.gif
 
 build/figures/%: FORCE | setup
 	@$(ATLAS) figure $(basename $*) --format $(patsubst .%,%,$(suffix $*))

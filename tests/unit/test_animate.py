@@ -1,5 +1,6 @@
 """Moving figures: what rides on a path goes as the kernels say, frames share one view, files are whole or not there."""
 
+import re
 from base64 import b64decode
 from io import BytesIO
 from pathlib import Path
@@ -8,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from PIL import Image
+from PIL import Image, ImageSequence
 from tests_support import names
 
 import atlas
@@ -54,6 +55,19 @@ def test_a_loop_closes_or_says_that_it_jumps(name: str, tmp_path: Path, monkeypa
     assert done.stderr == (
         "" if closed else f"{file}: the motion does not end as it began, so that it jumps where it is repeated.\n"
     )
+
+
+def test_the_film_of_the_readme_closes_and_is_small() -> None:
+    """Its last frame leads to its first by no more than one frame to the next does; it has at most a megabyte."""
+    readme = Path(__file__).parents[2] / "README.md"
+    (name,) = re.findall(r"\]\((\S+\.gif)\)", readme.read_text(encoding="utf-8"))
+    file = readme.parent / name
+    with Image.open(file) as film:
+        frames = np.array([np.asarray(frame.convert("L"), dtype=float) for frame in ImageSequence.Iterator(film)])
+    steps = np.abs(np.roll(frames, -1, axis=0) - frames).mean(axis=(1, 2))
+    assert len(frames) >= 30
+    assert 0.0 < steps[-1] <= 1.2 * steps[:-1].max()
+    assert file.stat().st_size <= 1_000_000
 
 
 def jumps(motion: Any, times: Any = None) -> bool:
