@@ -98,12 +98,10 @@ def spread(
         few = 4 * MIN_DRAWS
         size = few if seconds > SLOW_ANSWER else min(DRAWS, max(MAX_DRAWN_NUMBERS // len(numbers), few))
         draws = _draws(answer, count, curved, size, progress)
-        lost = {key for key, values in draws.items() if len(values) < size - MAX_LOST * size}
-        for key, values in draws.items():
-            sigma[key], error[key] = (math.inf, math.inf) if key in lost else _deviation(values)
-        for keys, text in ((curved - lost, BY_SAMPLING), (lost, BY_NEITHER)):
-            most = size - min((len(draws[key]) for key in keys), default=size)
-            sentences[text.format(f"{size} draws" + f", {most} of them without a value" * bool(most))] = keys
+        deviations = {key: _deviation(values, size) for key, values in draws.items()}
+        sigma |= {key: deviation for key, (deviation, _) in deviations.items()}
+        error = {key: uncertainty for key, (_, uncertainty) in deviations.items()}
+        sentences |= _sentences_on(draws, size)
     notes = list[str]()
     for text, keys in sentences.items():
         names = dict.fromkeys(str(key[2] if key[0] == "samples" else key[0]) for key in numbers if key in keys)
@@ -185,9 +183,27 @@ def _draws(
     return draws
 
 
-def _deviation(values: list[float]) -> tuple[float, float]:
-    """Return the standard deviation of draws, and its own: about 1/sqrt(2 N) of it, more where the tails are long."""
-    if len(values) < MIN_DRAWS:
+def _is_lost(values: list[float], size: int) -> bool:
+    """Whether too many of `size` draws lack a value for the scatter of the others to be right."""
+    return len(values) < max(size - MAX_LOST * size, MIN_DRAWS)
+
+
+def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, set[Place]]:
+    """Return the numbers that are sampled, and those that too many of `size` draws lack, by the sentence on them."""
+    lost = {key for key, values in draws.items() if _is_lost(values, size)}
+    sentences = {}
+    for keys, text in ((draws.keys() - lost, BY_SAMPLING), (lost, BY_NEITHER)):
+        most = size - min((len(draws[key]) for key in keys), default=size)
+        sentences[text.format(f"{size} draws" + f", {most} of them without a value" * bool(most))] = keys
+    return sentences
+
+
+def _deviation(values: list[float], size: int) -> tuple[float, float]:
+    """Return the standard deviation of draws and its own error: about 1/sqrt(2 N) of it, more where tails are long.
+
+    Both are infinite where too many of `size` draws lack a value.
+    """
+    if _is_lost(values, size):
         return math.inf, math.inf
     mean, freedom = math.fsum(values) / len(values), len(values) - 1
     second, fourth = (math.fsum((x - mean) ** power for x in values) / freedom for power in (2, 4))

@@ -174,7 +174,7 @@ def _compute(
     """Compute the parts that are not there yet, and keep each as soon as it is done; return all names in order."""
     names = table.whole_parts()
     spans = Spans(plan, names, rows, workers)
-    done = plan.count - spans.left
+    done = plan.count - spans.rows_left
     with closing(_parts(plan, spans, table, executor, workers)) as computed:
         for name, data, seconds in computed:
             if data is not None:
@@ -194,10 +194,10 @@ class Spans(Iterator[Span]):
     def __init__(self, plan: Plan, spans: Iterable[Span], rows: int | None, workers: int) -> None:
         ends = [0, *(row for span in spans for row in span), plan.count]
         self.gaps = deque((start, stop) for start, stop in zip(ends[::2], ends[1::2], strict=True) if start < stop)
-        self.left = sum(stop - start for start, stop in self.gaps)
+        self.rows_left = sum(stop - start for start, stop in self.gaps)
         self.rows, self.workers = rows, workers
         self.least = 1 if plan.digits else min(MIN_PART_ROWS, FAMILIES[plan.family].family.at_once)
-        self.given, self.pace = 0, inf
+        self.count_given, self.pace = 0, inf
 
     def __next__(self) -> Span:
         if not self.gaps:
@@ -206,14 +206,14 @@ class Spans(Iterator[Span]):
         end = min(stop, start + (self.rows or self._size()))
         if end < stop:
             self.gaps.appendleft((end, stop))
-        self.left -= end - start
-        self.given += 1
+        self.rows_left -= end - start
+        self.count_given += 1
         return start, end
 
     def _size(self) -> int:
         """Return the rows of the next part: PART_SECONDS of work, less at the end, where all workers need some."""
-        least = self.least << min(self.given // EQUAL_PARTS, 40)
-        share = self.left / (PARTS_PER_WORKER * self.workers)
+        least = self.least << min(self.count_given // EQUAL_PARTS, 40)
+        share = self.rows_left / (PARTS_PER_WORKER * self.workers)
         return min(
             MAX_PART_ROWS, max(least, int(min(PART_SECONDS / self.pace, max(MIN_PART_SECONDS / self.pace, share))))
         )
@@ -225,7 +225,7 @@ class Spans(Iterator[Span]):
     @property
     def processes(self) -> int:
         """The number of processes, at most `workers`, that the remaining work is worth."""
-        return min(self.workers, int(min(self.left * self.pace, 1e9) / SECONDS_PER_PROCESS))
+        return min(self.workers, int(min(self.rows_left * self.pace, 1e9) / SECONDS_PER_PROCESS))
 
 
 def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
