@@ -5,6 +5,7 @@ import re
 import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from dataclasses import field as attribute
 from hashlib import sha256
 from itertools import chain
 from math import pi
@@ -33,7 +34,7 @@ class Asked:
     options   the options that say which object it is, each with the typed words, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
     units     the system of units, si or gaussian, of a family whose parameters have different units
-    values    the other parameters of the family
+    values    the other parameters of the family; `exact` those that no floats hold, as fractions in text
     called    the name of its files, if it has one of its own
     note      a sentence on its axes
     deviations   quantity, symbol, value with its standard deviation, unit: rows, where inputs have an uncertainty;
@@ -54,12 +55,18 @@ class Asked:
     deviations: Sequence[Sequence[str]] = ()
     deviation_notes: Sequence[str] = ()
     sigma: Mapping[str, float] | None = None
+    exact: Mapping[str, Sequence[str]] = attribute(default_factory=dict)
 
     @property
     def words(self) -> list[str]:
         """The command's name and its options, as they are typed."""
         command = self.family.command.name if self.family.command else self.family.name
         return [command, *chain.from_iterable((f"--{name}", *texts) for name, texts in self.options.items())]
+
+    @property
+    def exact_values(self) -> dict[str, Any]:
+        """The other parameters of the family, with fractions in the place of floats that would be rounded."""
+        return {**self.values, **self.exact}
 
     @property
     def command(self) -> str:
@@ -135,13 +142,13 @@ def edited(file: str) -> bool:
 def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
     """Return the report as the values of its file. Raises AtlasError where there is no such object."""
     family, left_out = request.family, list[str]()
-    thing = Thing.of(Request([case_of(request)], {"family": family.name, **request.values}, request.digits))
+    thing = Thing.of(Request([case_of(request)], {"family": family.name, **request.exact_values}, request.digits))
     motion, _ = thing.kernels(), thing.balls()
     parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in request.options.items())
     figures = list(figures_of(request, left_out))
     left_out += too_slow(motion, request.time)
     blocks = [
-        table_of(request, "properties", family.name, request.values),
+        table_of(request, "properties", family.name, request.exact_values),
         *deviations_of(request),
         *figures[:1],
         *([SETTING] if request.field and "B" in request.field else []),
@@ -266,7 +273,7 @@ def case_of(request: Asked) -> Any:
 def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the table of the nearest closed motions, if there are any."""
     if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
-        block = table_of(request, "closed", request.family.name, request.values)
+        block = table_of(request, "closed", request.family.name, request.exact_values)
         try:
             compute("closed", Request([case_of(request)], block["parameters"], request.digits))
         except AtlasError as reason:

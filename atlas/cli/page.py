@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
+from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -215,6 +216,11 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
         for p in family.parameters
         if p.option and options_asked[p.name] is not None
     }
+    exact = {
+        name: [str(Fraction(x)) for x in value]
+        for name in values
+        if isinstance(value := options_asked[name], tuple) and any(isinstance(x, Fraction) for x in value)
+    }
     values |= {"c": options_asked["c"]} if "c" in options_asked else {}
     records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.takes("coupling") else {}
     if "c" in options_asked and (units := body.system_of(options)) != "natural":
@@ -229,8 +235,9 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     if uncertain(options):
         records |= dict(zip(("deviations", "deviation_notes"), _deviations(family, options), strict=True))
     return Asked(
-        family, typed_options, values, **records, digits=digits, title=title, called=called, note=options["note"]
-    )
+        family, typed_options, values, **records, digits=digits, title=title, called=called, note=options["note"],
+        exact=exact,
+    )  # fmt: skip
 
 
 def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:

@@ -18,7 +18,12 @@ from atlas.arithmetic.numbers import nearest, rational, workprec
 from atlas.bodies.certified_body import shape_moments
 from atlas.bodies.integrals import shape_factors
 from atlas.book import body_and_field as body_records
+from atlas.book.page import definition
+from atlas.book.tables.properties import Thing
+from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
+from atlas.cli.page import COMMANDS
+from atlas.cli.page import asked as page_request
 from atlas.errors import DomainError, NearlySymmetricWarning
 from atlas.motions.elementary.certified_hyperbola import Hyperbola as CertifiedHyperbola
 from atlas.motions.elementary.formula_hyperbola import closing
@@ -197,3 +202,16 @@ def test_stability_of_a_motion_is_that_of_the_ratio_that_was_given() -> None:
     (quantity,) = (x for x in family.quantities if x.name == "stability")
     with workprec():
         assert quantity.value(motion) == nearest(CertifiedHyperbola(ratio, field).stability(1.7))
+
+
+def test_a_page_of_three_components_takes_the_product_without_rounding() -> None:
+    """The tables of a page evaluate mu B/2 of three moments exactly: the report file has the product as a fraction."""
+    words = "--inertia .8 1 1.3 --magnetic .2 .7 -.3 --mu 1.3 --omega .3 .7 .2"
+    with COMMANDS["asymmetric"].make_context("asymmetric", words.split()) as context:
+        asked = page_request(FAMILIES["asymmetric"], context.params)
+    parameters = definition(asked, lambda _: False)["pages"][0]["blocks"][0]["parameters"]
+    thing = Thing.of(Request([body_records.body_and_field(None, None)], parameters, 10))
+    product = [Fraction(1.3) * Fraction(B) / 2 for B in (0.2, 0.7, -0.3)]
+    assert [Fraction(int(x.p), int(x.q)) for x in thing.balls().field] == product
+    assert [Fraction(*x.as_integer_ratio()) for x in thing.kernels().arguments["field"]] == product
+    assert thing.given["field"] == [*map(float, product)]

@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from atlas.arithmetic.certified_inputs import rational
+from atlas.arithmetic.given import exact_number
 from atlas.book.body_and_field import DIMENSIONS, BodyAndField
 from atlas.book.digits import MINUS, Number, plain
 from atlas.book.tables.elementary import NONE
@@ -64,8 +66,11 @@ class Thing:
                 if p.needed and p.name not in surplus:
                     raise AtlasError(f"parameters: the family {name!r} lacks {p.name!r}.")
                 omitted = p.omitted if not p.columns else (p.omitted,) * len(p.names)
-                value = balls = surplus.pop(p.name, omitted)
-                numbers[p.name] = value
+                numbers[p.name] = value = surplus.pop(p.name, omitted)
+                if isinstance(value, list) and any(isinstance(x, str) for x in value):  # fractions
+                    value = tuple(exact_number(rational(x, p.name)) for x in value)
+                    numbers[p.name] = [*map(float, value)]
+                balls = value
             floats.append(value)
             exact.append(balls)
         if surplus:
