@@ -7,13 +7,15 @@ from typing import Any, Literal
 import msgspec
 import numpy as np
 
+from atlas.arithmetic.certified_inputs import rational
+from atlas.arithmetic.given import as_float_or_fraction
 from atlas.bodies.body import SHAPES, SymmetricBody
 from atlas.bodies.field import Field as PhysicalField
 from atlas.bodies.field import LaboratoryFrame
 from atlas.bodies.speeds import check_drift
 from atlas.bodies.units import System, ratio_of, system
 from atlas.book.digits import shown
-from atlas.book.schema import StrictStruct, TwoNumbers, Vector
+from atlas.book.schema import Exact, StrictStruct, TwoNumbers, Vector
 from atlas.errors import AtlasError, unknown
 
 DIMENSIONS = {
@@ -48,11 +50,11 @@ class Field(StrictStruct, frozen=True):
     """A field: the components (B2, B3) of B' in 1/s, or B itself with the system of units that it is given in."""
 
     title: str
-    prime: TwoNumbers | None = None
+    prime: tuple[Exact, Exact] | None = None
     B: Vector | None = None
     E: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 0.0, 1.0)
-    charge_to_mass: float | None = None
+    charge_to_mass: Exact | None = None
     system: Literal["SI", "Gaussian"] = "SI"
 
 
@@ -102,6 +104,8 @@ class BodyAndField:
     @property
     def exact_components(self) -> tuple[float | Fraction, ...]:
         """(B2, B3) without rounding where B is given in the plane of e2 and e3, else `components`."""
+        if self.field_record and self.field_record.prime is not None:
+            return tuple(as_float_or_fraction(rational(x, "prime")) for x in self.field_record.prime)
         field, frame = self.physical, self.frame
         is_in_plane = field is not None and frame is not None and not (frame.axis[:2].any() or field.prime[0])
         return field.exact_pair if field and is_in_plane and field.prime[1] >= 0 else self.components
@@ -164,7 +168,8 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
             raise AtlasError(
                 f"the field {field_record.title!r} is given by B', which has the charge-to-mass ratio in it."
             )
-        return BodyAndField(symmetric_body, body_record, field_record.prime, field_record)
+        B2, B3 = (float(Fraction(x)) for x in field_record.prime)
+        return BodyAndField(symmetric_body, body_record, (B2, B3), field_record)
     units = system(field_record.system)
     mu = _charge_to_mass(body_record, field_record)
     physical = PhysicalField(np.array(field_record.B), np.array(field_record.E), mu, units.c)
@@ -176,7 +181,7 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
 def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fraction:
     """Return the field's charge-to-mass ratio, or that of the body."""
     if field_record.charge_to_mass is not None:
-        return field_record.charge_to_mass
+        return as_float_or_fraction(rational(field_record.charge_to_mass, "charge_to_mass"))
     if body_record is None or body_record.charge is None or body_record.mass is None:
         raise AtlasError(f"the field {field_record.title!r} needs charge_to_mass, or a body with a charge and a mass.")
     exact: Fraction = ratio_of(None, body_record.charge, body_record.mass)
@@ -209,6 +214,10 @@ def _written_out(record: Body | Field) -> str:
         value, omitted = getattr(record, key), getattr(type(record)(title=""), key)
         if key in {"title", "system"} or value is None or (key in {"E", "axis"} and value == omitted):
             continue
+        if key == "charge_to_mass":
+            value = float(Fraction(value))
+        elif key == "prime":
+            value = tuple(float(Fraction(x)) for x in value)
         text = value.replace("_", " ") if isinstance(value, str) else shown(value)
         unit = f"\u202f{units[key]}" if key in units else ""
         numbers.append(text if key == "shape" else f"{_NAMES.get(key, key)} = {text}{unit}")

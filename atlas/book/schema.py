@@ -12,10 +12,13 @@ from atlas.errors import AtlasError, unknown
 
 Vector: TypeAlias = tuple[float, float, float]
 TwoNumbers: TypeAlias = tuple[float, float]
+Exact: TypeAlias = float | Annotated[str, msgspec.Meta(pattern=r"-?\d+/\d+")]
+"""A number: a float, or a fraction as text."""
 Id: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 Slug: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[a-z0-9]+(-[a-z0-9]+)*")]
 EquationName: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 PATTERNS = {
+    r"-?\d+/\d+": "two whole numbers with / between them",
     r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them, or a number in brackets",
     r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them",
     r"[a-z0-9]+(-[a-z0-9]+)*": "small letters and digits with hyphens between them",
@@ -81,7 +84,9 @@ def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> No
         if isinstance(kind_of_record, inspect.StructType)
     }
     if not kinds:
-        (kind,) = (kind_of_record for kind_of_record in union.types if not isinstance(kind_of_record, inspect.NoneType))
+        kinds_of_value = [inner for inner in union.types if not isinstance(inner, inspect.NoneType)]
+        is_text = isinstance(raw, str)
+        kind = next((x for x in kinds_of_value if isinstance(x, inspect.StrType) == is_text), kinds_of_value[0])
         return _check(raw, kind, place, key)
     if not isinstance(raw, dict):
         raise SchemaError(place, f"must be a table, not {_shown(raw)}", key)

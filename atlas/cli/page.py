@@ -276,6 +276,15 @@ def _plain(value: Any) -> Any:
     return [float(x) for x in value] if isinstance(value, tuple) else float(value)
 
 
+def _exact(x: Any) -> float | str:
+    """Return a number as a report file has it: a float or, where no float is the number, a fraction as text."""
+    from atlas.arithmetic.certified_inputs import rational
+    from atlas.arithmetic.given import as_float_or_fraction
+
+    number = as_float_or_fraction(rational(x, "a number"))
+    return str(number) if isinstance(number, Fraction) else number
+
+
 def _body(options: dict[str, Any]) -> dict[str, Any]:
     """Return the body as a report file has it."""
     of_field = {"field", "magnetic", "mu", "units"}
@@ -299,12 +308,12 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     """Return the field as a report file has it: as B where its axes are those of the report, else as B'."""
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
-        return {"title": f"field {_shown(options['field'] or (B2, B3))}", "prime": [float(B2), float(B3)]}
+        return {"title": f"field {_shown(options['field'] or (float(B2), float(B3)))}", "prime": [*map(_exact, (B2, B3))]}
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
     field = (
         {}
         if options["mu"] is None and options["points"] is None
-        else {"charge_to_mass": body.charge_to_mass_of(options)}
+        else {"charge_to_mass": _exact(body.exact_charge_to_mass(options | {"decimal": False}))}
     )
     unit = {"SI": "T", "Gaussian": "G"}[system]
     return {
