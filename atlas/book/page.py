@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as attribute
+from fractions import Fraction
 from hashlib import sha256
 from itertools import chain
 from math import pi
@@ -385,8 +386,9 @@ def _python(request: Asked, name: str) -> str:
         return plain(body["ratio"]) if "ratio" in body else f"atlas.SymmetricBody{tuple(body['inertia'])}"
     if name == "field" and field:
         if "prime" in field:
-            return str(tuple(field["prime"]))
-        mu = field.get("charge_to_mass") or f"{body['charge']!r} / {body['mass']!r}"
+            return str(tuple(float(Fraction(x)) for x in field["prime"]))
+        mu = field.get("charge_to_mass", 0.0)
+        mu = float(Fraction(mu)) if mu else f"{body['charge']!r} / {body['mass']!r}"
         return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).pair"
     value = request.values.get(name)
     return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)

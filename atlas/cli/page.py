@@ -308,7 +308,10 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     """Return the field as a report file has it: as B where its axes are those of the report, else as B'."""
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
-        return {"title": f"field {_shown(options['field'] or (float(B2), float(B3)))}", "prime": [*map(_exact, (B2, B3))]}
+        return {
+            "title": f"field {_shown(options['field'] or (float(B2), float(B3)))}",
+            "prime": [*map(_exact, (B2, B3))],
+        }
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
     field = (
         {}

@@ -18,7 +18,7 @@ from atlas.arithmetic.numbers import nearest, rational, workprec
 from atlas.bodies.certified_body import shape_moments
 from atlas.bodies.integrals import shape_factors
 from atlas.book import body_and_field as body_records
-from atlas.book.page import definition
+from atlas.book.page import case_of, definition
 from atlas.book.tables.properties import Thing
 from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
@@ -215,3 +215,25 @@ def test_a_page_of_three_components_takes_the_product_without_rounding() -> None
     assert [Fraction(int(x.p), int(x.q)) for x in thing.balls().field] == product
     assert [Fraction(*x.as_integer_ratio()) for x in thing.kernels().arguments["field"]] == product
     assert thing.given["field"] == [*map(float, product)]
+
+
+def test_a_page_in_natural_units_takes_the_product_without_rounding() -> None:
+    """Two components mu B/2 in natural units are fractions in the report file, which its tables evaluate exactly."""
+    words = "--ratio 0.873 --magnetic -1.429 1.091 --mu 1.5 --omega -0.1972 -0.7 1"
+    with COMMANDS["general"].make_context("general", words.split()) as context:
+        asked = page_request(FAMILIES["general"], context.params)
+    assert case_of(asked).exact_components == tuple(Fraction(1.5) * Fraction(B) / 2 for B in (-1.429, 1.091))
+    assert "/" not in definition(asked, lambda _: False)["parameters"]["fields"]["field"]["title"]
+
+
+def test_a_page_of_points_takes_their_ratio_without_rounding(tmp_path: Path) -> None:
+    """The charge-to-mass ratio of points is a fraction in the report file."""
+    file = tmp_path / "points.csv"
+    file.write_text(
+        "x,y,z,mass,charge\n" + "".join(f"{x},{y},0,0.7,0.3\n" for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)))
+    )
+    words = ["--points", str(file), "--magnetic", "0.2", "0.7", "--omega", "0.3", "0.7", "0.2"]
+    with COMMANDS["general"].make_context("general", words) as context:
+        asked = page_request(FAMILIES["general"], context.params)
+    factor = Fraction(0.3) / Fraction(0.7) / 2
+    assert case_of(asked).exact_components == (Fraction(0.2) * factor, Fraction(0.7) * factor)
