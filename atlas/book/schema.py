@@ -12,13 +12,13 @@ from atlas.errors import AtlasError, unknown
 
 Vector: TypeAlias = tuple[float, float, float]
 TwoNumbers: TypeAlias = tuple[float, float]
-Exact: TypeAlias = float | Annotated[str, msgspec.Meta(pattern=r"-?\d+/\d+")]
+Exact: TypeAlias = float | Annotated[str, msgspec.Meta(pattern=r"-?\d+/[1-9]\d*")]
 """A number: a float, or a fraction as text."""
 Id: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 Slug: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[a-z0-9]+(-[a-z0-9]+)*")]
 EquationName: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 PATTERNS = {
-    r"-?\d+/\d+": "two whole numbers with / between them",
+    r"-?\d+/[1-9]\d*": "two whole numbers with / between them",
     r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them, or a number in brackets",
     r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them",
     r"[a-z0-9]+(-[a-z0-9]+)*": "small letters and digits with hyphens between them",
