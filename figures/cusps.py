@@ -124,7 +124,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         side = -1 if trace(top) == "waves" else 1
         layers.append(Label(place + side * label_shift, name))
     return Plane(
-        tuple(layers), f"$p$ (1/{unit})", f"$g-2ap/M_3$ (1/{unit}$^2$)", (-p_limit, p_limit), room((low, high), 0.12),
+        tuple(layers), f"$p$ (1/{unit})", f"$g-2ap/M_3$ (1/{unit}$^2$)", (-p_limit, p_limit), room((low, high), 0.2),
         title=f"({letter}) energies",
     )  # fmt: skip
 

@@ -6,41 +6,23 @@ Classes of layers are loaded when they are first used: the names of recipes need
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from atlas.pictures.layers import (
-        Arrow,
-        Curve,
-        Image,
-        Label,
-        Layer,
-        Panel,
-        Plane,
-        Points,
-        Region,
-        Scene,
-        Space,
-        Surface,
-    )
-
-__all__ = [
-    "Arrow",
-    "Curve",
-    "Image",
-    "Label",
-    "Layer",
-    "Panel",
-    "Plane",
-    "Points",
-    "Region",
-    "Scene",
-    "Space",
-    "Surface",
-]
-
-if not TYPE_CHECKING:
+    from atlas.pictures.layers import Arrow as Arrow
+    from atlas.pictures.layers import Curve as Curve
+    from atlas.pictures.layers import Image as Image
+    from atlas.pictures.layers import Label as Label
+    from atlas.pictures.layers import Layer as Layer
+    from atlas.pictures.layers import Panel as Panel
+    from atlas.pictures.layers import Plane as Plane
+    from atlas.pictures.layers import Points as Points
+    from atlas.pictures.layers import Region as Region
+    from atlas.pictures.layers import Scene as Scene
+    from atlas.pictures.layers import Space as Space
+    from atlas.pictures.layers import Surface as Surface
+else:
 
     def __getattr__(name: str) -> Any:
-        """Return a class of layers."""
-        if name not in __all__:
+        """Return a class of layers, which begins with a capital letter as no module does."""
+        if not name[0].isupper():
             raise AttributeError(f"module 'atlas.pictures' has no attribute {name!r}")
         import atlas.pictures.layers as classes
 
