@@ -11,6 +11,7 @@ import atlas
 
 I, B, OMEGA = np.array([0.8, 1.0, 1.3]), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)
 FREE = (0.3, 0.7, 1.2)
+ON_A_CURVE = tuple(atlas.EllipticMotion(I, B, 1.7).angular_velocity(0.0).tolist())
 
 
 @cache
@@ -128,11 +129,12 @@ def test_two_equal_moments_drift_as_the_symmetric_body() -> None:
         ((I, (0, 0, 1), (0, 0, 1)), {}, "no phases"),
         ((I, (0, 0, 0), (0, 1, 0)), {}, "no phases"),
         ((I, B, OMEGA), {"drag": (1e-3, 1e-3)}, "one rate or three"),
+        ((I, B, ON_A_CURVE), {}, "no torus in closed form"),
         ((I, B, OMEGA), {"linear": 1e-3}, "no potential"),
         (((1, 1, 1.3), B, OMEGA), {"drag": (1e-3, 2e-3, 0)}, "across the axis"),
     ],
 )
 def test_a_start_without_phases_is_refused_in_a_line(arguments: Any, slow: Any, why: str) -> None:
-    """Spins, drag of the wrong shape, a potential, and drag that is not that of a symmetric body."""
+    """Spins, an elliptic motion in doubles, a potential, drag of the wrong shape, and drag of no symmetric body."""
     with pytest.raises(atlas.AtlasError, match=why):
         atlas.drift(atlas.AsymmetricMotion(*arguments), [0.0, 1.0], **slow)

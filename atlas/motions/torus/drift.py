@@ -121,7 +121,12 @@ class Torus:
             K, size = 0 * Omega, (FIRST_NODES, 1)
             self.angles = np.array([float(motion.precession_rate) / self.rate * period])
         else:
-            wheels, size = motion._wheels(), (FIRST_NODES, FIRST_NODES)  # noqa: SLF001  of the same folder
+            try:
+                wheels, size = motion._wheels(), (FIRST_NODES, FIRST_NODES)  # noqa: SLF001  of the same folder
+            except DomainError:
+                raise DomainError(
+                    f"The motion has no torus in closed form to average over; it is {motion.agreement} Start beside it."
+                ) from None
             phases = np.stack(np.meshgrid(angle, angle, indexing="ij")).reshape(2, -1)
             Omega, K = (wheels.at(name, phases) for name in ("angular_velocity", "field"))
             self.angles = np.zeros(2)
