@@ -98,7 +98,7 @@ def numbers(value: Any) -> Iterator[Real]:
 
 
 def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool], spare: int = SPARE_BITS) -> Any:
-    """Raise the precision until ``enough`` holds (Ziv's strategy), or until it has become hopeless."""
+    """Raise the precision until ``enough`` holds (Ziv's strategy), or up to the largest precision."""
     precision = bits + 64
     while True:
         with workprec(precision):

@@ -14,7 +14,7 @@ Real: TypeAlias = fmpq | arb
 
 
 def rational(value: Any, name: str) -> fmpq:
-    """Return a float, integer, fraction or decimal string as the rational number that it is.
+    """Return a float, integer, fraction or decimal string as an exact rational number.
 
     A float is taken exactly, so that 0.1 is 3602879701896397/2**55; the string "0.1" is 1/10.
     """
@@ -50,7 +50,7 @@ def sin_cos(angle: Real) -> tuple[Real, Real]:
     """Return sine and cosine as balls, and those of zero as the rationals 0 and 1.
 
     The sine and the cosine of any other algebraic angle are transcendental (Lindemann). So a sum of them with rational
-    coefficients, collected term by term, is zero only where every coefficient is, and then it is an exact zero here.
+    coefficients, collected term by term, is zero only where every coefficient is, and is then an exact zero here.
     """
     if angle == 0:
         return fmpq(0), fmpq(1)

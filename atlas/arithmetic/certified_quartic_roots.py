@@ -16,7 +16,7 @@ from flint import acb, arb
 
 
 def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return the roots of a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4, exact numbers, none of them a double one.
+    """Return the roots of a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4, exact numbers, for simple roots only.
 
     `sign` and `ball` are what to make of these. At the precision of the moment, which may not suffice.
     """

@@ -40,13 +40,13 @@ def turns(t: Any, first: tuple[Sequence[Real], Real], second: tuple[Sequence[Rea
     return product(turn(first[0], c, s), turn(second[0], C, S))
 
 
-def product(first: Matrix, second: Matrix) -> Matrix:
+def product(matrix: Matrix, factor: Matrix) -> Matrix:
     """Return the product of two matrices."""
-    columns = list(zip(*second, strict=True))
-    return [[a * x + b * y + c * z for x, y, z in columns] for a, b, c in first]
+    columns = list(zip(*factor, strict=True))
+    return [[a * x + b * y + c * z for x, y, z in columns] for a, b, c in matrix]
 
 
 def turned_back(vector: Sequence[Real], cos: Real, sin: Real) -> list[Real]:
-    """Return a vector as a body has it that has turned about its third axis."""
+    """Return the components of a vector in a body turned about its third axis, a list of three."""
     x, y, z = vector
     return [x * cos + y * sin, y * cos - x * sin, z]

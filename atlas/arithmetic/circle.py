@@ -8,12 +8,12 @@ from atlas.arithmetic.inputs import FloatArray
 HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0, np.float64(1.0).view(np.int64), 63))
 
 
-def signs(whole: FloatArray) -> FloatArray:
+def signs(sums: FloatArray) -> FloatArray:
     """Turn sums of whole numbers and ROUNDER, in place, into the signs 1 of even and -1 of odd ones."""
-    parity = whole.view(np.int64)
+    parity = sums.view(np.int64)
     np.left_shift(parity, SIGN_BIT, out=parity)
     np.bitwise_or(parity, ONE_BITS, out=parity)
-    return whole
+    return sums
 
 
 def circle_of(

@@ -235,17 +235,17 @@ def over(
     degrees = (degree,) if isinstance(degree, int) else degree
     out = np.empty((len(degrees), int(np.prod(shape))))
     for rows, row, exponents, results in blocks(formula, inputs, shape, unit):
-        known = np.ones(rows.stop - rows.start, dtype=bool)
+        is_settled = np.ones(rows.stop - rows.start, dtype=bool)
         for values, n, result in zip(out[:, rows], degrees, results, strict=True):
-            values_of_rows, certain = result.nearest()
+            values_of_rows, is_nearest = result.nearest()
             if exponents is not None:
                 values_of_rows = np.ldexp(values_of_rows, n * exponents[0])
-                certain &= exponents[1] & (
+                is_nearest &= exponents[1] & (
                     (values_of_rows == 0) | ((abs(values_of_rows) > 2.0**-1000) & (abs(values_of_rows) < np.inf))
                 )
             values[:] = values_of_rows
-            known &= certain
-        for i in np.flatnonzero(~known).tolist():
+            is_settled &= is_nearest
+        for i in np.flatnonzero(~is_settled).tolist():
             out[:, rows.start + i] = alone(*row(i))
     values_of_rows = [values.reshape(shape) for values in out]
     return values_of_rows[0] if isinstance(degree, int) else values_of_rows
@@ -257,7 +257,7 @@ def blocks(
     """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
 
     Where an input is not between 1/bound and `bound`, those in `unit` are scaled by a power of two: its exponents come
-    third, with the rows that are ordinary numbers after that. No row depends on those beside it.
+    third, with the rows that are ordinary numbers after that. Each row depends on its own inputs alone.
     """
     size = int(np.prod(shape))
     columns = [column(x, shape) for x in inputs]
@@ -289,7 +289,7 @@ def _index(i: int, shape: tuple[int, ...]) -> Index:
 
 
 def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
-    """Return an input as it broadcasts to a shape, in one row, to be read by slices; a number as it is."""
+    """Return an input broadcast to a shape and flattened, to be read by slices; a single number unchanged."""
     if np.ndim(x) == 0:
         return DoubleDouble(x.hi[()], x.lo[()], x.rel) if isinstance(x, Given) else DoubleDouble(np.float64(x))
     if isinstance(x, Given):
@@ -305,7 +305,7 @@ def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
 
 
 def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
-    """Return an array as it broadcasts to a shape, in one row, to be read by slices."""
+    """Return an array broadcast to a shape and flattened, to be read by slices."""
     return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
 
 
@@ -345,7 +345,7 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
 
 
 def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> Any:
-    """Return a boolean per row: all numbers are zero, or products of a few of them neither over- nor underflow."""
+    """Return a boolean per row: all numbers are zero, or products of a few neither over- nor underflow."""
     ordinary = np.ones(rows, dtype=bool)
     for size in map(abs, columns):
         ordinary &= (size == 0) | ((size >= 1 / bound) & (size <= bound))

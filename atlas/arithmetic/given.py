@@ -76,7 +76,7 @@ class Given:
         return f"<exact numbers {self.shape}>" if self.shape else repr(Fraction(*self.as_integer_ratio()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let one number be copied as the fraction that it is."""
+        """Copy one number as an exact fraction."""
         return exact_number, (Fraction(*self.as_integer_ratio()),)
 
 
@@ -86,7 +86,7 @@ def _own(shape: tuple[int, ...], index: Index) -> Index:
 
 
 def exact_number(x: Any) -> Any:
-    """Return a Fraction or a rational number of flint as the float that it is or, if it is none, as a `Given`."""
+    """Return a Fraction or a rational number of flint as a float if one is equal, else as a `Given`."""
     from flint import fmpq
 
     x = fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x
@@ -101,7 +101,7 @@ def exact_number(x: Any) -> Any:
 
 
 def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
-    """Return a rational number as the float that it is, else as a Fraction."""
+    """Return a rational number as a float if one is equal, else as a Fraction."""
     number = exact_number(x)
     return Fraction(*number.as_integer_ratio()) if isinstance(number, Given) else float(number)
 

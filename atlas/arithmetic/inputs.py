@@ -121,21 +121,21 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
     if hasattr(type(value), "exact_pair") and names[-1] == "B3":
         value = value.exact if len(names) == len("123") else value.exact_pair
     try:
-        parts = [] if isinstance(value, NO_VECTORS) else list(getattr(value, "values", value))  # of a data frame
+        entries = [] if isinstance(value, NO_VECTORS) else list(getattr(value, "values", value))  # of a data frame
     except TypeError:
-        parts = []
-    if len(parts) != len(names):
+        entries = []
+    if len(entries) != len(names):
         raise AtlasError(
             f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
             f"{_OF_FIELD if tuple(names) == ('B2', 'B3') else ''}"
         )
-    rows = np.ndim(value) > 1 if hasattr(value, "ndim") else isinstance(value, list) and _listed(parts)
-    if rows and all(len(part) == len(parts) for part in parts):
+    rows = np.ndim(value) > 1 if hasattr(value, "ndim") else isinstance(value, list) and _listed(entries)
+    if rows and all(len(entry) == len(entries) for entry in entries):
         raise AtlasError(
             f"{what} may have its components ({', '.join(names)}) in the rows or in the columns of a square array: "
             "give a tuple of them, such as tuple(rows.T)."
         )
-    return [numbers(x, name, unit) for x, name in zip(parts, names, strict=True)]
+    return [numbers(x, name, unit) for x, name in zip(entries, names, strict=True)]
 
 
 def numbers(value: Any, name: str, unit: str = "") -> Any:
@@ -177,7 +177,7 @@ def frozen(value: Value) -> Value:
 
 
 class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
-    """A `cached_property` whose arrays can't be written into: other values hang on them."""
+    """A `cached_property` whose arrays are read-only: other values depend on their numbers."""
 
     finish = staticmethod(frozen)
 
@@ -188,7 +188,7 @@ def plain(array: Any) -> Any:
 
 
 def as_given(array: Any) -> Any:
-    """Return an input for storage: exact numbers unchanged, all others as `plain` gives them."""
+    """Return an input for storage: exact numbers unchanged, others by `plain`."""
     return array if isinstance(array, Given) else plain(array)
 
 

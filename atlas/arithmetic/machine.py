@@ -1,6 +1,6 @@
 """Threads and memory of the machine: two threads where they help, and memory that a process keeps for its arrays.
 
-NumPy lets go of the interpreter while it computes; the system is not asked for the same pages again and again.
+NumPy releases the interpreter in its loops; pages are asked of the system once.
 """
 
 import ctypes
@@ -17,15 +17,15 @@ MIN_THREAD_MATRICES = 100_000
 def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int = 1) -> None:
     """Do work(0, count), in two halves at once if it is long and this process may use two processors.
 
-    `grain` is how many units are done at once: the cut is a multiple, so that it changes no bit. `weight` is the number
+    `grain` is how many units are done at once: the cut is a multiple, so that no bit changes. `weight` is the number
     of matrices in one unit.
     """
     half = (count // 2 + grain - 1) // grain * grain
     if half >= count or count * weight < MIN_THREAD_MATRICES or processors() < 2:
         work(0, count)
         return
-    with ThreadPoolExecutor(1) as other:
-        upper = other.submit(work, half, count)
+    with ThreadPoolExecutor(1) as pool:
+        upper = pool.submit(work, half, count)
         work(0, half)
         upper.result()
 

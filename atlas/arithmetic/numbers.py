@@ -50,31 +50,31 @@ Value = TypeVar("Value")
 
 
 class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
-    """A property that is kept with the most digits that it was made with: fewer are in them."""
+    """A cached property, recomputed only for a precision above that of the cached value."""
 
     def __init__(self, function: Callable[[Any], Value]) -> None:
-        self._of, self.__doc__ = function, function.__doc__
+        self._function, self.__doc__ = function, function.__doc__
 
     def __set_name__(self, _: type, name: str) -> None:
         self._place = f"{name} by precision"
 
     @overload
-    def __get__(self, one: None, of: Any = None) -> Self: ...
+    def __get__(self, instance: None, owner: Any = None) -> Self: ...
     @overload
-    def __get__(self, one: object, of: Any = None) -> Value: ...
-    def __get__(self, one: Any, of: Any = None) -> Self | Value:
+    def __get__(self, instance: object, owner: Any = None) -> Value: ...
+    def __get__(self, instance: Any, owner: Any = None) -> Self | Value:
         """Return the cached value, computed anew if the current precision exceeds the precision of the cached one."""
-        if one is None:
+        if instance is None:
             return self
         with _LOCK:  # else the precision could be another thread's, or change while the value is made
-            known: tuple[int, Value] | None = vars(one).get(self._place)
-            if known is None or known[0] < ctx.prec:
-                vars(one)[self._place] = known = ctx.prec, self._of(one)
-        return known[1]
+            cached: tuple[int, Value] | None = vars(instance).get(self._place)
+            if cached is None or cached[0] < ctx.prec:
+                vars(instance)[self._place] = cached = ctx.prec, self._function(instance)
+        return cached[1]
 
 
 def rational(x: float | fmpq) -> fmpq:
-    """Return a float as the number that it is; a rational number stays."""
+    """Return a float as an exact rational number; a rational number unchanged."""
     return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
 
 

@@ -162,7 +162,7 @@ class Phases:
         return self
 
     def _keep(self, words: FloatArray) -> None:
-        """Keep words, and halves of the first, as the products need them."""
+        """Keep words, and halves of the first, for the products."""
         P0, P1 = words
         head = P0 * SPLITTER - (P0 * SPLITTER - P0)
         self.words = np.array([-P0, P1])

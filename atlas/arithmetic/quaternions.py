@@ -55,10 +55,10 @@ class Attitude(NamedTuple):
         return np.asarray(Rotation.from_quat(self.quaternion).as_matrix())
 
 
-def rotation_of(typed: Sequence[float], name: str) -> Attitude:
+def rotation_of(quaternion: Sequence[float], name: str) -> Attitude:
     """Return the rotation of a typed quaternion, which has a name; AtlasError for a length that is not 1 to 1e-3."""
-    if (off := abs((length := hypot(*typed)) - 1)) > LENGTH_TOLERANCE:
+    if (off := abs((length := hypot(*quaternion)) - 1)) > LENGTH_TOLERANCE:
         raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
     if off > LENGTH_ROUNDING:
         tell_nearest(f"{name} is a quaternion of the length {length:.6g}", "the quaternion divided by it")
-    return Attitude(tuple(map(float, typed)))
+    return Attitude(tuple(map(float, quaternion)))

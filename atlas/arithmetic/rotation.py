@@ -165,12 +165,12 @@ class DoubleRotation:
 
         By r, q and entry: the multiples (r, q, 9); the same above the rests, (r, 2 q, 9), for factors that are small.
         """
-        left, right = resolution(extended(self.axis), third_row=self.inverse)
-        exact = np.matmul(np.matmul(left[:, None], np.matmul(left, right)), right[:, None])
-        exact = (exact.swapaxes(2, 3) if self.inverse else exact).reshape(len(left), len(left), 9)
+        L, Q = resolution(extended(self.axis), third_row=self.inverse)
+        exact = np.matmul(np.matmul(L[:, None], np.matmul(L, Q)), Q[:, None])
+        exact = (exact.swapaxes(2, 3) if self.inverse else exact).reshape(len(L), len(L), 9)
         large = exact.astype(np.float64) + QUANTUM - QUANTUM
         small = np.concatenate([large, (exact - large).astype(np.float64)], axis=1)
-        scale = SCALE[: len(left), None, None]
+        scale = SCALE[: len(L), None, None]
         return large * scale, small * scale
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:

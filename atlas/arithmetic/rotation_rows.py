@@ -79,19 +79,19 @@ def _words(frequency: Number) -> list[float]:
 def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:
     """Return the frequencies that a formula gives for inputs that broadcast: `words` and `lack` of `Frequencies`."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
-    words, lack = list[Any](), list[Any]()
+    words, errors = list[Any](), list[Any]()
     for rows, _, exponents, results in blocks(formula, inputs, shape, unit):
         turns = [frequency * PER_RADIAN for frequency in results]
-        both = np.array([[np.broadcast_to(x, rows.stop - rows.start) for x in (f.hi, f.low)] for f in turns])
+        halves = np.array([[np.broadcast_to(x, rows.stop - rows.start) for x in (f.hi, f.low)] for f in turns])
         error = np.array([np.broadcast_to(f.rel * abs(f.hi), rows.stop - rows.start) for f in turns])
         if exponents is not None:
-            both, error = np.ldexp(both, exponents[0]), np.ldexp(error, exponents[0])
+            halves, error = np.ldexp(halves, exponents[0]), np.ldexp(error, exponents[0])
             error[:, ~exponents[1]] = np.nan
-        words.append(both)
-        lack.append(error)
+        words.append(halves)
+        errors.append(error)
     if not prod(shape):
         return np.empty((2, 2, 0)), np.empty((2, 0))
-    return np.concatenate(words, axis=2).swapaxes(0, 1), np.concatenate(lack, axis=1)
+    return np.concatenate(words, axis=2).swapaxes(0, 1), np.concatenate(errors, axis=1)
 
 
 MAX_FREQUENCY = 2.0**900
@@ -240,7 +240,7 @@ def _both(constants: Constants, *inputs: Any) -> Sequence[Any]:
 
 
 def _exact(groups: Sequence[Group], places: NDArray[np.int8], i: int) -> Sequence[Number]:
-    """Return k and phi of a motion, by the group in whose place it stands."""
+    """Return k and phi of a motion, by the formula of its group."""
     constants, index, inputs = groups[places[i]]
     place = i if isinstance(index, slice) else np.searchsorted(index, i)
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))

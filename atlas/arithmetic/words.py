@@ -9,24 +9,9 @@ from flint import arb, fmpq
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import BITS, Number, nearest, rational, workprec
 
-__all__ = [
-    "BITS",
-    "ONE",
-    "TURN",
-    "ZERO",
-    "exact",
-    "floats",
-    "magnitude",
-    "middle",
-    "scaled",
-    "turn_of",
-    "units",
-    "words",
-]
-
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return each double as the number it is; rational numbers stay."""
+    """Return each double as an exact rational number, rational numbers unchanged, in a tuple."""
     return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in numbers)
 
 

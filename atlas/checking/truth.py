@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.certified_inputs import Real
 from atlas.arithmetic.inputs import FloatArray
-from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.numbers import BITS, workprec
 from atlas.arithmetic.phase import MAX_PHASE, Phases, room
-from atlas.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
+from atlas.arithmetic.words import TURN, magnitude, middle, scaled, words
 from atlas.motions.base import Motion as Placed
 from atlas.motions.elementary.certified import ElementaryMotion
 from atlas.motions.nutation.certified_general import GeneralMotion

@@ -46,8 +46,8 @@ COLUMNS = (
 def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script: bool, as_json: bool) -> int:
     """Try equations and claims of the paper, all if none is named, on the form as printed.
 
-    An equation is named by its printed number, 72 or "(72)", one without a number, and a theorem, by its name in the
-    ledger. A LaTeX label of the paper's source will do, too.
+    An equation is named by its printed number, 72 or "(72)", those of the appendix also by the journal's, A5. One
+    without a number, and a theorem, is named by its name in the ledger or by a LaTeX label of the paper's source.
 
     A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
     supported, or definition where there is nothing to prove. Slips are graded. Of an equation that is named, both sides

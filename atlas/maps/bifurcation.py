@@ -209,7 +209,7 @@ class Bifurcation:
 
     @property
     def rest(self) -> FloatArray | None:
-        """Values (F, H) of the body at rest, c > 0, or with Omega = -2 K, c < 0; None if it has none at this c."""
+        """Values (F, H) of the body at rest, c > 0, or with Omega = -2 K, c < 0; None without one at this c."""
         moment = abs(self.c) / self.b**2
         if not self.inertia.min() <= moment <= self.inertia.max():
             return None

@@ -148,16 +148,16 @@ def monodromy(
     return replace(loop, p=loop.p * unit, g=loop.g * unit)
 
 
-def unstable_spin(*given: float) -> tuple[int, float]:
-    """Return whether the spin is along n, 1, or against it, -1, and its D < 0 over I2^2, decided exactly.
+def unstable_spin(*inputs: float) -> tuple[int, float]:
+    """Return the end of n along the spin, 1 or -1, and D < 0 over I2^2, decided exactly.
 
     Raises DomainError for a momentum p of no spin, and for a stable one.
     """
-    if abs(given[-2]) != abs(given[-1]):
+    if abs(inputs[-2]) != abs(inputs[-1]):
         raise DomainError(
-            f"p: a spin about n has the momentum M3 or -M3, {given[-2]:g} or {-given[-2]:g}, not {given[-1]:g}."
+            f"p: a spin about n has the momentum M3 or -M3, {inputs[-2]:g} or {-inputs[-2]:g}, not {inputs[-1]:g}."
         )
-    I, k2, k3, linear, quadratic, M3, p = (x / exact(given[0])[0] for x in exact(*given[1:]))
+    I, k2, k3, linear, quadratic, M3, p = (x / exact(inputs[0])[0] for x in exact(*inputs[1:]))
     A, a = k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear
     ends = (1, -1) if M3 == 0 else (1 if p == M3 else -1,)
     D = {end: M3 * M3 - 4 * (A + end * a) for end in ends}
@@ -165,8 +165,8 @@ def unstable_spin(*given: float) -> tuple[int, float]:
         if D[end] < 0:
             return end, nearest(D[end])
     raise DomainError(
-        f"M3: the value of the spin, M3 = {given[-2]:g} and p = {given[-1]:g}, is no isolated one: D is not negative, "
-        f"but {nearest(D[ends[0]]):.6g}: the spin is stable, or at the border."
+        f"M3: the value of the spin, M3 = {inputs[-2]:g} and p = {inputs[-1]:g}, is no isolated one: D is not "
+        f"negative, but {nearest(D[ends[0]]):.6g}: the spin is stable, or at the border."
     )
 
 
@@ -253,10 +253,9 @@ def around(
 ) -> FloatArray:
     """Return a loop (points, 2) of regular values (p, g), counter-clockwise, round that of the spin at nu = `end`.
 
-    It is an ellipse, sheared along the line dg = slope dp, with half the room that the critical energies of the well
-    leave it, below and to both sides. `end` is 1 if p is M3, else -1; `D` may be given where floats
-    lose it. Raises DomainError where there is no room, for then the value is no isolated one, or floats do not tell it
-    from its neighbours.
+    The loop is an ellipse, sheared along the line dg = slope dp, half as wide and high as the critical energies of the
+    well allow, below and to both sides. `end` is 1 if p is M3, else -1; `D` may be given where floats lose its digits.
+    Raises DomainError where no loop fits: the value is not isolated, or floats do not tell it from its neighbours.
     """
     end = end or int(np.sign(p * wells.M3) or 1)
     _, g, rounded = wells.spin(end)
@@ -317,12 +316,12 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
     return tuple(tuple(row) for row in rows), step
 
 
-def _with_values(bifurcation: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:
+def _with_values(bifurcation: Bifurcation, state: FloatArray, values_sought: FloatArray) -> FloatArray:
     """Return (M, K) near a state with the values (H, F, K^2, (M, K)), by Newton's method to the nearest."""
     I, a = bifurcation.inertia, bifurcation.a
     for _ in range(NEWTON_STEPS):
         M, K = state[:3], state[3:]
         values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])
         slopes = np.array([[*(M / I), *(I * K)], [*(2 * M), *(-2 * a * K)], [0, 0, 0, *(2 * K)], [*K, *M]])
-        state = state - np.linalg.lstsq(slopes, values - wanted)[0]
+        state = state - np.linalg.lstsq(slopes, values - values_sought)[0]
     return state

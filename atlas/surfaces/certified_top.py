@@ -131,7 +131,7 @@ class TopHyperbola:
         return squared.sign > 0 or (squared.is_zero and self._holds(w2))
 
     def _holds(self, omega2: Surd) -> bool:
-        """Say whether a motion without a frequency is stable all the same: a fourfold root, A < 0."""
+        """Whether a motion without a frequency is stable: a fourfold root, A < 0."""
         _, k2, _, n2, *_ = self.top
         return bool(evaluated(self._fourfold, omega2 / n2 + k2).is_zero and self._leading < 0)
 

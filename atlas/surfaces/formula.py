@@ -10,28 +10,28 @@ def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
 
 def a2(*inputs: Number) -> Number:
     """Return a2 of (54): with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
-    y, _, less, _ = _direction(*inputs)
-    return (y + y) / less
+    y, _, smaller, _ = _direction(*inputs)
+    return (y + y) / smaller
 
 
 def a3(*inputs: Number) -> Number:
     """Return a3 of (54): 2 y/(h + y)."""
-    y, _, _, more = _direction(*inputs)
-    return (y + y) / more
+    y, _, _, larger = _direction(*inputs)
+    return (y + y) / larger
 
 
 def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
     """Return C1, C2, C3 of (55), (57), for B2 != 0."""
     square = abs(I2 - I3) / I2 * B2 * B2
-    y, _, less, more = _direction(I2, I3, B2, B3)
+    y, _, smaller, larger = _direction(I2, I3, B2, B3)
     twice = square * abs(y + y)
-    return root(square), root(twice / less), root(twice / more)
+    return root(square), root(twice / smaller), root(twice / larger)
 
 
 def half_angle(*inputs: Number) -> tuple[Number, Number]:
     """Return the sizes of cos and sin of beta/2 + pi/4, (53): their squares are (1 -+ sin beta)/2."""
-    _, h, less, more = _direction(*inputs)
-    return root(less / (h + h)), root(more / (h + h))
+    _, h, smaller, larger = _direction(*inputs)
+    return root(smaller / (h + h)), root(larger / (h + h))
 
 
 def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:

@@ -14,9 +14,9 @@ def of_given(formula: Callable[..., Any]) -> Callable[..., Any]:
     """Return a formula of I2, I3, k2, k3, n2, n3, a0, A0 as they are given, n of any length, and of what follows."""
 
     def of(*numbers: Number) -> Any:
-        I2, I3, k2, k3, n2, n3, a0, A0, *more = numbers
+        I2, I3, k2, k3, n2, n3, a0, A0, *arguments = numbers
         size = length(n2, n3)
-        return formula(I3 / I2, k2 / I2, k3 / I2, n2 / size, n3 / size, a0 / I2, A0 / I2, *more)
+        return formula(I3 / I2, k2 / I2, k3 / I2, n2 / size, n3 / size, a0 / I2, A0 / I2, *arguments)
 
     return of
 
@@ -40,7 +40,7 @@ def centre(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number
 
 
 def excess(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> Number:
-    """Return n3 D, of which there is one for n3 = 0 too: it is in the place of (I - 1) B3 b."""
+    """Return n3 D, finite for n3 = 0 too, in the place of (I - 1) B3 b."""
     del n2
     turn = k3 / I
     return n3 * (turn * (k3 + turn - (k2 + k2)) + A0) + a0

@@ -195,8 +195,8 @@ class Quadric(Shown):
         """
         I2, I3, B2, B3 = self._directed()
         cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, None), degree=(0, 0))
-        left, below = np.less(B2, 0), np.less(B3, 0)
-        cos, sin = np.where(left & ~below, -cos, cos), np.where(left & below, -sin, sin)
+        is_left, is_below = np.less(B2, 0), np.less(B3, 0)
+        cos, sin = np.where(is_left & ~is_below, -cos, cos), np.where(is_left & is_below, -sin, sin)
         axes = np.zeros((*cos.shape, 3, 3))
         rows, flat = axes.reshape(-1, 9), np.stack([cos, sin]).reshape(2, -1)
         for i in range(0, len(rows), BLOCK):  # a part at a time stays in the cache
@@ -286,10 +286,10 @@ class TopQuadric(Quadric):
 
         w = omega2 + n2 k3/I,    v = omega3 + n3 (k3 - 2 kappa)/I,    D = A + kappa^2 + a0/n3,
 
-    kappa = k2 - k3/I, A = A0 + k3^2/I - k2^2, a0 and A0 the `linear` and the `quadratic` potential. It is (51) for k2 =
-    b, k3 = I b, n = B'/b without a potential, and D is in the place of (I - 1) b^2. `beta`, `a2`, `a3` and `axes` are
-    those of (53) and (54) with n in the place of B', `semi_axes` the roots of |D| n2^2 (1, |a2|, |a3|). For omega1 != 0
-    that nu'' vanishes at the start is not enough for a steady motion: these have omega1 = 0, see `Hyperbola.of_top`.
+    kappa = k2 - k3/I, A = A0 + k3^2/I - k2^2, a0 and A0 the `linear` and the `quadratic` potential. The surface is (51)
+    for k2 = b, k3 = I b, n = B'/b without a potential, and D is in the place of (I - 1) b^2. `beta`, `a2`, `a3` and
+    `axes` are as in (53) and (54) with n in the place of B', `semi_axes` the roots of |D| n2^2 (1, |a2|, |a3|). Steady
+    motions, see `Hyperbola.of_top`, have omega1 = 0: for omega1 != 0 the axis leaves its start although nu'' = 0 there.
 
     Degenerate kinds: for n2 = 0 ("line") as in `Quadric`; for n3 = 0 ("plane pair", "hyperbolic cylinder") a linear
     potential makes D and the semi-axes infinite: DomainError.
@@ -334,7 +334,7 @@ class TopQuadric(Quadric):
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         self._needs_finite()
-        semi_axes = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), along=True)
+        semi_axes = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), upright=True)
         C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in semi_axes)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
@@ -353,13 +353,13 @@ class TopQuadric(Quadric):
         values: FloatOrArray = self._over(top.residual, lambda exact, *w: exact.residual(w), *points)
         return values
 
-    def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:
+    def _over(self, formula: Any, exact: Any, *points: Any, degree: Any = 1, upright: bool = False) -> Any:
         """Return the values of a formula in double-double, or exactly where these leave a doubt; each rounded once."""
         inputs = list(self._top)
-        if along:
+        if upright:
             inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])
-        alone = partial(rounded, lambda *row: exact(_exactly(row[:8]), *row[8:]))
-        return over(top.of_given(formula), *inputs, *more, degree=degree, alone=alone)
+        exactly = partial(rounded, lambda *row: exact(_exactly(row[:8]), *row[8:]))
+        return over(top.of_given(formula), *inputs, *points, degree=degree, alone=exactly)
 
     def _needs_finite(self) -> None:
         """Raise DomainError where D is infinite."""

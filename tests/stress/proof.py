@@ -42,7 +42,10 @@ def found(name: str, most: int, seed: str, change: Change = changes) -> tuple[st
     for field, tex in forms(name):
         for changed, what in change(tex, most=most, seed=f"{seed} {name}"):
             other = replace(case, **{field: changed})
-            outcome = within_time(other.of_printed if field == "tex" else other.of_corrected)
+            tried = other if field == "tex" else other.true_form
+            if tried is None:
+                raise ValueError(f"{name}: the changed form is empty")
+            outcome = within_time(tried.of_printed)
             kind = "unreadable" if outcome.method.startswith("unreadable") else outcome.decision
             counts[kind] += 1
             if outcome.decision in SURE:

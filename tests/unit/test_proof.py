@@ -309,7 +309,8 @@ def test_a_broken_entry_turns_the_run_red(name: str, right: str, wrong: str) -> 
 def test_a_correction_that_is_wrong_too_turns_the_run_red() -> None:
     """A refuted entry whose corrected form isn't proved doesn't count as settled."""
     broken = replace(trial("(48)"), corrected_tex=trial("(48)").corrected_tex.replace("6(1-I)", "5(1-I)"))
-    assert broken.of_corrected().decision == "refuted"
+    assert broken.true_form is not None
+    assert broken.true_form.of_printed().decision == "refuted"
 
 
 def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -39,13 +39,13 @@ def _entries() -> Iterator[tuple[str, Equation]]:
             file = Path(__file__).with_name(f"{stem}.toml")
             entries: dict[str, dict[str, Any]] = tomllib.loads(file.read_text("utf-8"))
             shared = ASSUMPTIONS | entries.pop("assumptions", {})
-            for name, said in entries.items():
-                assumptions = tuple(_joined(shared.get(x, x)) for x in said.pop("assumptions", ()))
-                outside = tuple(said.pop("outside", ()))
-                kind = said.pop("kind", _KINDS.get(name.partition("-")[0], "derivation step"))
-                texts = {key: _joined(text) for key, text in said.items()}
-                fixed: dict[str, Any] = {"name": name, "section": section, "kind": kind}
-                yield stem, Equation(**fixed, assumptions=assumptions, outside=outside, **texts)
+            for name, record in entries.items():
+                assumptions = tuple(_joined(shared.get(x, x)) for x in record.pop("assumptions", ()))
+                outside = tuple(record.pop("outside", ()))
+                kind = record.pop("kind", _KINDS.get(name.partition("-")[0], "derivation step"))
+                texts: dict[str, Any] = {key: _joined(text) for key, text in record.items()}
+                texts |= {"assumptions": assumptions, "outside": outside}
+                yield stem, Equation(name=name, section=section, kind=kind, **texts)
 
 
 def _joined(text: str) -> str:
@@ -67,30 +67,30 @@ _NUMBERS = [entry.number for entry in EQUATIONS.values() if entry.number is not 
 def find(word: str) -> tuple[Equation, ...]:
     """Return the entries that a user means by 72, (72), A5, a name, or a LaTeX label of the paper's source.
 
-    It is one, but for a label that stands twice in the source. AtlasError with the nearest name if there is none.
+    One entry, or two of a label that stands twice in the source. AtlasError with the nearest name if none is meant.
     """
     number = slug(word)
     if number[:1] == "A" and number[1:].isdecimal() and f"({APPENDIX + int(number[1:4])})" in EQUATIONS:
         number = str(APPENDIX + int(number[1:4]))
     name = f"({number})" if number.isdecimal() else word
-    found = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
-    if not found and number.isdecimal():
-        asked = min(float(number), max(_NUMBERS))  # of any number of digits
-        near = min(_NUMBERS, key=lambda known: abs(known - asked))
-        raise AtlasError(f"there is no equation ({number}) in the ledger; the nearest is ({near}).")
-    if not found:
+    entries = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
+    if not entries and number.isdecimal():
+        target = min(float(number), max(_NUMBERS))  # of any number of digits
+        nearest = min(_NUMBERS, key=lambda known: abs(known - target))
+        raise AtlasError(f"there is no equation ({number}) in the ledger; the nearest is ({nearest}).")
+    if not entries:
         raise unknown("equation", word, [*EQUATIONS, *_ALIASES], "in the ledger")
-    return found
+    return entries
 
 
 def equation(word: str) -> Equation:
-    """Return the one entry that is meant, as `find` does; AtlasError if it is one of two with the same label."""
-    found = find(word)
-    if len(found) > 1:
-        raise AtlasError(f"{word} is the label of {' and of '.join(entry.name for entry in found)}: say which.")
-    return found[0]
+    """Return the one entry that `find` gives; AtlasError where two have the same label."""
+    entries = find(word)
+    if len(entries) > 1:
+        raise AtlasError(f"{word} is the label of {' and of '.join(entry.name for entry in entries)}: say which.")
+    return entries[0]
 
 
 def topic(name: str) -> str:
-    """Return the topic of an equation: the stem of its file here, and of the files about it on the other floors."""
+    """Return the topic of an equation: the stem of its ledger file and of its file of proofs."""
     return _TOPICS[equation(name).name]

@@ -30,8 +30,8 @@ class Equation:
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
     assumptions  its conditions, each in a few words; in its file also the name of one of `ASSUMPTIONS` or of the
                  table `assumptions` there
-    outside      a clause of them, and a false domain in its place, in which nothing may be proved; none if empty
-    quote        the words of the paper that make the claim, where it has no formula for it
+    outside      one clause of the assumptions and a false domain, in which nothing may be proved; or empty
+    quote        the words of the paper that make the claim, where the paper has no formula
     kind         definition, derivation step (follows from earlier equations), claim (a result), theorem (ours);
                  where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
                  claim

@@ -15,7 +15,7 @@ _MISSING = {"ne": "≠", "bot": "⊥", "iff": " ⇔ ", "implies": " ⇒ ", "det"
 
 
 def plain(markdown: str) -> str:
-    """Return a text of the ledger or of the trial as it is shown on a terminal."""
+    """Return a text of the ledger or of the trial in plain Unicode, for a terminal."""
     converter, macros = _converter()
     return _CITATION.sub("", converter.latex_to_text(markdown, latex_context=macros))
 

@@ -40,15 +40,15 @@ class Read:
 
 
 def formulas(words: str) -> Iterator[tuple[str, str]]:
-    """Yield the clauses of an assumption, each with its formula, empty where it is none that can be read."""
+    """Yield the clauses of an assumption, each with its formula, empty where no formula is read."""
     for clause in re.split(r"[,;:] (?=(?:[^$]*\$[^$]*\$)*[^$]*$)", words):
-        found = _CLAUSE.fullmatch(clause)
-        if not found:
+        match = _CLAUSE.fullmatch(clause)
+        if not match:
             yield clause, ""
-        elif found[2]:
-            yield clause, f"{found[1]}{'=' if found[2] == 'is' else chr(92) + 'ne '}{found[3].strip('$')}"
+        elif match[2]:
+            yield clause, f"{match[1]}{'=' if match[2] == 'is' else chr(92) + 'ne '}{match[3].strip('$')}"
         else:
-            yield clause, found[1]
+            yield clause, match[1]
 
 
 def held(assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[Model], apart: Sequence[str]) -> Read:
@@ -98,11 +98,15 @@ def _relations(formula: str, signs: Mapping[str, str], model: Model) -> list[Rel
     try:
         line = tex.line(formula, signs) if formula else ""
         trees = [tree for tree in parse(line) if set(letters_of(tree)) <= {*letters}] if line else []
-        found = Reader(letters, model.ranges).relations(write(trees)) if trees else []
+        relations = Reader(letters, model.ranges).relations(write(trees)) if trees else []
     except (ValueError, TypeError, KeyError, AttributeError, IndexError, SyntaxError):
         return []
     double = {name for name, value in model.letters.items() if str(value) != name and _is_letter(value, model)}
-    return [each for each in found if not double.intersection(each.letters) or re.fullmatch(r"\w+ \S+ \w+", each.text)]
+    return [
+        relation
+        for relation in relations
+        if not double.intersection(relation.letters) or re.fullmatch(r"\w+ \S+ \w+", relation.text)
+    ]
 
 
 def _is_letter(value: Any, model: Model) -> bool:
@@ -119,8 +123,8 @@ def _says_nothing(relation: Relation) -> bool:
 def _gives_number(relation: Relation, bindings: Mapping[Any, Any]) -> bool:
     """Whether an equation gives a number to its one letter, which is a free symbol of the model."""
     symbol, value = relation.left[0], sympy.sympify(relation.right[0])
-    free = isinstance(symbol, sympy.Symbol) and symbol not in bindings
-    return free and len(relation.letters) == len(relation.left) == 1 and bool(value.is_number)
+    is_free = isinstance(symbol, sympy.Symbol) and symbol not in bindings
+    return is_free and len(relation.letters) == len(relation.left) == 1 and bool(value.is_number)
 
 
 def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
@@ -137,8 +141,8 @@ def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple[str, float]]:
-    """Yield how near points of a model that obey all relations come to the end of each; inf if none obeys them."""
-    symbols = sorted(set().union(*(x.free_symbols for _, *both in rows for x in both)), key=str)
+    """Yield how near points of a model that obey all relations come to the end of each; inf if no point obeys all."""
+    symbols = sorted(set().union(*(x.free_symbols for _, *terms in rows for x in terms)), key=str)
     chance, columns = np.random.default_rng(1), []
     for symbol in symbols:
         domain = model.domains.get(str(symbol), "positive" if symbol.is_positive else "real")
@@ -148,8 +152,8 @@ def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple
         columns.append({"unit": narrow / 2.5, "oblique": 0.41421 + 0.58579 * narrow / 2.5}.get(domain, values))
     with np.errstate(all="ignore"):
         tables = [
-            [np.broadcast_to(np.real_if_close(x), (POINTS,)) for x in sympy.lambdify(symbols, both, "numpy")(*columns)]
-            for _, *both in rows
+            [np.broadcast_to(np.real_if_close(x), (POINTS,)) for x in sympy.lambdify(symbols, terms, "numpy")(*columns)]
+            for _, *terms in rows
         ]
         inside = np.all([value >= 0 for value, _ in tables], axis=0)
         for (text, *_), (value, size) in zip(rows, tables, strict=True):

@@ -100,9 +100,9 @@ def motion_model() -> Model:
 
 def start_model() -> Model:
     """Model the momentum that the ansatz (28) has at t = 0: I0 times the axial vector of dR/dt."""
-    first = rodrigues(E3, ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
+    attitude = rodrigues(E3, ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
     model = _motion(sympy.zeros(3, 1), [])
-    W = (model.letters["d"](first)).subs(START)
+    W = (model.letters["d"](attitude)).subs(START)
     return _motion(sympy.zeros(3, 1), [(m2, I0 * W[0, 2]), (m3, I0 * W[1, 0]), *AXIS])
 
 
@@ -115,7 +115,7 @@ def constants_model() -> tuple[Model, Model]:
 
 
 def true_constants_model() -> tuple[Model, Model]:
-    """Model the same with k and gamma solved from the motion at t = 0; where gamma = 0, k is any unit vector."""
+    """Model all initial data, k and gamma solved from the motion at t = 0; for gamma = 0, k is any unit vector."""
     anywhere, remainder = constants_model()
     axis = {"k2": -turn(h)[1], "k3": -turn(h)[0], "gamma": size / I0}
     return (

@@ -73,7 +73,7 @@ def poisson_model() -> Model:
 
     def bracket(f: Value, g: Value) -> Value:
         """Return {f, g} = -(M, [f_M, g_M]) - (K, [f_M, g_K] + [f_K, g_M])."""
-        (fM, fK), (gM, gK) = ((partial(each, M), partial(each, K)) for each in (f, g))
+        (fM, fK), (gM, gK) = ((partial(component, M), partial(component, K)) for component in (f, g))
         return -dot(M, cross(fM, gM)) - dot(K, cross(fM, gK) + cross(fK, gM))
 
     letters = {"M": M, "K": K, "J": AXES, "H": H, "Omega": spin, "br": bracket}

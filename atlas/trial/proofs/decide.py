@@ -107,7 +107,7 @@ def _understand(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     letters, bindings = dict(model.letters), list(model.bindings)
-    kept, already = [], set[str]()
+    claims, already = [], set[str]()
     for tree in parse(line):
         letters |= _function(tree, defines, Reader(letters, model.ranges))
         name = defined(tree, defines)
@@ -119,15 +119,15 @@ def _understand(
             value = Reader(letters, model.ranges).value(tree.left, {})
             bindings, letters[name] = _meant(name, value, letters) + bindings, value
         if tree.comparators:
-            kept.append(tree)
+            claims.append(tree)
     reader = Reader(letters, model.ranges)
-    relations = reader.relations(write(kept)) if kept else []
+    relations = reader.relations(write(claims)) if claims else []
     new = [entry for place, entry in enumerate(bindings) if entry[0] not in {symbol for symbol, _ in bindings[:place]}]
     return relations + (reader.relations(solves) if solves else []), letters, new
 
 
 def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
-    """Return the letter that a relation defines, which is put on its left; empty if it defines none."""
+    """Return the letter that a relation defines, which is put on its left; empty without a definition."""
     every = [tree.left, *tree.comparators]
     if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
         return ""
@@ -138,7 +138,7 @@ def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
 
 
 def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
-    """Return pairs (symbol, value) for a letter that a line defines, so that it may stand before its definition."""
+    """Return pairs (symbol, value) for a letter that a line defines: the letter may stand before its definition."""
     vocabulary = letters.get(name, sympy.Symbol(name, real=True))
     if isinstance(vocabulary, sympy.MatrixBase):
         pairs = list(zip(vocabulary, value, strict=True))
@@ -180,7 +180,7 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
 
 
 def _empty(tree: ast.Compare, model: Model) -> str:
-    """Say why a bracket or a derivative that is zero says less than it seems to; empty if it does not.
+    """Return why a vanishing bracket or derivative is no full statement; empty for a full one.
 
     A component that is zero for every index is zero for each one, and letters that are independent have no derivatives.
     """
@@ -194,12 +194,12 @@ def _empty(tree: ast.Compare, model: Model) -> str:
     for call in calls:
         if any(isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant) for node in ast.walk(call)):
             return f"{ast.unparse(call)} is said of one index only"
-        first = getattr(call.args[0], "value", call.args[0])
-        value = model.letters.get(getattr(first, "id", ""))
+        argument = getattr(call.args[0], "value", call.args[0])
+        value = model.letters.get(getattr(argument, "id", ""))
         vectors = list(value.values()) if isinstance(value, dict) else [value]
         bare = isinstance(vectors[0], sympy.MatrixBase) and all(entry.is_Symbol for entry in vectors[0])
         if _name(call) == "partial" and bare:
-            return f"{ast.unparse(first)} depends on nothing"
+            return f"{ast.unparse(argument)} depends on nothing"
     return ""
 
 
@@ -210,7 +210,7 @@ def _name(call: ast.Call) -> str:
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
     """Return the fault of a line that checks nothing, or defines a letter on which no checked statement depends.
 
-    Such a line would hold whatever stands on its right: it is not a claim. Empty if all is well.
+    Such a line would hold whatever stands on its right, and claims nothing. Empty for a sound line.
     """
     if not relations:
         return "nothing in it is checked"
@@ -231,10 +231,12 @@ def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> se
     """Return the symbols on which values depend, also through rules (symbol, value or rate)."""
     symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     while True:
-        more = symbols | {s for symbol, value in rules if symbol in symbols for s in sympy.sympify(value).free_symbols}
-        if more == symbols:
+        extended = symbols | {
+            s for symbol, value in rules if symbol in symbols for s in sympy.sympify(value).free_symbols
+        }
+        if extended == symbols:
             return symbols
-        symbols = more
+        symbols = extended
 
 
 def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
@@ -257,7 +259,7 @@ def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
 
 
 def points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
-    """Yield exact values of the free parameters at a few points of their domain, the same ones in every run."""
+    """Yield exact values of the free parameters at a few points of their domain, equal in every run."""
     chance = random.Random(20240)  # noqa: S311  points of a proof, not secrets
     for _ in range(SAMPLES):
         yield {s: sympy.Rational(DOMAINS[_domain(s, model)](chance)) for s in parameters}
@@ -323,7 +325,7 @@ def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool |
 
 
 def simplest(relation: Relation, entry: int, assignment: dict[Value, Value], model: Model) -> dict[Value, Value]:
-    """Replace the parameters of a counterexample one by one by 0, 1, 2, as far as it stays one."""
+    """Replace the parameters of a counterexample one by one by 0, 1, 2, as long as the point stays a counterexample."""
     for symbol in assignment:
         for value in _SIMPLE[_domain(symbol, model)]:
             simpler = {**assignment, symbol: sympy.Rational(value)}
@@ -351,8 +353,8 @@ def _describe(
                 texts[f"any other {name}"] = "0"
         elif isinstance(value, sympy.MatrixBase | sympy.Expr) and value.free_symbols <= set(values):
             texts[name] = _show(value, values)
-    own = set(model.letters) - set(COMMON) - set(texts)
-    texts |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in own}
+    unnamed = set(model.letters) - set(COMMON) - set(texts)
+    texts |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in unnamed}
     sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.left, relation.right)]
     component = f" (component {entry + 1})" if len(relation.left) > 1 else ""
     return {**texts, "relation": relation.text + component, "left": sides[0], "right": sides[1]}

@@ -63,7 +63,7 @@ def _model(
 
 
 def velocity_model() -> Model:
-    """K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for it."""
+    """K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for this K."""
     letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
     return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
 
@@ -135,7 +135,7 @@ def matrix_model() -> Model:
 
 
 def steady_momentum_model() -> list[Model]:
-    """Model the same for a ball, and at rest."""
+    """Model the steady momentum of a ball, and of a body at rest."""
     basis = matrix_model()
     vocabulary = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
     return [replace(basis, bindings=[*basis.bindings, pair]) for pair in vocabulary]

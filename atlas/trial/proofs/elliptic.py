@@ -60,7 +60,7 @@ def multipliers_model() -> Model:
 
 
 def root_model(*, elliptic: bool = False) -> Model:
-    """Model the same for v^2 = P, with the integrals at M, or at the elliptic motion's own."""
+    """Model v^2 = P, with the integrals at M, or at the elliptic motion's own."""
     momentum = LETTERS["elliptic"] if elliptic else M
     letters = {"H": energy(momentum), "F": clebsch(momentum), "c": dot(momentum, K)}
     return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
@@ -68,9 +68,9 @@ def root_model(*, elliptic: bool = False) -> Model:
 
 def edge_model() -> list[Model]:
     """Model any M and K of a body whose third moment is the largest."""
-    first, second = sympy.symbols("first second", nonnegative=True)
+    gap, rise = sympy.symbols("first second", nonnegative=True)
     (I1, I2, I3), cases = MOMENTS, []
-    for order in ({I2: I1 + first, I3: I1 + first + second}, {I1: I2 + first, I3: I2 + first + second}):
+    for order in ({I2: I1 + gap, I3: I1 + gap + rise}, {I1: I2 + gap, I3: I2 + gap + rise}):
         letters = {**LETTERS, "H": energy(M), "F": clebsch(M)}
         swapped = {name: value.xreplace(order) for name, value in letters.items() if isinstance(value, sympy.Basic)}
         cases.append(Model({**letters, **swapped}, domains={"first": "positive", "second": "positive"}))
@@ -123,12 +123,12 @@ def bodies_model(sign: int = 1) -> Model:
 def linear_model() -> Model:
     """Model the flow of half the sum of squares, linear about x_i M_i = -v K_i.
 
-    Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, which makes all of it polynomials.
+    Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, so that all entries are polynomials.
     """
     w, k, lam = sympy.symbols("w1:4"), sympy.symbols("k1:4"), sympy.Symbol("lam")
-    first, second, third = (root**2 for root in w)
-    x, y = sympy.diag(first, second, third), sympy.diag(second * third, first * third, first * second)
-    letters = {"lam": lam, "x": {1: first, 2: second, 3: third}, "K": sympy.Matrix([k[i] * w[i] for i in range(3)])}
+    s1, s2, s3 = (root**2 for root in w)
+    x, y = sympy.diag(s1, s2, s3), sympy.diag(s2 * s3, s1 * s3, s1 * s2)
+    letters = {"lam": lam, "x": {1: s1, 2: s2, 3: s3}, "K": sympy.Matrix([k[i] * w[i] for i in range(3)])}
     rates = sympy.Matrix([*(cross(M, x * M) + cross(K, y * K)), *cross(K, x * M)])
     start = {M[i]: -k[i] * w[i - 1] * w[i - 2] for i in range(3)} | {K[i]: k[i] * w[i] for i in range(3)}
     flow = DomainMatrix.from_Matrix(rates.jacobian([*M, *K]).subs(start, simultaneous=True))

@@ -46,7 +46,7 @@ def _antisymmetric(S: Value) -> Value:
 
 @cache
 def multiplier_model() -> Model:
-    """(10) with any matrix A, and Lam, the multipliers that it needs: (10) holds if and only if Lam is symmetric.
+    """(10) with any matrix A, and Lam, the multipliers for this A: (10) holds if and only if Lam is symmetric.
 
     R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is I w by the symmetry of Lam.
     """
@@ -61,7 +61,7 @@ def multiplier_model() -> Model:
 
 
 def mirrored_model() -> Model:
-    """Model the same for minus a rotation: every orthogonal matrix of the determinant -1."""
+    """Model minus a rotation: every orthogonal matrix of the determinant -1."""
     basis = multiplier_model()
     minus = {entry: -entry for entry in R}
     letters = {
@@ -83,7 +83,7 @@ def euler(tensor: Value, mass: Value, field: Value) -> Value:
 
 
 def momentum_model() -> Model:
-    """Angular momentum in both frames, with the rates that (16) and (12) give them.
+    """Angular momentum in both frames, with its rates by (16) and (12).
 
     M is any vector and J any symmetric matrix, the inverse of I: Omega = J M. More isn't needed of them.
     """
@@ -113,8 +113,10 @@ def poisson_model() -> Model:
 
 def matrix_flow_model() -> Model:
     """Any matrix that obeys (12)."""
-    free = matrix("R")
-    return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)), laws="R by (12)")
+    entries = matrix("R")
+    return Model(
+        {"R": entries, "Omega": Omega}, flow=dict(zip(entries, entries * hat(Omega), strict=True)), laws="R by (12)"
+    )
 
 
 def diagonal_model() -> Model:

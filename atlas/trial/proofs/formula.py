@@ -28,16 +28,16 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
     """
     case = trial(equation(name).name)
     vocabulary = {**COMMON, **{name: _exact(number) for name, number in letters.items()}}
-    wanted = ast.dump(parse(f"{side} = 0")[0].left)
+    side_text = ast.dump(parse(f"{side} = 0")[0].left)
     unknown_letters: list[str] = []
     for tree in [tree for piece in (*case.corrected_parts, *case.parts) for tree in parse(piece.line)]:
         sides = [tree.left, *tree.comparators]
-        if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or wanted not in map(ast.dump, sides):
+        if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or side_text not in map(ast.dump, sides):
             continue
-        for other in reversed([other for other in sides if ast.dump(other) != wanted]):
-            absent_letter = sorted({*letters_of(other), *_functions(other)} - set(vocabulary))
+        for operand in reversed([operand for operand in sides if ast.dump(operand) != side_text]):
+            absent_letter = sorted({*letters_of(operand), *_functions(operand)} - set(vocabulary))
             if not absent_letter:
-                return _components(Reader(vocabulary), other)
+                return _components(Reader(vocabulary), operand)
             unknown_letters = unknown_letters or absent_letter
     if unknown_letters:
         raise AtlasError(f"{name} needs the value of {', '.join(unknown_letters)} too")
@@ -46,13 +46,14 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
 
 def _components(reader: Reader, side: ast.expr) -> Any:
     """Evaluate a side for all values of its free indices."""
-    free = sorted(reader.free_indices(side))
-    if not free:
+    indices = sorted(reader.free_indices(side))
+    if not indices:
         return reader.value(side, {})
     entries = [
-        reader.value(side, dict(zip(free, places, strict=True))) for places in product((1, 2, 3), repeat=len(free))
+        reader.value(side, dict(zip(indices, places, strict=True)))
+        for places in product((1, 2, 3), repeat=len(indices))
     ]
-    return sympy.Matrix(3, 3 ** (len(free) - 1), entries)
+    return sympy.Matrix(3, 3 ** (len(indices) - 1), entries)
 
 
 def _functions(side: ast.expr) -> set[str]:

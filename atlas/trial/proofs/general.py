@@ -56,9 +56,9 @@ def letters_model() -> Model:
 def weierstrass_model() -> Model:
     """Model any quartic with a root e, and P, P1 for the function of Weierstrass and its rate, P1^2 = 4P^3-g2 P-g3."""
     a = sympy.symbols("a0:4", real=True)
-    last = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
-    letters = {f"a{n}": value for n, value in enumerate((*a, last))} | {"e": e, "P": P, "P1": P1}
-    basis = a[0] * u**4 + 4 * a[1] * u**3 + 6 * a[2] * u**2 + 4 * a[3] * u + last
+    remainder = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
+    letters = {f"a{n}": value for n, value in enumerate((*a, remainder))} | {"e": e, "P": P, "P1": P1}
+    basis = a[0] * u**4 + 4 * a[1] * u**3 + 6 * a[2] * u**2 + 4 * a[3] * u + remainder
     return Model({**letters, **functions("Q", basis, u)}, flow={P: P1})
 
 

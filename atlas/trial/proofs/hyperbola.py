@@ -58,8 +58,8 @@ def proportional_model() -> Model:
     line = (sympy.Symbol("along1", real=True), sympy.Symbol("along2", real=True))
     bindings = [
         (factor, size * way)
-        for parts, size in (((Omega1, Omega2), s), ((K1, K2), kappa))
-        for factor, way in zip(parts, line, strict=True)
+        for pair, size in (((Omega1, Omega2), s), ((K1, K2), kappa))
+        for factor, way in zip(pair, line, strict=True)
     ]
     return Model(_STATE, bindings, flow, start, laws="Omega by (34), K by (35)")
 

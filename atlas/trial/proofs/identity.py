@@ -14,14 +14,14 @@ Value = Any
 
 def ordered(bindings: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
     """Sort definitions so that each comes after those that it uses."""
-    left, result = list(bindings), list[tuple[Value, Value]]()
+    remaining, result = list(bindings), list[tuple[Value, Value]]()
     done: set[Value] = set()
     names = {symbol for symbol, _ in bindings}
-    while left:
-        for entry in left:
+    while remaining:
+        for entry in remaining:
             if not (sympy.sympify(entry[1]).free_symbols & names) - done - {entry[0]}:
                 break
-        left.remove(entry)
+        remaining.remove(entry)
         done.add(entry[0])
         result.append(entry)
     return result

@@ -60,7 +60,7 @@ COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
 def potential_energy(*, equal: bool = True) -> Value:
     """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m.
 
-    The charge-to-mass ratio is the same for all, as the paper supposes, or another for each.
+    All particles have one charge-to-mass ratio, as the paper supposes, or each its own.
     """
     charges = {N: (mu if equal else sympy.Symbol(f"mu{N}", real=True)) * m[N] for N in ALL}
     return sum(charges[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
@@ -137,7 +137,7 @@ def _about(places: dict[int, Value]) -> dict[int, Value]:
 
 
 def free_model(*, equal: bool = True) -> Model:
-    """Model the same with N for the particles whose places and velocities are letters."""
+    """Model the free particles with N for those whose places and velocities are letters."""
     basis = relative_model(equal=equal)
     return replace(basis, ranges={**RANGES, "N": ALL[:-1]})
 
@@ -182,7 +182,7 @@ def rigid_model() -> Model:
 
 
 def plane_model() -> Model:
-    """Model a frame whose vectors X lie in one plane, a particle x0 in it, and x, lifted out of it by a height."""
+    """Model a frame whose vectors X lie in one plane, a particle x0 there, and x, out of the plane by a height."""
     X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
     x0, height = sympy.Matrix([*sympy.symbols("p1:3", real=True), 0]), sympy.Symbol("height", positive=True)
     return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height]), "height": height})
@@ -197,9 +197,9 @@ def spatial_model() -> Model:
 def _equivalent(line: str) -> str:
     """Return that X = 0 if and only if P = Q, as one is a multiple of the other: (1 + delta) X = P - Q."""
     slope, held_ = equations(line)
-    left, right = (ast.unparse(side) for side in (held_.left, held_.comparators[0]))
+    minuend, subtrahend = (ast.unparse(side) for side in (held_.left, held_.comparators[0]))
     zero = ast.unparse(slope.comparators[0])
-    return f"(1 + delta[A,B])*({ast.unparse(slope.left)} - {zero}) = {left} - {right}"
+    return f"(1 + delta[A,B])*({ast.unparse(slope.left)} - {zero}) = {minuend} - {subtrahend}"
 
 
 TRIALS = {

@@ -153,7 +153,7 @@ class Model:
     phases   angles whose cosine and sine are symbols: angle -> (cosine, sine)
     domains  where the free parameters may lie: a key of `decide.DOMAINS`; real if not said
     ranges   the values of indices that count particles
-    laws     equations from which the rates are taken, by number; a script prints them beside the rates
+    laws     equations from which the rates are taken, by number; printed beside the rates in a script
     """
 
     letters: dict[str, Value]

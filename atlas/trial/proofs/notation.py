@@ -82,7 +82,7 @@ def conserved(line: str) -> str:
         sides = [ast.unparse(side) for side in (tree.left, *tree.comparators)]
         lines += [f"{sides[0]} == {side}" for side in sides[1:-1]]
         lines += [f"d({sides[0]}) == 0", f"at0({sides[-2]}) == {sides[-1]}"]
-    return write([compare for part in lines for compare in parse(part)])
+    return write([compare for statement in lines for compare in parse(statement)])
 
 
 def names(node: ast.AST) -> set[str]:
@@ -163,7 +163,7 @@ class Reader:
                     node.value
                 )
             return set()
-        every = [name for part in operands for name in self.free_indices(part)]
+        every = [name for operand in operands for name in self.free_indices(operand)]
         return {name for name in every if every.count(name) == 1}
 
     def _imbalance(self, *sides: ast.expr) -> NoMeaningError:
@@ -193,7 +193,7 @@ class Reader:
     def summed(self, operands: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
         """Return the indices over which a product of these factors is summed as a whole."""
         holders = {name: [factor for factor, _ in operands if name in names(factor)] for name in indices}
-        return {name for name, held in holders.items() if len(held) > 1 or not is_sum(held[0])}
+        return {name for name, group in holders.items() if len(group) > 1 or not is_sum(group[0])}
 
     def _all(self, indices: list[str]) -> Iterator[dict[str, int]]:
         for choice in product(*(self.ranges.get(name, (1, 2, 3)) for name in indices)):
@@ -208,8 +208,8 @@ class Reader:
             return
         (factor, divides), remainder = operands[0], operands[1:]
         new = sorted(names(factor) & sums)
-        for more in self._all(new):
-            here = {**bound, **more}
+        for choice in self._all(new):
+            here = {**bound, **choice}
             value = self._factor(factor, here)
             if new and value == 0 and not divides:
                 continue
@@ -251,16 +251,16 @@ class Reader:
         if strange and isinstance(base, dict) and any(isinstance(key, int) and key > 3 for key in base):
             raise NoMeaningError(f"{ast.unparse(node)} has an index that does not count these")
         bindings = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
-        first = isinstance(base, sympy.MatrixBase)
-        entry = tuple(int(self._factor(index, bound)) - first for index in bindings)
+        offset = isinstance(base, sympy.MatrixBase)
+        entry = tuple(int(self._factor(index, bound)) - offset for index in bindings)
         return base[entry if len(entry) > 1 else entry[0]]
 
 
 def letters_of(tree: ast.AST) -> tuple[str, ...]:
     """Return the letters of a formula that aren't indices or functions, in order."""
-    called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    functions = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     inside = {id(name) for node in ast.walk(tree) if isinstance(node, ast.Subscript) for name in ast.walk(node.slice)}
-    letters = [node for node in ast.walk(tree) if isinstance(node, ast.Name) and id(node) not in called | inside]
+    letters = [node for node in ast.walk(tree) if isinstance(node, ast.Name) and id(node) not in functions | inside]
     return tuple(dict.fromkeys(name.id for name in sorted(letters, key=lambda name: name.col_offset)))
 
 

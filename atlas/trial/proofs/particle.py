@@ -123,9 +123,9 @@ def fall_along_model() -> Model:
 def helix_model() -> Model:
     """E = 0: the part across B, from its centre, and the part along B."""
     place, rise = vector("y"), sympy.Symbol("C3", real=True)
-    across = sympy.diag(1, 1, 0) * place
-    flow = dict(zip(place, mu / c * cross(across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
-    return Model({"y2": across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
+    speed_across = sympy.diag(1, 1, 0) * place
+    flow = dict(zip(place, mu / c * cross(speed_across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
+    return Model({"y2": speed_across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
 
 
 def along_field_model() -> list[Model]:
@@ -139,7 +139,7 @@ def along_field_model() -> list[Model]:
 
 
 def shifted_model() -> Model:
-    """Model the shifted variables y1 and y2 of the part across B, with the rates that (92) gives them."""
+    """Model the shifted variables y1 and y2 of the part across B, with their rates by (92)."""
     components = _split()
     drift = c * cross(ACROSS, ALONG_Z) / b**2
     second = (c * cross(components["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
@@ -175,7 +175,7 @@ def charges_model(choice: str = "any") -> list[Model]:
 
 
 def drift_model() -> list[Model]:
-    """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
+    """Model the velocity that (89) keeps constant, solved from (89), for a charge of either sign."""
     cases = []
     for case in charges_model():
         remainder = sympy.symbols("rest1:3", real=True)
@@ -188,13 +188,13 @@ def drift_model() -> list[Model]:
 
 
 def signed_model(choice: str = "any") -> list[Model]:
-    """Model the same with a frequency that has the sign of the charge."""
-    first, second = charges_model(choice)
-    return [first, replace(second, bindings=[(omega, -strength * b / c), *second.bindings[1:]])]
+    """Model the drift with a frequency that has the sign of the charge."""
+    model, second = charges_model(choice)
+    return [model, replace(second, bindings=[(omega, -strength * b / c), *second.bindings[1:]])]
 
 
 def _general(model: Model, **letters: Value) -> Value:
-    """Return the right side of (98) with other letters in it."""
+    """Return the right side of (98) with other letters."""
     return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 

@@ -69,7 +69,7 @@ def state_model() -> Model:
 
 
 def launch_model() -> Model:
-    """Model the same at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
+    """Model the state at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
     return replace(state_model(), bindings=[(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)])
 
 
@@ -126,7 +126,7 @@ def symmetric_body_model() -> Model:
 
 
 def passing_model() -> Model:
-    """Model the same with a root rho of either sign, whose rate is -I u w/rho; f is its logarithm."""
+    """Model the motion with a root rho of either sign, whose rate is -I u w/rho; f is its logarithm."""
     basis = quadrature_model()
     rho, u, I, E = sympy.Symbol("rho", real=True), *(basis.letters[name] for name in ("u", "I", "E"))
     bindings = [(E, rho**2 + I * u**2), *basis.bindings[1:]]
@@ -148,7 +148,7 @@ def quadrature_model() -> Model:
 
 
 def free_constant_model(*, fixed: bool = False) -> list[Model]:
-    """Model any state with its E', and any f0, or, where it is fixed, 1 and -1."""
+    """Model any state with its E', and any f0, or f0 = 1 and -1 where f0 is fixed."""
     letters = state_model().letters
     values = map(sympy.Integer, (1, -1)) if fixed else [sympy.Symbol("f0", real=True)]
     return [Model({**letters, "f0": value}) for value in values]
@@ -173,9 +173,9 @@ def laboratory_model(across: Value = B2, along: Value = B3) -> Model:
 
 def degree_model() -> list[Model]:
     """I below and above 1, and I = 1."""
-    more, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
+    excess, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
     cases = []
-    for scale in (1 + more, 1 / (1 + more), sympy.Integer(1)):
+    for scale in (1 + excess, 1 / (1 + excess), sympy.Integer(1)):
         field = sympy.Matrix([0, B2, B3])
         a = cubic(integrals(omega, field, scale), dot(field, field), scale)
         basis = sympy.Poly(a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3, u)

@@ -91,7 +91,7 @@ class Line:
     def plain(self, value: Value) -> str:
         """Return a value as Python."""
         if isinstance(value, dict):
-            return "{" + ", ".join(f"{key}: {self.plain(each)}" for key, each in value.items()) + "}"
+            return "{" + ", ".join(f"{key}: {self.plain(entry)}" for key, entry in value.items()) + "}"
         value = value.as_immutable() if isinstance(value, sympy.MatrixBase) else sympy.sympify(value)
         self.symbols += [symbol for symbol in sorted(value.free_symbols, key=str) if symbol not in self.symbols]
         text = str(self.printer.doprint(value))
@@ -120,16 +120,16 @@ class Line:
         assumptions = {}
         for symbol in sorted(self.symbols, key=str):
             kinds = [kind for kind in ("positive", "nonnegative", "nonzero", "real") if getattr(symbol, f"is_{kind}")]
-            more = ["nonzero"] * (kinds[:1] == ["nonnegative"] and bool(symbol.is_nonzero))
-            assumptions[self.identifier(symbol)] = "".join(f", {kind}=True" for kind in kinds[:1] + more)
+            extra_kinds = ["nonzero"] * (kinds[:1] == ["nonnegative"] and bool(symbol.is_nonzero))
+            assumptions[self.identifier(symbol)] = "".join(f", {kind}=True" for kind in kinds[:1] + extra_kinds)
         return assumptions
 
     def is_said(self, name: str, value: Value) -> bool:
-        """Whether a letter needs a row: not if it is the symbol of its name."""
+        """Whether a letter needs a row: not one that is the symbol of its name."""
         return not (isinstance(value, sympy.Symbol) and self.identifier(value) == name)
 
     def definition(self, name: str) -> str:
-        """Return the definition of a letter, as it is read or, with a function of the model's own, evaluated."""
+        """Return the definition of a letter, as read or, with a function of the model's own, evaluated."""
         try:
             text = self.code(self.definitions[name], ())
             return f"Integer({text})" if text.isdigit() else text
@@ -149,25 +149,25 @@ class Line:
         """Return the free indices of a relation with their numbers; none where its components are written out."""
         tree = parse(relation.text)[0]
         ranges = self.reader.ranges
-        free = sorted(self.reader.free_indices(tree.left) | (names(tree.left) & set(ranges)))
+        indices = sorted(self.reader.free_indices(tree.left) | (names(tree.left) & set(ranges)))
         try:
             for side in (tree.left, tree.comparators[0]):
-                self.code(side, tuple(free))
+                self.code(side, tuple(indices))
         except _NoFormulaError:
             return []
-        values = [self.value(side, tuple(free)) for side in (tree.left, tree.comparators[0])]
+        values = [self.value(side, tuple(indices)) for side in (tree.left, tree.comparators[0])]
         size = max(len(value) if isinstance(value, sympy.MatrixBase) else 1 for value in values)
-        for name in free:
+        for name in indices:
             size *= len(ranges.get(name, (1, 2, 3)))
         if size > len(relation.left):  # summed over particles, in the middle of a chain
-            free = [name for name in free if name not in ranges]
-        return [(name, ranges.get(name, (1, 2, 3))) for name in free]
+            indices = [name for name in indices if name not in ranges]
+        return [(name, ranges.get(name, (1, 2, 3))) for name in indices]
 
     def sides(self, relation: Relation) -> list[str]:
         """Return both sides of a relation, with free indices as variables, or written out."""
-        tree, free = parse(relation.text)[0], tuple(name for name, _ in self.loops(relation))
+        tree, indices = parse(relation.text)[0], tuple(name for name, _ in self.loops(relation))
         try:
-            return [self.code(side, free) for side in (tree.left, tree.comparators[0])]
+            return [self.code(side, indices) for side in (tree.left, tree.comparators[0])]
         except _NoFormulaError:
             return [self.plain(sympy.Matrix(side)) for side in (relation.left, relation.right)]
 
@@ -223,8 +223,8 @@ class Line:
                 basis = getattr(node.value, "id", "")
                 if basis in {"eps", "delta"}:
                     return ast.Call(ast.Name(_CALLED[basis]), list(indices), [])
-                first = not isinstance(self.model.letters.get(basis), dict)
-                places = [_less(index) if first else index for index in indices]
+                is_shifted = not isinstance(self.model.letters.get(basis), dict)
+                places = [_less(index) if is_shifted else index for index in indices]
                 return ast.Subscript(
                     self.factor(node.value, bound), places[0] if len(places) == 1 else ast.Tuple(places)
                 )
@@ -245,7 +245,7 @@ class Line:
         return self.formula(node, bound)
 
     def name(self, node: ast.Name, bound: tuple[str, ...]) -> ast.expr:
-        """Return a letter, and note that it is used."""
+        """Return a letter, and note its use."""
         value = self.model.letters.get(node.id, sympy.Symbol(node.id, real=True))
         if node.id in bound or node.id in self.definitions:
             return node
@@ -280,7 +280,7 @@ class Line:
 
 
 def _less(index: ast.expr) -> ast.expr:
-    """Return an index as Python counts it."""
+    """Return an index counted from zero, as in Python."""
     if isinstance(index, ast.Constant):
         return ast.Constant(int(str(index.value)) - 1)
     return ast.BinOp(index, ast.Sub(), ast.Constant(1))

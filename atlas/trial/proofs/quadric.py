@@ -99,25 +99,25 @@ def coordinates_model() -> Model:
 
 @cache
 def _axes() -> tuple[Value, Value]:
-    """Return unit eigenvectors of the form (51) in the plane (omega2, omega3), checked to be such."""
+    """Return unit eigenvectors of the form (51) in the plane (omega2, omega3), checked."""
     cotangent = I * B2 / B3
     form = sympy.Matrix([[1, -cotangent / 2], [-cotangent / 2, 0]])
-    first, second = sympy.Matrix([cd, sd]), sympy.Matrix([-sd, cd])
-    for axis in (first, second):
+    direction, normal = sympy.Matrix([cd, sd]), sympy.Matrix([-sd, cd])
+    for axis in (direction, normal):
         image = form * axis
         residue = image[0] * axis[1] - image[1] * axis[0]
         for symbol, value in _angles():
             residue = residue.subs(symbol, value)
         certain(sympy.cancel(residue) == 0)
-    return first, second
+    return direction, normal
 
 
 def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
     """Points of the quadric in the coordinates along its own eigenvectors, centre -B'."""
-    first, second = _axes()
+    direction, normal = _axes()
     shifted = sympy.Matrix([omega2 + B2, omega3 + B3])
     sine = -(cd**2 - sd**2)
-    letters = {**LETTERS, **BETA, "w1": omega1, "w2": first.dot(shifted), "w3": second.dot(shifted)}
+    letters = {**LETTERS, **BETA, "w1": omega1, "w2": direction.dot(shifted), "w3": normal.dot(shifted)}
     letters |= {"a2": 2 * sine / (1 - sine), "a3": 2 * sine / (1 + sine)}
     scale = {"any": [], "one": [(I, sympy.Integer(1))], "above": [(I, 1 + excess)], "below": [(I, 1 / (1 + excess))]}[
         ratio
@@ -130,8 +130,8 @@ def axes_model(above: bool, sheets: int) -> Model:
     """Sin(beta) anywhere between 0 and 1, and the squared semi-axes of (55) for two sheets, of (57) for one."""
     sine = 1 / (1 + sympy.Symbol("r", positive=True))
     I = 1 + excess if above else 1 / (1 + excess)
-    a2, a3, first = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if sheets == 2 else 1 - I) * B2**2
-    return Model({"I": I, "B2": B2, "a2": a2, "a3": a3, "C1s": first, "C2s": first * a2, "C3s": first * a3})
+    a2, a3, square = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if sheets == 2 else 1 - I) * B2**2
+    return Model({"I": I, "B2": B2, "a2": a2, "a3": a3, "C1s": square, "C2s": square * a2, "C3s": square * a3})
 
 
 def angle_model() -> Model:
@@ -150,8 +150,8 @@ def range_model() -> Model:
 
 def _sharp(line: str) -> str:
     """Return that a < f < b, and that a and b are the values of f at the ends."""
-    first, middle, last = sides(line.replace("<", "="))
-    return f"{line}; {first} = at0({middle}); {last} = at_end({middle})"
+    lower, middle, upper = sides(line.replace("<", "="))
+    return f"{line}; {lower} = at0({middle}); {upper} = at_end({middle})"
 
 
 def shell_model() -> Model:
@@ -185,7 +185,7 @@ AXES = ("C1s", "C2s", "C3s")
 
 
 def turned_model() -> Model:
-    """Model axes turned counter-clockwise in the plane (e2, e3), and the components of omega + B' along them."""
+    """Model axes turned counter-clockwise in the plane (e2, e3), with the components of omega + B' along these axes."""
     rolled = sympy.Matrix([[1, 0, 0], [0, cd, -sd], [0, sd, cd]])
     shifted = sympy.Matrix([omega1, omega2 + B2, omega3 + B3])
     letters = {**LETTERS, **BETA, "Bp": sympy.Matrix([0, B2, B3]), "omega": sympy.Matrix([omega1, omega2, omega3])}

@@ -84,14 +84,14 @@ def scripts(path: Path = SCRIPTS) -> dict[str, str]:
 
 
 def save_scripts(written: Mapping[str, str], path: Path = SCRIPTS) -> None:
-    """Write scripts, over those of the same names that are there."""
-    there = scripts(path) | dict(written)
-    ordered = {name: there[name] for name in EQUATIONS if name in there}
+    """Write scripts, in place of recorded ones of the same names."""
+    texts = scripts(path) | dict(written)
+    ordered = {name: texts[name] for name in EQUATIONS if name in texts}
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
 def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
-    """Write records, over those of the same names that are there; seconds change only where the proof did."""
+    """Write records, in place of recorded ones of the same names; seconds change only where the proof did."""
     old = {entry["name"]: entry for entry in _read(path)}
     for record in verdicts:
         entry = record.as_dict()

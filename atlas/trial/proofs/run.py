@@ -56,7 +56,7 @@ def limit(seconds: float) -> Iterator[None]:
 
 @cache
 def trials(stem: str) -> dict[str, Trial]:
-    """Return the trials of one topic by name; its `SIGNS` hold for all of them."""
+    """Return the trials of one topic by name; its `SIGNS` hold for each trial."""
     module = import_module(f"atlas.trial.proofs.{stem}")
     signs: dict[str, str] = getattr(module, "SIGNS", {})
     return {name: replace(trial, name=name, signs={**signs, **trial.signs}) for name, trial in module.TRIALS.items()}
@@ -76,7 +76,7 @@ def try_one(name: str) -> Verdict:
     entry, case = equation(name), trial(name)
     start = time.process_time()
     outcome = within_time(lambda: case.of_printed(shrink=True))
-    corrected = within_time(case.of_corrected).decision if case.corrected else ""
+    corrected = within_time(true_form.of_printed).decision if (true_form := case.true_form) else ""
     false = case.false_part if case.false else None
     return Verdict(
         name=name,
@@ -119,7 +119,7 @@ def _lines(parts: Iterable[Part]) -> str:
 
 
 def within_time(run: Callable[[], Outcome]) -> Outcome:
-    """Return the outcome of a trial, undecided if it takes longer than `LIMIT`."""
+    """Return the outcome of a trial, undecided after `LIMIT` seconds."""
     try:
         with limit(LIMIT):
             return run()
@@ -141,18 +141,18 @@ def verify(
     store         cache in which verdicts are kept by the fingerprint of their proof; None tries everything anew
     """
     meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
-    wanted = [name for name in EQUATIONS if name in meant]
-    keys = {name: digest("verdict", FIELDS, name, recorded.source(name)) for name in wanted} if store else {}
+    names_in_order = [name for name in EQUATIONS if name in meant]
+    keys = {name: digest("verdict", FIELDS, name, recorded.source(name)) for name in names_in_order} if store else {}
     vocabulary = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
     verdicts = {name: Verdict(**json.loads(entry)) for name, entry in vocabulary.items()}
-    missing = [name for name in wanted if name not in verdicts]
-    for done, (name, result) in enumerate(_each(missing, jobs), len(verdicts) + 1):
+    stale_names = [name for name in names_in_order if name not in verdicts]
+    for done, (name, result) in enumerate(_each(stale_names, jobs), len(verdicts) + 1):
         verdicts[name] = result
         if store:
             store.put(keys[name], json.dumps(result.as_dict()).encode())
         if progress:
-            progress(name, done, len(wanted))
-    return [verdicts[name] for name in wanted]
+            progress(name, done, len(names_in_order))
+    return [verdicts[name] for name in names_in_order]
 
 
 def _each(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:

@@ -70,15 +70,15 @@ def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
     """Yield the rows of all blocks, without repetitions; symbols are declared before they are used."""
     symbols, vocabulary, comment = dict[str, str](), dict[str, str](), ""
     supposed = [any(row.startswith("where = ") for row in rows) for _, rows in blocks]
-    for (declared, rows), own in zip(blocks, supposed, strict=True):
+    for (declared, rows), has_supposition in zip(blocks, supposed, strict=True):
         fresh = {name: assumed for name, assumed in declared.items() if symbols.get(name) != assumed}
         vocabulary = {} if fresh.keys() & symbols.keys() else vocabulary
         for assumed in dict.fromkeys(fresh.values()):
             every = " ".join(name for name in fresh if fresh[name] == assumed)
-            for some in textwrap.wrap(every, _WIDTH // 2 - 16):
-                yield f'{some.replace(" ", ", ")} = symbols("{some}"{assumed})'
+            for group in textwrap.wrap(every, _WIDTH // 2 - 16):
+                yield f'{group.replace(" ", ", ")} = symbols("{group}"{assumed})'
         symbols |= fresh
-        for row in [*["where = []"] * (any(supposed) and not own), *rows]:
+        for row in [*["where = []"] * (any(supposed) and not has_supposition), *rows]:
             name = re.match(r"(?:def )?(\w+)(?= = |\(x\))", row)
             if row.startswith("# "):
                 comment = row
@@ -88,7 +88,9 @@ def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
                 yield from filter(None, (comment, row))
             comment = ""
             if name and not repeated:  # rows that use the name are written again
-                vocabulary = {each: text for each, text in vocabulary.items() if not re.search(rf"\b{name[1]}\b", text)}
+                vocabulary = {
+                    symbol: text for symbol, text in vocabulary.items() if not re.search(rf"\b{name[1]}\b", text)
+                }
                 vocabulary[name[1]] = row
 
 
@@ -114,12 +116,14 @@ def _sides(relation: Relation, line: Line) -> str:
     if relation.sign != "=":
         value = sympy.factor(sympy.together((pairs[0][0] - pairs[0][1]).xreplace(bindings)))
         return f"{relation.text}: left - right = {_short(value, printer)}"
-    values = (sympy.cancel(left.xreplace(bindings)) for left, _ in pairs)
+    values = (sympy.cancel(expression.xreplace(bindings)) for expression, _ in pairs)
     entry, value = next(((n, value) for n, value in enumerate(values, 1) if value != 0), (1, sympy.Integer(0)))
     component = f", component {entry} of {len(pairs)}" if len(pairs) > 1 else ""
     if value != 0:
         return f"{relation.text}: each side{component} is {_short(value, printer)}"
-    used = {symbol: meant for symbol, meant in bindings.items() if any(left.has(symbol) for left, _ in pairs)}
+    used = {
+        symbol: meant for symbol, meant in bindings.items() if any(expression.has(symbol) for expression, _ in pairs)
+    }
     meant = "; ".join(f"{printer.doprint(symbol)} = {_short(value, printer)}" for symbol, value in used.items())
     return f"{relation.text}: the left side becomes 0" + (f" with {meant}" if meant else "")
 

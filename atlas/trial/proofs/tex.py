@@ -56,7 +56,7 @@ _PAIRS = {"(": (")", "dot"), "[": ("]", "cross"), r"\{": (r"\}", "br")}
 
 
 class UnreadableError(ValueError):
-    """A formula with something in it that is neither read nor said by the table."""
+    """A formula with something in it that is neither read nor defined by the table."""
 
 
 @dataclass(frozen=True)
@@ -89,8 +89,8 @@ class _Table:
 
     def taken(self, letter: _Letter) -> set[str]:
         """Return the plain names that the table gives to letters other than this one, bold or not."""
-        own = replace(letter, base=letter.base.split()[-1])
-        return {plain for other, plain in self.letters.items() if replace(other, base=other.base.split()[-1]) != own}
+        bare = replace(letter, base=letter.base.split()[-1])
+        return {plain for other, plain in self.letters.items() if replace(other, base=other.base.split()[-1]) != bare}
 
 
 def line(tex: str, signs: Mapping[str, str]) -> str:
@@ -99,7 +99,7 @@ def line(tex: str, signs: Mapping[str, str]) -> str:
 
 
 def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
-    """Return the letters of a formula, as the line has them, that are not bold: none of them may be a vector."""
+    """Return the letters of a formula, as the line has them, that are not bold: none may be a vector."""
     return _read(tex, tuple(signs.items()))[1]
 
 
@@ -109,8 +109,8 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
     phrases = {}
     for key, plain in signs.items():
         phrase = _tokens(key)
-        stands = any(tokens[place : place + len(phrase)] == phrase for place in range(len(tokens))) if phrase else False
-        if stands and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
+        occurs = any(tokens[place : place + len(phrase)] == phrase for place in range(len(tokens))) if phrase else False
+        if occurs and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
             phrases[key] = plain
     return phrases
 
@@ -118,8 +118,8 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
 def arrows(tex: str, signs: Mapping[str, str]) -> list[tuple[int, str]]:
     """Return the arrows of a formula outside the phrases of the table, each with the number of statements before it."""
     tokens = _said(_tokens(tex), _table(tuple(signs.items())))
-    found = [(place, mark) for place, mark in enumerate(tokens) if isinstance(mark, str) and mark in _ARROWS]
-    return [(len(_statements(tokens[:place])), mark) for place, mark in found]
+    marks = [(place, mark) for place, mark in enumerate(tokens) if isinstance(mark, str) and mark in _ARROWS]
+    return [(len(_statements(tokens[:place])), mark) for place, mark in marks]
 
 
 @cache
@@ -154,7 +154,7 @@ def _table(signs: tuple[tuple[str, str], ...]) -> _Table:
 def _tokens(tex: str) -> list[str]:
     r"""Return the tokens of a formula; without \boxed, marks of size and the braces of a single token."""
     tokens = [_SAME.get(mark, mark) for mark in _TOKEN.findall(tex) if mark not in _SILENT]
-    kept: list[str] = []
+    result: list[str] = []
     drops, depth, matrices = list[int](), 0, 0
     for place, mark in enumerate(tokens):
         matrices += (mark == r"\begin{pmatrix}") - (mark == r"\end{pmatrix}")
@@ -164,17 +164,17 @@ def _tokens(tex: str) -> list[str]:
             if place and tokens[place - 1] == r"\boxed":
                 drops.append(depth)
             else:
-                kept.append(mark)
+                result.append(mark)
             depth += 1
         elif mark == "}":
             depth -= 1
             if drops and drops[-1] == depth:
                 drops.pop()
             else:
-                kept.append(mark)
+                result.append(mark)
         else:
-            kept.append(mark)
-    return kept
+            result.append(mark)
+    return result
 
 
 def _statements(tokens: list[_Token]) -> list[list[_Token]]:
@@ -253,7 +253,7 @@ class _Formula:
         """Return the statement as relations in plain letters; "= const" says that the rate is zero."""
         if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
             return [write(parse(self.tokens[0].plain))]
-        sides, operators, found = [self.sum()], list[ast.cmpop](), list[str]()
+        sides, operators, lines = [self.sum()], list[ast.cmpop](), list[str]()
         if self.table.left:
             sides, operators = [_expression(self.table.left), *sides], [ast.Eq()]
         while self.peek() in _SIGNS:
@@ -261,7 +261,7 @@ class _Formula:
             if self.peek() == r"\text{const}" and isinstance(sign, ast.Eq):
                 self.take()
                 rate = ast.Compare(_call("d", sides[0]), [ast.Eq()], [ast.Constant(0)])
-                found.append(write([rate]))
+                lines.append(write([rate]))
                 break
             operators.append(sign)
             self.sums = []
@@ -270,9 +270,9 @@ class _Formula:
                 raise UnreadableError(f"the index of {ast.unparse(sides[0])} is summed on the other side")
         if self.position < len(self.tokens):
             raise UnreadableError(f"{self.peek()} in the formula is not read")
-        if not operators and not found:
+        if not operators and not lines:
             raise UnreadableError(f"{ast.unparse(sides[0])} is not related to anything")
-        return ([write([ast.Compare(sides[0], operators, sides[1:])])] if operators else []) + found
+        return ([write([ast.Compare(sides[0], operators, sides[1:])])] if operators else []) + lines
 
     def peek(self, ahead: int = 0) -> _Token:
         """Return the next mark, "" at the end."""
@@ -572,12 +572,12 @@ class _Formula:
         if letter.below and family.endswith("[]"):
             return self.meant(letter)
         rates = [_ACCENTS[accent] for accent in letter.accents if accent in {r"\dot", r"\ddot"}]
-        still = replace(letter, accents=tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}))
+        undotted = replace(letter, accents=tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}))
         basis = self.table.letters.get(letter)
         if basis is not None and basis.endswith("()"):
             self.take("(")
             return _call(basis.removesuffix("()"), *self.entries("("))
-        value = _expression(basis.removesuffix("[]")) if basis is not None else self.meant(still)
+        value = _expression(basis.removesuffix("[]")) if basis is not None else self.meant(undotted)
         if isinstance(value, ast.Name):
             (self.vectors if letter.base.startswith("\\mathbf") else self.thin).add(value.id)
         for rate in reversed(rates) if basis is None else ():
@@ -625,7 +625,7 @@ def _plain(below: Iterable[str]) -> list[str]:
 
 
 def _name(word: str) -> str:
-    """Return a name that Python does not keep for itself, as it does lambda."""
+    """Return a name with a stroke behind a keyword of Python such as lambda."""
     return f"{word}_" if keyword.iskeyword(word) else word
 
 

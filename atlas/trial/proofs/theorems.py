@@ -63,7 +63,7 @@ def stability_model() -> Model:
 
 
 def short_model() -> Model:
-    """Model the same for 1 <= I <= 2 and any real X but 0."""
+    """Model Q on the hyperbola for 1 <= I <= 2 and any real X but 0."""
     X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
     bindings = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + more})), (omega2, X - B2), (B3, tau * B2)]
     letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + more), "X": X, "tau": tau, "I": 1 + more}
@@ -174,7 +174,7 @@ def turning_model(case: str) -> Model:
 
 
 def rest_model() -> Model:
-    """Model A ball with m = (0, 0, -alpha I0)."""
+    """Model a ball with m = (0, 0, -alpha I0)."""
     b = ball
     letters = {"alpha": b.alpha, "t": b.t, "I0": b.I0, "m": sympy.Matrix([0, 0, -b.alpha * b.I0])}
     model = Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})

@@ -19,7 +19,7 @@ Cases = Model | Sequence[Model]
 
 @cache
 def _made(model: Callable[[], Cases]) -> Sequence[Model]:
-    """Return the models of a line, made once for all that is tried in them."""
+    """Return the models of a line, made once for all trials in these models."""
     models = model()
     return [models] if isinstance(models, Model) else models
 
@@ -47,7 +47,7 @@ class Part:
         return _made(self.model)
 
     def outcome(self, **wanted: bool) -> Outcome:
-        """Try the line; `wanted` as `decide` takes it."""
+        """Try the line; `wanted` are keywords of `decide`."""
         return decide(self.line, self.cases, defines=self.defines, solves=self.solves, **wanted)
 
 
@@ -56,7 +56,7 @@ class Falsehood:
     """A false sentence near a claim, which its trial must refute: else the trial would let the claim pass unread.
 
     says    the sentence
-    right   piece of the true form that it replaces, in the first line that has it; empty if it replaces nothing
+    right   piece of the true form that is replaced, in the first line that has the piece; empty if none is
     wrong   piece in that place
     model   model of the false sentence, if not that of the claim
     """
@@ -91,8 +91,8 @@ class Trial:
     corrected_tex  the true form where there is a slip, in which `\boxed` marks the changes; `corrected_signs`,
                `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
                those of the printed form, and `corrected_also`
-    note       meaning of the verdict, if it needs a word
-    false      a false sentence near it; a claim in words must have one, unless it is refuted itself
+    note       meaning of the verdict, where a word is needed
+    false      a false sentence near it; a claim in words must have one, unless the claim is refuted
     """
 
     name: str = ""
@@ -254,12 +254,6 @@ class Trial:
             if any(side.subs(symbol, value).has(sympy.nan, sympy.zoo) for side in sides):
                 return f"assumed, and without a value there: {symbol} = {value}"
         return ""
-
-    def of_corrected(self) -> Outcome:
-        """Try the corrected form, which must be there."""
-        if self.true_form is None:
-            raise ValueError(f"{self.name} has no corrected form")
-        return self.true_form.of_printed()
 
 
 def read(name: str, signs: Mapping[str, str]) -> str:

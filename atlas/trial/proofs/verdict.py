@@ -19,18 +19,18 @@ class Verdict:
     verdict         proved, refuted, undecided, supported (sampled only, with the count in `method`), or definition (it
                     defines its letters, and there is nothing to prove)
     grade           the kind of slip, one of `GRADES`, where the entry needs an erratum: it is refuted, or it is true
-                    as far as it goes and not complete or not clear; empty for all others
+                    but not complete or not clear; empty for all others
     slip            the entry under which the slip is counted, where several entries share one
     method          how: polynomial identity, exact counterexample, indices, ...
     follows         equations from which the printed form was derived
-    printed         the printed form in plain letters, as it was tried, read from its TeX
+    printed         the printed form in plain letters, as tried, read from its TeX
     said            the phrases of it, in TeX, that are not read, with the lines in their place; empty if assumed
     not_read        the clauses of its assumptions that are not held against the model
     outside         a false domain beside that of the entry, and why nothing is proved there; empty if it has none
     corrected       the true form where the printed one is refuted, and its TeX; it has been proved if
                     `corrected_verdict` says so
     counterexample  values of the letters that break the printed form, and its two sides at these values
-    note            meaning of the verdict, if it needs a word
+    note            meaning of the verdict, where a word is needed
     false           a false sentence near a claim in words, `false_line` in plain letters, `false_verdict` on it, which
                     must be refuted
     seconds         processor time of the trial
