@@ -65,10 +65,15 @@ def typed_in(files: list[str]) -> list[str]:
         ) from error
 
 
+COMMANDS = commands_of(make, "build/report")
+for name in ("ball", "elliptic", "particle"):  # which are refused with the page that they have
+    COMMANDS[name].hidden = True
+
+
 @click.command(
     NAME,
     cls=YourBody,
-    commands=commands_of(make, "build/report"),
+    commands=COMMANDS,
     epilog=examples(
         "atlas report your_body --ratio 0.7 --field 1 2 --omega2 0.7",
         "atlas report your_body --inertia 1 3.0836 3.235 --omega 0.02 0 0.1",

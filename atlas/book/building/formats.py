@@ -4,7 +4,6 @@ import re
 from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
@@ -12,7 +11,6 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from atlas import processes
 from atlas.book.building.cache import Cache
 from atlas.book.texts import title_words
 from atlas.errors import AtlasError
@@ -163,6 +161,9 @@ def files_of(
 
     Typst never gives memory back: a process of its own, where there can be one, ends with the report.
     """
+    from concurrent.futures.process import BrokenProcessPool
+
+    from atlas import processes
     from atlas.book import fonts, typesetting
 
     with cache.temporary() as work, processes.pool(1) or ThreadPoolExecutor(1) as executor:
