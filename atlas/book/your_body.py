@@ -99,7 +99,7 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
         if "field" not in arguments:
             raise DomainError("a top has its weight and coupling in the place of a field")
         return functions.sqrt(sum(x * x for x in (*across, along)))
-    if family.name == "quadric":
+    if not family.sampled:
         raise DomainError(NO_START)
     pi = functions.pi
     if key == "nutation":
@@ -125,7 +125,7 @@ def _ratio(arguments: Mapping[str, Any]) -> Any:
 
 def _nutation(family: Family, motion: Any, functions: Any, pi: Any) -> Any:
     """Return the period of nutation, of small ones about a steady motion. Raises DomainError where there is none."""
-    if family.name != "elementary":
+    if not family.takes("omega2"):
         return motion.period
     square = next(q for q in family.quantities if q.name == "stability").value(motion, exact=functions is not math)
     if not square > 0:
@@ -235,22 +235,22 @@ def stands(ratio: float) -> str:
 
 def verdict(family: Family, motion: Any) -> str:
     """Return what kind of motion it is, and whether a small push stays small, in words."""
-    if family.name == "quadric":
+    if not family.sampled:
         return "no start was given, so that all motions are shown and none is followed"
-    if family.name == "elementary":
+    if family.takes("omega2"):
         nutation = str(next(q for q in family.quantities if q.name == "nutation").value(motion))
         return f"{motion.case}, {nutation} against small nutations"
     kind = str(motion.kind)
     says = f"its axis nods ({kind})" if kind.startswith("nutation") else kind
-    stable = getattr(motion, "stable", None) if family.name == "top" else None
+    stable = getattr(motion, "stable", None) if family.takes("coupling") else None
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
 
 
 def place_of(family: Family, motion: Any) -> str:
     """Return where the start lies beside the curve of motions without nutation, in words."""
-    if family.name == "quadric":
+    if not family.sampled:
         return "Any other start makes the axis nod."
-    if family.name == "elementary":
+    if family.takes("omega2"):
         return "The given start lies on it: the axis keeps its angle with the field."
     nods = str(motion.kind).startswith("nutation")
     return (
@@ -276,7 +276,7 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
     subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
     if turn["value"] is None:
         return f"{subject}: {says}"
-    centre = "the vertical" if request.family.name == "top" else "its momentum"
+    centre = "the vertical" if request.family.takes("coupling") else "its momentum"
     about = "the field" if made["larmor"]["value"] is not None else centre
     unit = turn["unit"].replace("time", "units of time")
     return f"{subject} turns about {about} once in {turn['value']:.4g} {unit}; {says}"
@@ -333,7 +333,7 @@ def words_of(request: Asked) -> list[str]:
     )
     options = dict(request.options) | {name: (str(value),) for name, value in own if value}
     words = [word for name, texts in options.items() for word in (f"--{name}", *texts)]
-    return [*["top"] * (request.family.name == "top"), *words]
+    return [*[request.family.page] * request.family.takes("coupling"), *words]
 
 
 def command_of(request: Asked) -> str:
