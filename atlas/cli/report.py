@@ -27,10 +27,10 @@ class ReportCommand(Command):
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the inputs of each report, and the options."""
-        from atlas.book.files import find
-        from atlas.book.inputs import declared
-
         for name in ctx.obj:
+            from atlas.book.files import find
+            from atlas.book.inputs import declared
+
             rows = [
                 (key if one.default is None else f"{key}={one.default}", ", ".join(filter(None, (one.takes, one.help))))
                 for key, one in declared(find(name)).items()
