@@ -18,6 +18,10 @@ SAME = (
     *((text, "the ansatz of (58) is that Omega_3 is omega_3") for text in _ANSATZ),
     *((text, "another name of a free index") for text in (r"\{K_x,K_j\}", r"\{K_i,K_x\}")),
     (r"\xi=-\xi_0", "xi_0 is any constant"),
+    *(
+        (text, "beta and gamma are any numbers")
+        for text in (r"A-\gamma J", r"A+\alpha  J", r"Y=-\beta A", r"Y=\alpha  A")
+    ),
     *((text, "I_1 = I_2") for text in (r"I\equiv\frac{I_3}{I_1}", r"E'\equiv\frac{2E}{I_1}")),
     (r"q''(-\nu_0)", "q has no cubic term, so that its second derivative is even"),
     (r"e_\pm=-\nu_0\mp", "both roots stand in a product"),

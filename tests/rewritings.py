@@ -58,6 +58,7 @@ _TERM = r"(?<=[\w)\]}])[+-](?:[^+\-=,&<>\\(){}\[\]]|\\[A-Za-z]+|[({\[][^(){}\[\]
 
 
 SAME = (
+    *((text, "gamma is any number") for text in (r"X=\alpha A,", r"A+2\gamma J")),
     (r"I\boldsymbol{\omega}=I_0R", "the inertia tensor of a ball is its moment"),
     (r"=IR\boldsymbol{\Omega}", "the inertia tensor of a ball is its moment"),
     (r"\boldsymbol{\omega}(0)=\boldsymbol{\Omega}", "an equation read from the other side"),

@@ -221,10 +221,10 @@ class Trial:
     def of_printed(self, *, shrink: bool = False) -> Outcome:
         """Try the printed form; a definition that holds is called one."""
         try:
-            parts, thin = self.parts, tex.thin(self.formula, self.signs)
+            parts, objection = self.parts, self._objection(tex.thin(self.formula, self.signs))
         except (tex.UnreadableError, NoMeaningError) as reason:
             return Outcome("undecided", f"unreadable: {reason}")
-        if objection := self._objection(thin):
+        if objection:
             return Outcome("undecided", objection)
         outcome = _joined([piece.outcome(shrink=shrink) for piece in parts])
         if self.definition and outcome.decision == "proved":
