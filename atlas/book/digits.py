@@ -10,7 +10,10 @@ THIN = "\N{NARROW NO-BREAK SPACE}"
 
 @dataclass(frozen=True)
 class Number:
-    """A number as digits, such as ``-1.25e-7``, none where none is proven, and whether all that were asked for are."""
+    """A number as digits, none where none is proven, and whether all that were asked for are proven.
+
+    ``-1.25e-7``, or with a standard deviation in its last digits ``-1.25(17)e-7``.
+    """
 
     digits: str
     proven: bool = True
@@ -39,7 +42,9 @@ class Number:
         mantissa, _, power = self.digits.lower().partition("e")
         if not self.digits:
             return "?"
-        if -4 < int(power or 0) < 4:
+        if not power:
+            return mantissa.replace("-", MINUS)
+        if -4 < int(power) < 4 and "(" not in mantissa:
             return format(Decimal(self.digits), "f").replace("-", MINUS)
         return f"{mantissa}\N{MULTIPLICATION SIGN}10^{int(power)}^".replace("-", MINUS)
 

@@ -35,6 +35,7 @@ from atlas.book.tables.table import Request, certified, quantity
 from atlas.book.templates import versions
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import Family
+from atlas.motions.uncertainty import concise
 from atlas.places import folder
 
 REPORTED = ("elementary", "general", "asymmetric", "top", "quadric")
@@ -217,7 +218,9 @@ def _proven(key: str, item: Thing, exact: Mapping[str, Any], digits: int) -> str
 
 def thing_of(request: Asked) -> Thing:
     """Return the object of a request. Raises AtlasError where there is no such object."""
-    return Thing.of(Request([case_of(request)], {"family": request.family.name, **request.values}, request.digits))
+    return Thing.of(
+        Request([case_of(request)], {"family": request.family.name, **request.exact_values}, request.digits)
+    )
 
 
 def stands(ratio: float) -> str:
@@ -241,7 +244,7 @@ def verdict(family: Family, motion: Any) -> str:
         nutation = str(next(q for q in family.quantities if q.name == "nutation").value(motion))
         return f"{motion.case}, {nutation} against small nutations"
     kind = str(motion.kind)
-    says = f"its axis nods ({kind})" if kind.startswith("nutation") else kind
+    says = "its axis nods" if kind.startswith("nutation") else kind
     stable = getattr(motion, "stable", None) if family.takes("coupling") else None
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
 
@@ -279,7 +282,8 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
     centre = "the vertical" if request.family.takes("coupling") else "its momentum"
     about = "the field" if made["larmor"]["value"] is not None else centre
     unit = turn["unit"].replace("time", "units of time")
-    return f"{subject} turns about {about} once in {turn['value']:.4g} {unit}; {says}"
+    time = concise(turn["value"], turn["sigma"]) if turn["sigma"] else f"{turn['value']:.4g}"
+    return f"{subject} turns about {about} once in {time} {unit}; {says}"
 
 
 def shape_of(request: Asked) -> dict[str, Any] | None:
@@ -411,7 +415,7 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
         "card": list(_rows(made)), "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
         "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
         "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed),
-        "properties": fenced(table_of(request, "properties", family.name, request.values)),
+        "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
     }  # fmt: skip
 
 
@@ -420,7 +424,7 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
     for entry in made.values():
         value = "–" if entry["value"] is None else Number(entry["digits"]).words()
         if entry["sigma"]:
-            value = f"{entry['value']:.6g} ± {entry['sigma']:.2g}"
+            value = Number(concise(entry["value"], entry["sigma"])).words()
         proven = str(entry["proven_digits"] or "") if not entry["sigma"] else ""
         equation = f"@{entry['equation']}" if entry["equation"] and entry["value"] is not None else ""
         yield [entry["says"], entry["letter"], value, entry["unit"] or "", proven, equation]

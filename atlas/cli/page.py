@@ -46,7 +46,7 @@ def page_options(out: str) -> Callable[[Any], Any]:
     )
 
 
-def command_of(family: Family, name: str, action: Action, out: str) -> click.Command:
+def command_of(family: Family, name: str, action: Action, out: str, makes: str) -> click.Command:
     """Make the command of a family, which does something with the request that its options are."""
     more = [
         page_options(out),
@@ -57,13 +57,13 @@ def command_of(family: Family, name: str, action: Action, out: str) -> click.Com
     def run(**options: Any) -> int:
         return action(asked(family, options), options)
 
-    command = click.command(name, cls=Command, carries=True, help=f"Make a page: {family.says}.", hidden=name in GONE)
+    command = click.command(name, cls=Command, carries=True, help=f"{makes}: {family.says}.", hidden=name in GONE)
     return command(stack(*object_options(family), *more)(run))
 
 
-def commands_of(action: Action, out: str) -> dict[str, click.Command]:
-    """Return the commands of all families that do this with a request."""
-    return {one.page: command_of(one, one.page, action, out) for one in FAMILIES.values() if one.command}
+def commands_of(action: Action, out: str, makes: str = "Make a page") -> dict[str, click.Command]:
+    """Return the commands of all families that do this with a request; their help begins with what it `makes`."""
+    return {one.page: command_of(one, one.page, action, out, makes) for one in FAMILIES.values() if one.command}
 
 
 COMMANDS = commands_of(lambda wanted, options: make(wanted, options["out"], options["jobs"]), "build/pages")

@@ -7,7 +7,7 @@ from typing import Any
 
 from atlas.cli.present import bar
 from atlas.cli.typed import Typed, parts_of
-from atlas.motions.uncertainty import Spread, mapped, spread
+from atlas.motions.uncertainty import Spread, concise, mapped, spread
 
 FIRST_ORDER = "In brackets one standard deviation, in the last digits; of first order, by derivatives."
 
@@ -71,20 +71,3 @@ def _moved(options: dict[str, Any], inputs: list[tuple[str, int, Typed]], steps:
         new, numbers = x.moved(x + step * x.sigma), _parts(before := new_options[name])
         new_options[name] = type(before)((*numbers[:i], new, *numbers[i + 1 :])) if isinstance(before, tuple) else new
     return new_options
-
-
-def concise(value: float, sigma: float, error: float = 0.0) -> str:
-    """Write a number with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
-
-    In one digit, 12.6(4), where the second is less than the error of the deviation.
-    """
-    if not 0 < sigma < math.inf or not math.isfinite(value):
-        return f"{value:.10g}" if sigma == 0 else f"{value:.10g}(?)"
-    last_power = math.floor(math.log10(sigma)) - 1
-    if error > 10.0**last_power or round(sigma / 10.0**last_power) == 100:
-        last_power += 1
-    first_power = math.floor(math.log10(max(abs(value), sigma)))
-    if last_power <= 0 and -4 <= first_power < 10:
-        return f"{value:.{-last_power}f}({round(sigma / 10.0**last_power)})"
-    mantissa = f"{value / 10.0**first_power:.{first_power - last_power}f}"
-    return f"{mantissa}({round(sigma / 10.0**last_power)})e{first_power:+03d}"

@@ -42,6 +42,10 @@ def make(wanted: Any, options: dict[str, Any]) -> int:
 class YourBody(ByOptions):
     """A group that finds the family by the options, which a file of inputs may hold."""
 
+    def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the usage with the name of the report."""
+        formatter.write_usage(f"atlas report {NAME}", "[motion|top|classify] OPTIONS")
+
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the name of the report away, and the words of --from FILE for the file."""
         args = [word for word in args if word != NAME]
@@ -65,7 +69,7 @@ def typed_in(files: list[str]) -> list[str]:
         ) from error
 
 
-COMMANDS = commands_of(make, "build/report")
+COMMANDS = commands_of(make, "build/report", "Make a report")
 for name in ("ball", "elliptic", "particle"):  # which are refused with the page that they have
     COMMANDS[name].hidden = True
 

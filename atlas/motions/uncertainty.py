@@ -373,3 +373,20 @@ class CarriesUncertainty:
         if is_uncertain(*inputs, *named.values()):
             return UncertainMotion(cls, inputs, named)  # type: ignore[return-value]  # its numbers vary
         return super().__new__(cls)
+
+
+def concise(value: float, sigma: float, error: float = 0.0) -> str:
+    """Write a number with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
+
+    In one digit, 12.6(4), where the second is less than the error of the deviation.
+    """
+    if not 0 < sigma < math.inf or not math.isfinite(value):
+        return f"{value:.10g}" if sigma == 0 else f"{value:.10g}(?)"
+    last_power = math.floor(math.log10(sigma)) - 1
+    if error > 10.0**last_power or round(sigma / 10.0**last_power) == 100:
+        last_power += 1
+    first_power = math.floor(math.log10(max(abs(value), sigma)))
+    if last_power <= 0 and -4 <= first_power < 10:
+        return f"{value:.{-last_power}f}({round(sigma / 10.0**last_power)})"
+    mantissa = f"{value / 10.0**first_power:.{first_power - last_power}f}"
+    return f"{mantissa}({round(sigma / 10.0**last_power)})e{first_power:+03d}"

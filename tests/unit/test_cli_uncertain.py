@@ -11,8 +11,8 @@ from click.testing import CliRunner
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.cli.uncertain import concise
 from atlas.motions import uncertainty
+from atlas.motions.uncertainty import concise
 
 
 @pytest.fixture(autouse=True)
