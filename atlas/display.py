@@ -157,19 +157,21 @@ def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
 
 def called(name: str, arguments: Mapping[str, Any]) -> str:
     """Return a call as text; arguments that are None are left out."""
-    given = ", ".join(f"{key}={_typed(value)}" for key, value in arguments.items() if value is not None)
+    given = ", ".join(f"{key}={_typed_text(value)}" for key, value in arguments.items() if value is not None)
     return f"{name}({given})"
 
 
-def _typed(value: Any) -> str:
+def _typed_text(value: Any) -> str:
     if isinstance(value, Shown):
         return called(value.made_by or type(value).__name__, value.arguments)
     if isinstance(value, np.ndarray | np.generic):
         return repr(value.tolist()) if value.size <= MAX_SHOWN_NUMBERS else f"<array {value.shape}>"
     if isinstance(value, tuple):
-        return f"({', '.join(map(_typed, value))}{',' * (len(value) == 1)})"
+        return f"({', '.join(map(_typed_text, value))}{',' * (len(value) == 1)})"
     if isinstance(value, list):
-        return f"[{', '.join(map(_typed, value))}]" if len(value) <= MAX_SHOWN_NUMBERS else f"<list of {len(value)}>"
+        return (
+            f"[{', '.join(map(_typed_text, value))}]" if len(value) <= MAX_SHOWN_NUMBERS else f"<list of {len(value)}>"
+        )
     return repr(value).partition("  # ")[0]  # a field says beside what B' it is
 
 

@@ -81,7 +81,7 @@ def printed(value: Real, digits: int, layout: Layout) -> Printed:
         low, high = _rounded(lower, count), _rounded(upper, count)
         if low == high:
             mark = "" if count == digits else MARK
-            return Printed(_written(*low, count, layout, mark), count, complete=count == digits)
+            return Printed(_decimal_text(*low, count, layout, mark), count, complete=count == digits)
     return Printed(NOT_CERTIFIED, 0, complete=False)
 
 
@@ -174,7 +174,7 @@ def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
     return Printed(NOT_CERTIFIED, 0, complete=False)
 
 
-def _written(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
+def _decimal_text(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
     """Write m 10^(e+1-count), m of ``count`` digits."""
     sign, text = "-" * (m < 0), str(abs(m))
     if layout != "scientific" and -5 <= e < count:

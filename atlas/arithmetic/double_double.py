@@ -73,15 +73,17 @@ class DoubleDouble:
         t = s - self.hi
         e = (self.hi - (s - t)) + (other.hi - t)
         if self.lo is None and other.lo is None:
-            return DoubleDouble(s, e, self._lost(other, s, 0.0))
+            return DoubleDouble(s, e, self._sum_error(other, s, 0.0))
         if self.lo is None or other.lo is None:
-            return DoubleDouble(*_normal(s, e + (other.lo if self.lo is None else self.lo)), self._lost(other, s, SUM))
+            return DoubleDouble(
+                *_normal(s, e + (other.lo if self.lo is None else self.lo)), self._sum_error(other, s, SUM)
+            )
         f = self.lo + other.lo
         t = f - self.lo
         g = (self.lo - (f - t)) + (other.lo - t)
         s, e = _normal(s, e + f)
         s, e = _normal(s, e + g)
-        return DoubleDouble(s, e, self._lost(other, s, SUM))
+        return DoubleDouble(s, e, self._sum_error(other, s, SUM))
 
     def __neg__(self) -> "DoubleDouble":
         return DoubleDouble(-self.hi, None if self.lo is None else -self.lo, self.rel)
@@ -166,7 +168,7 @@ class DoubleDouble:
         low, error = self.low, 2 * self.rel * abs(self.hi)
         return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
 
-    def _lost(self, other: "DoubleDouble", total: Any, rounding: float) -> Any:
+    def _sum_error(self, other: "DoubleDouble", total: Any, rounding: float) -> Any:
         """Return the relative error of a sum: the errors of the terms, in parts of the sum, and its rounding."""
         if isinstance(self.rel, float) and isinstance(other.rel, float) and not (self.rel or other.rel):
             return rounding

@@ -46,7 +46,7 @@ class Given:
 
     def at(self, index: Index) -> fmpq:
         """Return the exact number at an index of an array to which this one broadcasts."""
-        return self._exact(_own(self.shape, index))
+        return self._exact(_broadcast_index(self.shape, index))
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
         del copy
@@ -80,7 +80,7 @@ class Given:
         return exact_number, (Fraction(*self.as_integer_ratio()),)
 
 
-def _own(shape: tuple[int, ...], index: Index) -> Index:
+def _broadcast_index(shape: tuple[int, ...], index: Index) -> Index:
     """Return the index in an array of this shape of the element that broadcasts to an index."""
     return tuple(0 if n == 1 else i for n, i in zip(shape, index[len(index) - len(shape) :], strict=True))
 
@@ -111,7 +111,7 @@ def element(x: Any, index: Index) -> Any:
     if isinstance(x, Given):
         return x.at(index)
     x = np.asarray(x)
-    value = x[_own(x.shape, index)] if x.ndim else x[()]
+    value = x[_broadcast_index(x.shape, index)] if x.ndim else x[()]
     return value if value is None else float(value)
 
 

@@ -134,7 +134,7 @@ class DoubleRotationRows:
                 entries = [0.0, n2, n3, 0.0, 0.0, n23, 1.0, square3, square2]
             for row, entry in zip((*self.axis, *self.dyad, *self.defect), entries, strict=True):
                 row[index] = np.ravel(entry)
-            words[..., index], errors[:, index] = words_of(partial(_both, constants), inputs, unit)
+            words[..., index], errors[:, index] = words_of(partial(_frequencies, constants), inputs, unit)
         # nothing here refers to itself: a long sweep's arrays are free as soon as they are not needed
         self.frequencies = Frequencies(words, errors, partial(_exact, groups, self.groups))
 
@@ -234,7 +234,7 @@ def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
     return x, y, z, x * y, x * z, y * z, yy + zz, xx + zz, xx + yy
 
 
-def _both(constants: Constants, *inputs: Any) -> Sequence[Any]:
+def _frequencies(constants: Constants, *inputs: Any) -> Sequence[Any]:
     """Return k and phi."""
     return constants(*inputs)[1:]
 
@@ -245,4 +245,4 @@ def _exact(groups: Sequence[Group], places: NDArray[np.int8], i: int) -> Sequenc
     place = i if isinstance(index, slice) else np.searchsorted(index, i)
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
     with workprec():
-        return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))
+        return _frequencies(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))

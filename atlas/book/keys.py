@@ -49,11 +49,11 @@ def layers() -> Data:
 
 def _explained(start: str, kinds: Mapping[str, type], end: str, says: str) -> Data:
     """Return a table of classes: name, first sentence, and attributes, the required ones in bold."""
-    rows = [(name, _first(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
+    rows = [(name, _first_sentence(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
     return Data(heads(start, "What it is", end), tuple(rows), says)
 
 
-def _first(kind: type) -> str:
+def _first_sentence(kind: type) -> str:
     """Return the first sentence of a docstring, in Markdown."""
     sentence = re.split(r"[.:;]*(?:\. (?=[A-Z`])|$)", " ".join(str(kind.__doc__).split()), maxsplit=1)[0]
     return re.sub(r"``(.+?)``", r"`\1`", sentence)

@@ -71,7 +71,7 @@ def _consistent(report: Report, folder: Path) -> Report:
     tables = ((path, block.id) for path, block in blocks if isinstance(block, Table | Listing | Recorded))
     _unique(tables, "tables", "id")
     for path, block in blocks:
-        _called(block, report, path)
+        _check_reference(block, report, path)
     for name in report.related:
         if name not in names():
             raise SchemaError("related", str(unknown("report", name, names(), "in reports/")), name)
@@ -110,7 +110,7 @@ def _filled(report: Report, folder: Path) -> Report:
     return replace(report, pages=pages, style=",".join(styles), gallery=chosen(report.gallery, folder))
 
 
-def _called(block: Block, report: Report, path: tuple[int, int]) -> None:
+def _check_reference(block: Block, report: Report, path: tuple[int, int]) -> None:
     """Raise for a body, a field or a set of parameters that a block names and that is not there."""
     records = report.parameters
     for kind, names_there, key, words in (

@@ -23,7 +23,7 @@ def pictures(report: Report) -> dict[str, Picture]:
             if not isinstance(block, Figure):
                 continue
             try:
-                for name, picture in _wanted(block, report):
+                for name, picture in _pictures_of_block(block, report):
                     if name not in by_key:
                         picture.stem = f"{len(by_key) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
                         by_key[name] = picture
@@ -31,7 +31,7 @@ def pictures(report: Report) -> dict[str, Picture]:
                 raise AtlasError(f"{report.place(page, place)}: {error}") from error
     recipes_shown = {picture.recipe for picture in by_key.values()}
     for block in (Figure(recipe=name) for name in report.gallery if name not in recipes_shown):
-        for name, picture in _wanted(block, report):
+        for name, picture in _pictures_of_block(block, report):
             picture.stem = f"gallery-{Path(block.recipe).stem}"
             by_key[name] = picture
     return by_key
@@ -39,7 +39,7 @@ def pictures(report: Report) -> dict[str, Picture]:
 
 def keys(block: Figure, report: Report) -> list[str]:
     """Return the keys of the pictures of a figure block: the same for the same recipe, parameters and renderer."""
-    return [name for name, _ in _wanted(block, report)]
+    return [name for name, _ in _pictures_of_block(block, report)]
 
 
 def on_cards(report: Report) -> set[str]:
@@ -53,7 +53,7 @@ def on_cards(report: Report) -> set[str]:
     return {keys(block, report)[0] for block in blocks if block}
 
 
-def _wanted(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
+def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
     """Go through the pictures of a figure block with their keys; a misspelt parameter is an error."""
     recipe, failure = _recipe(block.recipe)
     parameters = _parameters(block, recipe, report)

@@ -65,7 +65,7 @@ def _check(raw: Any, kind: inspect.Type, place: str, key: str) -> None:
         case inspect.AnyType():
             _check_finite(raw, place, key)
         case _ if not _fits(raw, kind):
-            raise SchemaError(place, f"must be {_words(kind)}, not {_shown(raw)}", key)
+            raise SchemaError(place, f"must be {_words(kind)}, not {_value_text(raw)}", key)
 
 
 def _check_finite(raw: Any, place: str, key: str) -> None:
@@ -89,7 +89,7 @@ def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> No
         kind = next((x for x in kinds_of_value if isinstance(x, inspect.StrType) == is_text), kinds_of_value[0])
         return _check(raw, kind, place, key)
     if not isinstance(raw, dict):
-        raise SchemaError(place, f"must be a table, not {_shown(raw)}", key)
+        raise SchemaError(place, f"must be a table, not {_value_text(raw)}", key)
     if "kind" not in raw:
         raise SchemaError(place, f"it lacks the key 'kind', one of {', '.join(kinds)}")
     if not isinstance(raw["kind"], str) or raw["kind"] not in kinds:
@@ -161,7 +161,7 @@ def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
     return "a table"
 
 
-def _shown(raw: Any) -> str:
+def _value_text(raw: Any) -> str:
     """Show a wrong value, cut if it is long."""
     text = repr(raw)
     return text if len(text) <= MAX_VALUE_LENGTH else f"{text[:MAX_VALUE_LENGTH]}…"

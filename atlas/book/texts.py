@@ -279,15 +279,15 @@ def _tied(nodes: Tree) -> Tree:
     """
     before, tied = "", list[Any]()
     for node, after in zip(nodes, [*nodes[1:], {}], strict=False):
-        counted = before in _COUNTED and _COUNT.match(_said(after))
-        measured = before[-1:].isdigit() and _UNIT.fullmatch(_said(after))
+        counted = before in _COUNTED and _COUNT.match(_element_text(after))
+        measured = before[-1:].isdigit() and _UNIT.fullmatch(_element_text(after))
         ties = node == {"t": "Space"} and (counted or measured)
         tied.append({"t": "Str", "c": "\u00a0"} if ties else node)
-        before = before if node.get("t") == "RawInline" else _said(node)
+        before = before if node.get("t") == "RawInline" else _element_text(node)
     return tied
 
 
-def _said(node: Any) -> str:
+def _element_text(node: Any) -> str:
     """Return the text of a word, the TeX of a formula, or the last word of a link."""
     content = node.get("c")
     match node.get("t"):
@@ -296,7 +296,7 @@ def _said(node: Any) -> str:
         case "Math":
             return str(content[1])
         case "Link":
-            return _said(content[1][-1]) if content[1] else ""
+            return _element_text(content[1][-1]) if content[1] else ""
     return ""
 
 

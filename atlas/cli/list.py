@@ -91,7 +91,7 @@ def _figures(broken: list[str]) -> Listing:
     }
     rows = []
     for name, recipe in loaded_recipes.items():
-        words = [_shown(*parameter) for parameter in record["parameters"][name].items()]
+        words = [_parameter_word(*parameter) for parameter in record["parameters"][name].items()]
         words += [f"(needs {recipe.narrowest:g} mm)"] * bool(recipe.narrowest)
         rows.append((name, recipe.title, "  ".join(words)))
     return record, rows
@@ -218,7 +218,7 @@ def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
     }
 
 
-def _shown(name: str, record: dict[str, Any]) -> str:
+def _parameter_word(name: str, record: dict[str, Any]) -> str:
     """Write a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
     from atlas.pictures.parameters import typed
 

@@ -44,7 +44,7 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
     limit = sum(Fraction(x) * c for x, c in zip(doubles, factors, strict=True) if c > 0) or Fraction(2)
     while Fraction(doubles[largest_place]) > limit:
         doubles[largest_place] = math.nextafter(doubles[largest_place], 0.0)
-    new = tuple(_moved(x, d, f) for x, d, f in zip(numbers, doubles, moved_sizes, strict=True))
+    new = tuple(_with_value(x, d, f) for x, d, f in zip(numbers, doubles, moved_sizes, strict=True))
     _tell(
         param, numbers, new, "moments of no body", "the plane body next to them" if len(numbers) > 1 else "the largest"
     )
@@ -68,7 +68,7 @@ def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
     is_near = all(abs(move) < unit for move, unit in zip(moves, units, strict=True))
     if not (1e-14 * size < beyond < LARGEST * size and is_near):
         return value
-    new = tuple(_moved(x, float(x) + move, None) for x, move in zip(value, moves, strict=True))
+    new = tuple(_with_value(x, float(x) + move, None) for x, move in zip(value, moves, strict=True))
     _tell(param, value, new, "the tensor of no body", "the plane body next to it")
     return new
 
@@ -77,7 +77,7 @@ def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any
     """Return a typed quaternion, divided by its length if that differs from 1 in its last digits."""
     if value is None or not ROUNDED < abs((length := math.hypot(*value)) - 1) < LENGTH:
         return value
-    new = tuple(_moved(x, float(x) / length, None) for x in value)
+    new = tuple(_with_value(x, float(x) / length, None) for x in value)
     _tell(param, value, new, f"a quaternion of the length {length:.6g}", "divided by it")
     return new
 
@@ -97,7 +97,7 @@ def _unit(x: Typed) -> Fraction:
     return unit * _exact(x) / Fraction(text)
 
 
-def _moved(x: Typed, value: float, exact: Fraction | None) -> Typed:
+def _with_value(x: Typed, value: float, exact: Fraction | None) -> Typed:
     """Return a typed number with another value."""
     exact = Fraction(value) if exact is None else exact
     return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")

@@ -79,8 +79,8 @@ def of_fit(file: Path, **options: Any) -> int:
     from atlas.book.fit_report import Fitted
     from atlas.fitting import fit_file
 
-    typed_options = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
-    called, given = _called(options), dict(arguments(options))
+    typed_options = _typed_options((options.keys() - OWN) | {"file"}, {"file": file, **options})
+    called, given = _file_name(options), dict(arguments(options))
     found = {name: p for name, p in fitted(file, options).parameters.items() if not p.expr}
     given["fix"] = {name: p.value for name, p in found.items() if not p.vary}
     given["params"] = {name: p.value for name, p in found.items() if p.vary}
@@ -202,7 +202,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     from atlas.book.page import Asked
 
     body.check_speeds(options)
-    typed_options = _typed(options.keys() - OWN, options)
+    typed_options = _typed_options(options.keys() - OWN, options)
     options_asked = dict(
         zip(
             (p.name for p in family.parameters),
@@ -231,7 +231,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
         records["body"] = _body(options)
     if in_plane(family):
         records["field"] = _field(options)
-    title, digits, called = options["title"] or "", options["digits"], _called(options)
+    title, digits, called = options["title"] or "", options["digits"], _file_name(options)
     if uncertain(options):
         records |= dict(zip(("deviations", "deviation_notes"), _deviations(family, options), strict=True))
     return Asked(
@@ -247,7 +247,7 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
     return [[line.says, f"`{line.symbol}`", line.value, line.unit] for line in lines], spread.notes
 
 
-def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+def _typed_options(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     """Return the typed options among these names, each with its words as typed."""
     context = click.get_current_context()
     words_by_option: dict[str, tuple[str, ...]] = {}
@@ -261,7 +261,7 @@ def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[s
     return words_by_option
 
 
-def _called(options: dict[str, Any]) -> str:
+def _file_name(options: dict[str, Any]) -> str:
     """Return the name of the files, empty if none was given. Raises click.UsageError for other characters."""
     if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
         raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
@@ -309,7 +309,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
         return {
-            "title": f"field {_shown(options['field'] or (float(B2), float(B3)))}",
+            "title": f"field {_field_words(options['field'] or (float(B2), float(B3)))}",
             "prime": [*map(_exact, (B2, B3))],
         }
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
@@ -320,14 +320,14 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     )
     unit = {"SI": "T", "Gaussian": "G"}[system]
     return {
-        "title": f"field of {_shown(options['magnetic'], unit)}",
+        "title": f"field of {_field_words(options['magnetic'], unit)}",
         "system": system,
         "B": [0.0, *_plain((x, y))],
         **field,
     }
 
 
-def _shown(field: Any, unit: str = "") -> str:
+def _field_words(field: Any, unit: str = "") -> str:
     """Return a field in words: its strength and angle as they were typed, or its components."""
     if isinstance(field, Inclined):
         return " at ".join(x.text for x in field.parts)

@@ -85,7 +85,7 @@ def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
             table.add_column(no_wrap=not words, min_width=None if words else max(map(len, cells)))
         for cells in quantities:
             table.add_row(*(Text(cell) for cell in cells))
-        yield _whole(console, table)
+        yield _uncut_table(console, table)
 
 
 def _tables(console: "Console", printout: Printout) -> Iterator[str]:
@@ -102,7 +102,7 @@ def _tables(console: "Console", printout: Printout) -> Iterator[str]:
             table.add_column(Text(name), justify=printout.justify, no_wrap=True, min_width=width)
         for row in piece:
             table.add_row(*(Text(cell) for cell in row))
-        head, lines = 3 * bool(lines), _whole(console, table).splitlines(keepends=True)
+        head, lines = 3 * bool(lines), _uncut_table(console, table).splitlines(keepends=True)
         yield "".join(lines[head:-1])
     yield "".join(lines[-1:])
 
@@ -120,7 +120,7 @@ def _text(console: "Console", count: Any, **how: Any) -> str:
     return printed.get()
 
 
-def _whole(console: "Console", table: "Table") -> str:
+def _uncut_table(console: "Console", table: "Table") -> str:
     """Return a table with none of its numbers cut: where they need more room than there is, the lines get longer."""
     from rich.measure import Measurement
 

@@ -179,7 +179,9 @@ def swept(**options: Any) -> None:
     columns, units = _listed(family, listing) if listing else ({}, set())
     _once([*columns, *parameters], f"{listing} and elsewhere")
     inputs = columns | parameters
-    start = [max((abs(float(x)) for x in _several(inputs.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)]
+    start = [
+        max((abs(float(x)) for x in _parameter_values(inputs.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)
+    ]
     body.check_speeds(options, start if any(start) else None)
     if request.out is None:
         raise click.UsageError("--out is missing: name the file that the table goes to.")
@@ -242,7 +244,7 @@ def _meant(family: str, names: set[str]) -> str:
     return "general" if "omega1" in names else "elementary"
 
 
-def _several(values: Any) -> Any:
+def _parameter_values(values: Any) -> Any:
     """Return the values of a parameter, one or several."""
     return [values] if isinstance(values, float | int | Fraction) else values
 

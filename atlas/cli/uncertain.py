@@ -24,7 +24,7 @@ class UncertainAnswer:
         """Return the answer to options with uncertainties, which are independent of one another."""
         inputs, middle = uncertain(options), answer(options)
         with bar("draws") as tell:
-            deviations = spread(middle, lambda steps: answer(_moved(options, inputs, steps)), len(inputs), tell)
+            deviations = spread(middle, lambda steps: answer(_moved_options(options, inputs, steps)), len(inputs), tell)
         return cls(middle, deviations)
 
     @property
@@ -55,19 +55,19 @@ class UncertainAnswer:
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
     """Return the numbers that have an uncertainty, each with the name of its option and its place in it."""
-    values = ((name, _parts(value)) for name, value in options.items())
+    values = ((name, _typed_numbers(value)) for name, value in options.items())
     return [(name, i, x) for name, numbers in values for i, x in enumerate(numbers) if getattr(x, "sigma", 0.0)]
 
 
-def _parts(value: Any) -> tuple[Any, ...]:
+def _typed_numbers(value: Any) -> tuple[Any, ...]:
     """Return the numbers that were typed for an option."""
     return getattr(value, "parts", parts_of(value))
 
 
-def _moved(options: dict[str, Any], inputs: list[tuple[str, int, Typed]], steps: Any) -> dict[str, Any]:
+def _moved_options(options: dict[str, Any], inputs: list[tuple[str, int, Typed]], steps: Any) -> dict[str, Any]:
     """Return the options with uncertain numbers moved by steps of their standard deviations."""
     new_options = dict(options)
     for (name, i, x), step in zip(inputs, steps, strict=True):
-        new, numbers = x.moved(x + step * x.sigma), _parts(before := new_options[name])
+        new, numbers = x.moved(x + step * x.sigma), _typed_numbers(before := new_options[name])
         new_options[name] = type(before)((*numbers[:i], new, *numbers[i + 1 :])) if isinstance(before, tuple) else new
     return new_options

@@ -212,7 +212,7 @@ class Reader:
         for option in self.words.options:
             param = self.known.get(option.name)
             if param is not None and (param.multiple or (param.name == "grid" and ":" in "".join(option.values))):
-                yield from self._several(option, param)
+                yield from self._repeated_options(option, param)
                 continue
             if param is not None and param.nargs > 1:
                 vector, words = self._vector(option, param)
@@ -241,7 +241,7 @@ class Reader:
         return click.NoSuchOption(name, possibilities=get_close_matches(name, self.known))
 
     @staticmethod
-    def _several(option: Option, param: click.Option) -> Iterator[str]:
+    def _repeated_options(option: Option, param: click.Option) -> Iterator[str]:
         """Yield the option before each of its values; numbers in one word, since click's time is quadratic in words."""
         if not option.values:
             raise click.UsageError(f"{option.name} takes {param.metavar or 'a value'}; found none.")

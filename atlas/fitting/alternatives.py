@@ -165,7 +165,10 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
     for S, body_turn in product([identity] if kind in IN_BODY else group, group):
         if changes(S, body_turn, 3) or changes(S, body_turn, data.t.size):
             continue
-        candidates = [*_turned(problem, values, S, body_turn, omega), *_with_field_reversed(problem, motion, values)]
+        candidates = [
+            *_turned_parameters(problem, values, S, body_turn, omega),
+            *_with_field_reversed(problem, motion, values),
+        ]
         for solution in candidates:
             if any(_same(problem, solution, state_known) for state_known in states):
                 continue
@@ -193,7 +196,7 @@ def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Itera
         yield new
 
 
-def _turned(
+def _turned_parameters(
     problem: Problem, values: Values, S: FloatArray, body_turn: FloatArray, omega: FloatArray
 ) -> Iterator[dict[str, float]]:
     """Yield the parameters of the motion S R S', none where they are none of the family; of tops both signs of n."""

@@ -62,7 +62,7 @@ def _started(p: Values) -> dict[str, FloatArray]:
         slopes = _on_hyperbola(r, np.stack([K1, K2, K3]), w).imag / h
     if not np.isfinite(slopes).all():
         raise AtlasError("On a vertical line of the hyperbola omega2 and the field do not tell Omega.")
-    field_by_attitude = A.T @ np.cross(field, _left(vector(p, ATTITUDE)), axisb=0, axisc=0)
+    field_by_attitude = A.T @ np.cross(field, _left_jacobian(vector(p, ATTITUDE)), axisb=0, axisc=0)
     by = {"ratio": slopes[:, 0], "omega2": slopes[:, 4]}
     return by | dict(
         zip((*B, *ATTITUDE), [*(slopes[:, 1:4] @ A.T).T, *(slopes[:, 1:4] @ field_by_attitude).T], strict=True)
@@ -183,7 +183,7 @@ class Model:
         A change da of the rotation vector turns the start by J da. On the hyperbola (67) a parameter changes Omega as
         `start` says. Of a direction n of any length the part of dn across n counts, as the field of `sensitivity`.
         """
-        blocks = [(ATTITUDE, dict(zip(ATTITUDE, _left(vector(p, ATTITUDE)).T, strict=True)))]
+        blocks = [(ATTITUDE, dict(zip(ATTITUDE, _left_jacobian(vector(p, ATTITUDE)).T, strict=True)))]
         if self.has_direction:
             n = direction_of(p)
             slopes = (np.eye(3) - np.outer(n, n)) / np.linalg.norm(vector(p, DIRECTION))
@@ -208,7 +208,7 @@ class Model:
             return self.make(p), 0.0
 
 
-def _left(a: FloatArray) -> FloatArray:
+def _left_jacobian(a: FloatArray) -> FloatArray:
     """Return J with R(a + da) = (1 + [J da]x) R(a)."""
     angle = float(np.linalg.norm(a))
     hat = np.cross(np.eye(3), a)

@@ -97,10 +97,10 @@ def turned_by(v: list[Any], *turns: FloatArray) -> list[Any]:
             x = np.matvec(M, x)
         return [plain(x[..., i] + 0.0) for i in range(3)]
     rows = [x for M in turns for x in np.moveaxis(M if M.shape == (4,) else rows_of_matrix(M), -1, 0)]
-    return given(_turned, *rows, *v, unit=slice(len(rows), None), count=3)
+    return given(_turned_vectors, *rows, *v, unit=slice(len(rows), None), count=3)
 
 
-def _turned(*numbers: Number) -> tuple[Number, ...]:
+def _turned_vectors(*numbers: Number) -> tuple[Number, ...]:
     *quaternions, x, y, z = numbers
     v: Any = (x, y, z)
     for i in range(0, len(quaternions), 4):

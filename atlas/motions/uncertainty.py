@@ -288,7 +288,7 @@ class UncertainMotion:
         variables = dict.fromkeys(v for x in self._inputs.values() for v, _ in x.derivatives.items() if v.std_dev)
         self._variables = list(variables)
         self._moved = dict[tuple[float, ...], Any]()
-        self.nominal_value = self._at((0.0,) * len(self._variables))
+        self.nominal_value = self._moved_motion((0.0,) * len(self._variables))
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *dir(self.nominal_value)]
@@ -305,15 +305,17 @@ class UncertainMotion:
             raise AttributeError(name)
         value = getattr(self.nominal_value, name)
         if callable(value):
-            return lambda *args, **how: self._carried(name, lambda motion: getattr(motion, name)(*args, **how))
-        return self._carried(name, lambda motion: getattr(motion, name))
+            return lambda *args, **how: self._uncertain_quantity(
+                name, lambda motion: getattr(motion, name)(*args, **how)
+            )
+        return self._uncertain_quantity(name, lambda motion: getattr(motion, name))
 
     @cached_property
     def _units(self) -> list[Any]:
         """Independent inputs less their nominal values, in standard deviations."""
         return [(v - v.nominal_value) / v.std_dev for v in self._variables]
 
-    def _at(self, steps: Steps) -> Any:
+    def _moved_motion(self, steps: Steps) -> Any:
         """Return the motion for steps of the independent inputs; those of derivatives are kept."""
         key = tuple(steps)
         if key not in self._moved:
@@ -331,7 +333,7 @@ class UncertainMotion:
             self._moved[key] = motion
         return self._moved[key]
 
-    def _carried(self, name: str, get: Callable[[Any], Any]) -> Any:
+    def _uncertain_quantity(self, name: str, get: Callable[[Any], Any]) -> Any:
         """Return a quantity of the motion with its standard deviations."""
         import numpy as np
 
@@ -346,7 +348,7 @@ class UncertainMotion:
             values = np.asarray(values)
             return {"samples": [{name: row} for row in values.reshape(-1, *values.shape[-1:] or (1,))]}
 
-        found = spread(rows(nominal), lambda steps: rows(get(self._at(steps))), len(self._variables))
+        found = spread(rows(nominal), lambda steps: rows(get(self._moved_motion(steps))), len(self._variables))
         for note in found.notes:
             warnings.warn(note, AtlasWarning, stacklevel=3)
         number = partial(self._number, found)

@@ -61,7 +61,7 @@ def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> 
     if family is None:
         return _flight(subject, parameters)
     recipe = recipes.load(figure or known[0])
-    own = _own(subject, family)
+    own = _object_parameters(subject, family)
     for key in parameters:
         if key in own:
             raise AtlasError(f"{key} is that of the {name}; make another one for another {key}.")
@@ -84,7 +84,7 @@ def alone(scene: Scene, panel: int) -> Scene:
     return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())
 
 
-def _own(subject: Shown, family: Family) -> dict[str, Any]:
+def _object_parameters(subject: Shown, family: Family) -> dict[str, Any]:
     """Return the parameters of an object by the names of its family: as it was given them, or as it has them."""
     if not subject.made_by and len(subject.arguments) == len(family.parameters):
         arguments = dict(zip((p.name for p in family.parameters), subject.arguments.values(), strict=True))

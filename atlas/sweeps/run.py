@@ -175,7 +175,7 @@ def _compute(
     names = table.whole_parts()
     spans = Spans(plan, names, rows, workers)
     done = plan.count - spans.rows_left
-    with closing(_parts(plan, spans, table, executor, workers)) as computed:
+    with closing(_parts_in_order(plan, spans, table, executor, workers)) as computed:
         for name, data, seconds in computed:
             if data is not None:
                 table.parts.write(name, data)
@@ -253,7 +253,7 @@ def width(executor: Any, jobs: int | None) -> int:
     return int(getattr(executor, "_max_workers", processors()))
 
 
-def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
+def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
     """Call `make` for each part, here or, a few ahead of the results, elsewhere; yield the results in order.
 
     `executor` is one, a client of Dask, or None: then the parts are made here, and from where it is worth it by so many

@@ -130,7 +130,7 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
     Shaded figures are drawn first, since they take longest. Raises OSError when the cache can't be written.
     """
     missing = sorted((build for build in figures if build.missing()), key=lambda build: build.renderer != "shaded")
-    for done, (figure, failure) in enumerate(_drawn(missing, cache, jobs), len(figures) - len(missing) + 1):
+    for done, (figure, failure) in enumerate(_finished_figures(missing, cache, jobs), len(figures) - len(missing) + 1):
         figure.new, figure.failure = True, failure
         figure.take(cache)
         if figure.missing() and not failure:
@@ -138,7 +138,7 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
         progress(done, len(figures), figure.stem)
 
 
-def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
+def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
     """Draw figures, and go through them as they are finished, each with the reason if it failed.
 
     If a worker dies, unfinished figures are drawn again by a single one, which is no fork, so that it is known which

@@ -50,7 +50,7 @@ def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], wor
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
     places = files.free(digests, place, before)
     renamed = {path: new for path, new in places.items() if new != path}
-    foreign_paths = _foreign(place, before, {*places.values()})
+    foreign_paths = _user_files(place, before, {*places.values()})
     lines = {line for line in before if line[66:] in renamed}
     lines |= {f"{digests[path]}  {name}" for path, new in places.items() for name in (path, new)}
     content = {new: inside[path] for path, new in places.items()}
@@ -75,7 +75,7 @@ def replace(place: Path, contents: Mapping[str, bytes]) -> None:
     publish({"folder": inside}, place.parent, place.name)
 
 
-def _foreign(place: Path, lines: set[str], names: set[str]) -> list[str]:
+def _user_files(place: Path, lines: set[str], names: set[str]) -> list[str]:
     """Return the paths in a folder, other than these files, that the build did not write."""
     paths = (path.relative_to(place).as_posix() for path in place.rglob("*"))
     return sorted(name for name in paths if name not in {WRITTEN, *names} and files.edited(place, name, lines))

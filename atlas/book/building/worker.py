@@ -79,7 +79,7 @@ def _draw(task: Task) -> None:
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
     figure = not target and {*files} >= {version for version in (scene, small) if version}
     figures = list(files.values()) if figure else []
-    contents |= _beside(task, scene, figures)
+    contents |= _page_files(task, scene, figures)
     placed = arranged(scene, target) if target else scene
     facts = {
         "title": scene.title,
@@ -103,7 +103,7 @@ def _draw(task: Task) -> None:
         cache.put(key, json.dumps(facts).encode() + b"\n" + contents[kind])
 
 
-def _beside(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
+def _page_files(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
     """Return the files other than pictures: the scene and its movement for the viewer of a page, and its points."""
     contents = {}
     if "scene" in task.keys:

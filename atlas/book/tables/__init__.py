@@ -32,11 +32,11 @@ def compute(name: str, request: Request) -> Data:
         raise unknown("table", name, TABLES)
     arguments = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
     if not arguments.keys() - {"request"}:
-        _given(StrictStruct, request)  # no further parameters
-    return TABLES[name](**{argument: _given(kind, request) for argument, kind in arguments.items()})
+        _converted_request(StrictStruct, request)  # no further parameters
+    return TABLES[name](**{argument: _converted_request(kind, request) for argument, kind in arguments.items()})
 
 
-def _given(kind: type, request: Request) -> Any:
+def _converted_request(kind: type, request: Request) -> Any:
     """Return a request, or its further parameters as an object of the register or as another record."""
     if kind is Request:
         return request

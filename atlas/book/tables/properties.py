@@ -164,7 +164,7 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     case = item.family.case(item.kernels()) if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
     says = f"{q.name} {says}" if says.startswith("of ") else says
-    for place, (name, words, text) in enumerate(_parts(q, texts)):
+    for place, (name, words, text) in enumerate(_components(q, texts)):
         value, certainty = _printed(item, q, text, place if isinstance(texts, list | tuple) else None, digits)
         unit = item.unit(q.unit) if isinstance(value, Number) else ""
         yield (
@@ -187,7 +187,7 @@ def _texts(item: Thing, q: Quantity, digits: int) -> Any:
     return certified(lambda: q.value(exact, exact=True), digits, spare=SPARE_BITS)
 
 
-def _parts(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
+def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
     """Return the components: name, words of its own, text."""
     if not isinstance(values, list | tuple):
         return [(q.name, "", values)]

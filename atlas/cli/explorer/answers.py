@@ -108,7 +108,7 @@ def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
 
 def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
     """Return a quantity in doubles, and its error bound in words."""
-    text = _joined(q, _written(q.value(motion)))
+    text = _joined(q, _number_text(q.value(motion)))
     if not re.search(r"\d", text):
         return text, EXACT
     return text, f"double, within {ulps:g} ulp" if ulps else "double, no promise"
@@ -121,10 +121,10 @@ def _joined(q: Quantity, value: Any) -> str:
     return "; ".join(map(str, map(q.text, value))) if q.lines else str(q.text(value))
 
 
-def _written(value: Any) -> Any:
+def _number_text(value: Any) -> Any:
     """Return the text of a number, of each of several; a name stays."""
     if isinstance(value, complex):
-        return [_written(value.real), _written(value.imag)]
+        return [_number_text(value.real), _number_text(value.imag)]
     if isinstance(value, tuple | list) or np.ndim(value):
-        return [_written(item) for item in value]
+        return [_number_text(item) for item in value]
     return value if isinstance(value, str | None) else f"{float(value):.6g}"

@@ -168,7 +168,7 @@ def _same(one: str, other: str) -> bool:
     return hmac.compare_digest(one.encode(), other.encode())
 
 
-def _asked(server: Explorer, query: dict[str, str]) -> Subject:
+def _requested_subject(server: Explorer, query: dict[str, str]) -> Subject:
     """Return the subject that a query names: the one of the start or a listed one, never a file."""
     name = query.pop("subject", "")
     return subject_or_file(name) if name == server.start else subject(name)
@@ -189,13 +189,13 @@ def _subjects(server: Explorer, _query: dict[str, str]) -> Content:
 
 
 def _sliders(server: Explorer, query: dict[str, str]) -> Content:
-    chosen = _asked(server, query)
+    chosen = _requested_subject(server, query)
     return json.dumps({"title": chosen.title, "sliders": [asdict(slider) for slider in chosen.sliders]}).encode(), JSON
 
 
 def _state(server: Explorer, query: dict[str, str]) -> Content:
     proven = query.pop("proven", "") == "1"
-    topic = _asked(server, query)
+    topic = _requested_subject(server, query)
     answer = answers.state(topic, answers.values_of(topic, query), proven=proven)
     return json.dumps(answer, separators=(",", ":")).encode(), JSON
 
@@ -204,7 +204,7 @@ def _figure(server: Explorer, query: dict[str, str]) -> Content:
     kind = query.pop("format", "svg")
     if kind not in answers.FILES:
         raise AtlasError(f"no figure can be saved as {kind!r}; known: {', '.join(answers.FILES)}")
-    topic = _asked(server, query)
+    topic = _requested_subject(server, query)
     return answers.picture(topic, answers.values_of(topic, query), kind), answers.FILES[kind]
 
 

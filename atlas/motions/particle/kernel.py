@@ -151,7 +151,7 @@ class ParticleMotion(CarriesUncertainty, Shown):
         One of `no force`, `electric field alone`, `magnetic field alone`, `parallel fields`, `crossed fields`
         (orthogonal) and `oblique fields`.
         """
-        return self._each("case")
+        return self._of_each_particle("case")
 
     @property
     def kind(self) -> NameOrArray:
@@ -163,12 +163,12 @@ class ParticleMotion(CarriesUncertainty, Shown):
         `cycloid` (equal), `curtate trochoid` (less), `circle` (V = 0), `straight line` (a = 0), `point` (both zero).
         Without a magnetic force: `parabola`, `straight line` or `point`.
         """
-        return self._each("kind")
+        return self._of_each_particle("kind")
 
     @property
     def cyclotron_frequency(self) -> FloatOrArray:
         """Frequency omega = mu |B|/c of (97), with the sign of mu, in rad/time."""
-        return self._each("cyclotron_frequency")
+        return self._of_each_particle("cyclotron_frequency")
 
     @property
     def period(self) -> FloatOrArray:
@@ -185,22 +185,22 @@ class ParticleMotion(CarriesUncertainty, Shown):
     @property
     def prime(self) -> FloatArray:
         """Field B' = mu B/(2c), (32), in which a body carried with the particle rotates; (..., 3), in 1/time."""
-        return np.asarray(self._each("prime"))
+        return np.asarray(self._of_each_particle("prime"))
 
     @property
     def drift(self) -> FloatArray:
         """Drift velocity c [E, B]/B^2 of the centre O(t) of (99) across B, for either sign of mu; shape (..., 3)."""
-        return np.asarray(self._each("drift"))
+        return np.asarray(self._of_each_particle("drift"))
 
     @property
     def radius(self) -> FloatOrArray:
         """Radius a of the circle around the drifting centre, (97)."""
-        return self._each("radius")
+        return self._of_each_particle("radius")
 
     @property
     def axes(self) -> FloatArray:
         """Frame of figure Magn, rows e1, e2, e3: e3 along B, e2 along E_perp, e1 along [E, B]; shape (..., 3, 3)."""
-        return np.asarray(self._each("axes"))
+        return np.asarray(self._of_each_particle("axes"))
 
     def position(self, t: RealArrayLike) -> FloatArray:
         """Position y(t), eq. (101) with (93) and (98).
@@ -262,7 +262,7 @@ class ParticleMotion(CarriesUncertainty, Shown):
         """
         return self._spread(Charge.fill_centre, t)
 
-    def _each(self, name: str) -> NDArray[Any] | Any:
+    def _of_each_particle(self, name: str) -> NDArray[Any] | Any:
         """Return an attribute of each particle, shape (..., its own); a number or a name if there is but one."""
         values = getattr(self._all, name)
         if self.shape:

@@ -174,12 +174,12 @@ class Charge:
     @cached_property
     def velocity_parts(self) -> FloatArray:
         """Rows v_par, v_perp and [n, v_perp], (3, 3) or (3, 3, m); without a magnetic force, v alone."""
-        return self._parts("velocity_parts", np.array(self.inputs[8:11]))
+        return self._row_components("velocity_parts", np.array(self.inputs[8:11]))
 
     @cached_property
     def acceleration_parts(self) -> FloatArray:
         """The same of a = mu E."""
-        return self._parts("acceleration_parts", self.mu * np.array(self.inputs[2:5]))
+        return self._row_components("acceleration_parts", self.mu * np.array(self.inputs[2:5]))
 
     @cached_property
     def phases(self) -> Phases:
@@ -238,7 +238,7 @@ class Charge:
         with workprec():
             return particle.rate(*(rational(float(x)) for x in inputs))
 
-    def _parts(self, name: str, undivided: FloatArray) -> FloatArray:
+    def _row_components(self, name: str, undivided: FloatArray) -> FloatArray:
         parts = self._over(name, 9)
         components = parts.reshape(3, 3, *parts.shape[1:])
         without = np.zeros_like(components)
