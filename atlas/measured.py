@@ -91,13 +91,13 @@ def heading(cell: str) -> tuple[str, str]:
 
 @cache
 def size(unit: str, option: str) -> Fraction | float:
-    """Return how many of the unit of an option a unit is. Raises AtlasError for one of something else."""
+    """Return a unit over that of an option, a factor. Raises AtlasError for a unit of another dimension."""
     value, exact = in_si(Fraction(1), unit.removeprefix("1"), option)
     return value if exact is None else exact
 
 
 def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
-    """Return how many of the base units, each to a power, a unit is. Raises AtlasError for one that there is not."""
+    """Return a unit as a factor and the powers of the base units. Raises AtlasError for an unknown unit."""
     factor, powers, place = Fraction(1), Counter[str](), 0
     while place < len(unit):
         factor_of_unit = FACTOR.match(unit, place)

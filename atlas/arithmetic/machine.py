@@ -31,7 +31,7 @@ def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int
 
 
 def processors() -> int:
-    """Return how many processors this process may use."""
+    """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -192,7 +192,7 @@ def value(cell: Cell, texts: Sequence[str]) -> str:
 
 
 def digits(number: str) -> int:
-    """Return how many significant digits a number has."""
+    """Return the number of significant digits of a number."""
     return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
 
 

@@ -172,7 +172,7 @@ class Fitted:
             }  # fmt: skip
 
     def _horizons(self) -> dict[str, Any]:
-        """Return how far ahead a prediction is good."""
+        """Return the table of times up to which predictions are good."""
         fit = self.fit
         unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
         rows = [

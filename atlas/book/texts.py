@@ -135,7 +135,7 @@ class Texts:
 
 
 def deepest(markdown: str) -> int:
-    """Return how deeply brackets, braces, quotations or list items are nested, closed or not, in code or not.
+    """Return the depth to which brackets, braces, quotations or list items are nested, closed or not, in code or not.
 
     Brackets are counted by paragraph, in which alone they meet; an escaped one is none.
     """

@@ -181,7 +181,7 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
 
 
 def significant(text: str) -> int:
-    """Return how many significant digits a text has."""
+    """Return the number of significant digits in a text."""
     return len(text.partition("e")[0].replace("-", "").replace(".", "").lstrip("0"))
 
 

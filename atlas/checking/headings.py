@@ -111,7 +111,7 @@ def _hint(name: str) -> str:
 
 
 def _size(name: str, unit: str, place: str) -> Fraction:
-    """Return how many of the unit of a column, s or rad/s, that of its heading is, 1 where it has none."""
+    """Return the unit in the heading of a column over the column's own, s or rad/s; 1 where no unit is given."""
     if unit in PLAIN:
         return Fraction(1)
     option = OPTIONS.get(name, "")

@@ -47,7 +47,7 @@ PARTS, BEST = (0.5, 0.25, 0.75), 3
 
 
 def turns(data: Data, i: Any, j: Any) -> FloatArray:
-    """Return how much changes between two times, as an angle or in parts of the spread."""
+    """Return the change between two times, as an angle or in parts of the spread."""
     x = data.values
     if data.kind == "rotation":
         return np.asarray(np.linalg.norm(difference(x[j], x[i]), axis=-1))
@@ -243,7 +243,7 @@ def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
 
 
 def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
-    """Return how many of the data a motion follows without losing a turn, at least so many."""
+    """Return the number of data that a motion follows without losing a turn, at least `least`."""
     problem, n = crowd.problem, len(order)
     if least >= n:
         return n

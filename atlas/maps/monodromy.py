@@ -225,7 +225,7 @@ def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
 
 
 def _room(depth: FloatArray) -> float:
-    """Return how far an energy is above the critical ones of its well; 0 without a well, and where there are two."""
+    """Return an energy less the highest critical one of its well; 0 without a well, and where there are two."""
     ends = np.flatnonzero(np.diff(depth > 0, prepend=False, append=False))
     if len(ends) != 2:
         return 0.0

@@ -245,7 +245,7 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
 
 
 def width(executor: Any, jobs: int | None) -> int:
-    """Return how many parts are computed at a time."""
+    """Return the number of parts that are computed at a time."""
     if executor is None:
         return jobs or processors()
     if hasattr(executor, "ncores"):

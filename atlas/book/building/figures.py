@@ -184,7 +184,7 @@ def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -
 
 
 def cores() -> int:
-    """Return how many workers there are when the user does not say: one a core, within reason."""
+    """Return the default number of workers: one a core, within reason."""
     return min(processors(), MAX_WORKERS)
 
 

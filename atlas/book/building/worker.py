@@ -130,7 +130,7 @@ def _compressed(content: bytes) -> bytes:
 
 
 def counted(scene: Scene) -> dict[str, int]:
-    """Return how many points of curves, regions and marks a scene holds, and faces of surfaces and cells of maps."""
+    """Return the number of points of curves, regions and marks in a scene, with faces of surfaces and cells of maps."""
     points = faces = 0
     for layer in (layer for panel in scene.panels for layer in panel.layers):
         if isinstance(layer, Curve | Points | Region):

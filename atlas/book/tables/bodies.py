@@ -70,7 +70,7 @@ def sizes(setup: SizeParameters) -> Data:
 
 
 def radiation(setup: SizeParameters) -> Data:
-    """Return how long such bodies take to radiate their energy away, by their flight and by their rotation."""
+    """Return the times in which such bodies radiate their energy away, by their flight and by their rotation."""
     _check(setup)
     rows = []
     for r in setup.radii:

@@ -260,7 +260,7 @@ def _three(value: float) -> str | Number:
 
 
 def fits() -> Data:
-    """Return how often fits find made-up motions without a start, how right their errors are, and their time."""
+    """Return the table of fits of made-up motions: shares found and within one standard error, median CPU time."""
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     return Data(
         heads("Family", "Measured", ("Found", "%"), ("Within one error", "%"), ("CPU time, median", "s")),
