@@ -58,7 +58,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
 
 
 def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
-    """Return the field B' of the drawn quadrics: as long as leaves each of them its place in the row."""
+    """Return (B2, B3) along `field`, so short that each quadric keeps its place in the row."""
     rightward = frame(Space((), azimuth=azimuth))[0]
     unit = SIZE / float(np.hypot(*field))
     prime = (unit * field[0], unit * field[1])

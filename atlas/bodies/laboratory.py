@@ -49,7 +49,7 @@ def damping_of_flight(mu: Any, mass: Any, rate: Any) -> float:
 
 
 def magnetic_power(mu: Any, across: Any, rate: Any) -> float:
-    """Power, in W, of the magnetic dipole mu m/2 of an angular momentum that precesses with ``rate`` (rad/s).
+    """Power in W of the dipole mu L/2 of an angular momentum whose part ``across`` precesses at ``rate`` (rad/s).
 
     ``across`` is its part across the axis of precession, in J s: P = (mu across rate^2/2)^2/(6 pi eps0 c^5).
     """

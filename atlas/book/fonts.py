@@ -94,7 +94,7 @@ Recall: TypeAlias = Callable[[Sequence[str], Callable[[], bytes]], bytes]
 
 
 def all_subsets(pages: Iterable[str], recall: Recall) -> dict[str, bytes]:
-    """Cut every face for the letters of some pages; the keys are file names.
+    """Return the WOFF bytes of every face cut to the letters of HTML pages, by file name.
 
     `recall` may return a font made from the same parts before: the face, its package and the characters.
     """

@@ -97,7 +97,7 @@ def anchored(page: str) -> str:
 
 
 def _with_sections(page: str) -> str:
-    """Let the contents of a report of one page be its sections."""
+    """Return the HTML of a report of one page with links to its sections in the contents."""
     sections = re.findall(r'<h2 id="([^"]+)">(.*?) <a class="anchor"', page)
     items = "\n".join(f'<li><span></span><a href="#{anchor}">{words}</a></li>' for anchor, words in sections)
     return re.sub(

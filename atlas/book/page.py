@@ -285,7 +285,7 @@ def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
 
 
 def _neighbours(request: Asked, exists: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
-    """Yield the table of objects near by, each with the command that makes its page, or a link to it."""
+    """Yield the heading "Neighbours" and a table: for each object near by the command of its page, or a link to it."""
     rows = [
         [
             words,

@@ -140,7 +140,7 @@ def _fits(raw: Any, kind: inspect.Type) -> bool:
 
 
 def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
-    """Return a type in words."""
+    """Return a type of `msgspec.inspect` in words for an error, as "a list, each item a number"."""
     match kind:
         case inspect.UnionType():
             return _words(next(inner for inner in kind.types if not isinstance(inner, inspect.NoneType)))

@@ -84,7 +84,7 @@ class Check:
         return f"{printable(self.file)}: {self.rows} row{'s' * (self.rows != 1)}, case {self.case}"
 
     def __str__(self) -> str:
-        """Return the grades as tables."""
+        """Return the grades as text: digits of each column, then drifts of constants, then notes."""
         none = f"{self._title}: nothing to compare with, so no column is graded"
         lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
         if self.drifts:

@@ -38,9 +38,10 @@ UNCERTAIN = re.compile(
 
 
 class Typed(float):
-    """A double with the text that was typed for it; converted to SI if the text has a unit.
+    """A double with the text that was typed for it, in SI if the text has a unit.
 
-    `sigma` is its standard deviation, if it has one, `exact` the number with its unit, None where that has pi in it.
+    `sigma` is its standard deviation, 0 for none; `exact` the value in SI as a fraction, None for a number without unit
+    and for a unit with pi in it.
     """
 
     text: str

@@ -193,7 +193,7 @@ def zero_field(options: Mapping[str, Any], size: int) -> dict[str, Any]:
 
 
 class Reader:
-    """Reader of the words of a command, by its parameters: yields words as click takes them."""
+    """Reader of the words of a command by its click parameters; `plain` yields them as click takes them."""
 
     def __init__(self, words: Words, params: Sequence[click.Parameter]) -> None:
         self.words, self.params = words, params

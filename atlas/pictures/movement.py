@@ -13,7 +13,7 @@ SEAM = 0.01
 
 
 def scene_at(scene: Scene, t: float) -> Scene:
-    """Return a scene at the time t; at t = 0 it is the scene itself."""
+    """Return a copy of a scene whose layers that ride on a path are moved to the time t of that path."""
     moves = {name: tuple(values[0] for values in path(np.array([t]))) for name, path in scene.paths.items()}
 
     def advanced(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:

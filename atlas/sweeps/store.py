@@ -92,7 +92,7 @@ class Folder:
         return part_names
 
     def holds(self, name: str) -> bool:
-        """Return whether a part has the contents that its name says."""
+        """Return whether a part is there and its rows and key have the digest that its name bears."""
         rows, _, digest = name.rpartition(".")[0].rpartition("-")
         with suppress(OSError), self.open(name) as file:
             return hashlib.file_digest(file, partial(hashlib.sha256, rows.encode())).hexdigest()[:32] == digest  # type: ignore[arg-type]  # a file

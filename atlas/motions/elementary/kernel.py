@@ -158,7 +158,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @kept
     def k(self) -> FloatOrArray:
-        """Frequency of precession about the field, k = omega2/B2hat by (79), in rad/time."""
+        """Frequency of precession about the field, k = omega2/B2hat by (79), B2hat = B2/|B|, in rad/time."""
         return self._scalars[1]
 
     @kept

@@ -234,7 +234,7 @@ class EllipticMotion(Nutating):
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of the body's turn about that axis, 2 pi over the period, or 0."""
+        """Mean rate, in rad/time, of the body's turn about the axis about which K goes round: 2 pi/period, or 0."""
         return self._mean_rates()[1]
 
     def _mean_rates(self) -> tuple[Real, Real]:

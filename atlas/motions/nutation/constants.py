@@ -146,7 +146,7 @@ def _swing(exact: Any) -> Any:
 
 
 def _crossed(solution: Solution) -> list[arb] | None:
-    """Return the phases at t = 0 on a separatrix: of kappa s between n and -n, else None."""
+    """Return the phases (2,) at t = 0 in turns on the separatrix from n to -n, zero and kappa s/2 pi; else None."""
     if not isinstance(solution.swing, ExactCrossing):
         return None
     return [ZERO, middle(solution.swing.kappa * solution.swing.origin / (2 * arb.pi()))]

@@ -173,7 +173,7 @@ class Swing:
         return np.asarray(changes)
 
     def _integral_of_nu(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return 2 at(sqrt(|A|) o/e)/sqrt(|A|), and its derivative in A."""
+        """Return y = 2 at(sqrt(|A|) o/e)/sqrt(|A|) and dy/dA; at is artanh for A > 0, arctan for A < 0."""
         A, size = self.A, np.sqrt(abs(self.A))
         integral = 2 * o / e
         if A:

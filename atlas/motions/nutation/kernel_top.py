@@ -341,7 +341,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @classmethod
     def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
-        """Return the top, and axes in which its direction is in the plane of e2 and e3."""
+        """Return the top of a `Start`, and axes (..., 3, 3), as rows in those of the body, in which its n1 is 0."""
         n, w = start.along(np.eye(3))
         axes: FloatArray = np.eye(3)
         if np.any(n[0]):

@@ -177,7 +177,7 @@ class SingleGeneral(SingleMotion):
         return [i for i, (a, b) in enumerate(terms) if a * k == 0 and (b if i == 2 else b * k) == 0]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t), shape (..., 3)."""
+        """Return Omega(t) along the axes of the body, shape (..., 3), in rad/time."""
         pair, weights, equatorial, axial = self.velocity
         Omega = self._linear(weights, t, (3,), out, pair)
         # Omega3 is within some u of the largest that it could be; of a slender body that exceeds all there is of Omega

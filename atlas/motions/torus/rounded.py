@@ -35,7 +35,7 @@ class Certified:
         self.exact, self.size = exact, size
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape (..., 3, 3), each entry proved and rounded once."""
         return self._filled(self.exact.rotation, t, (3, 3), 1.0, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
