@@ -259,7 +259,8 @@ def figures_of(
         try:
             recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
         except AtlasError as reason:
-            left_out.append(f"The figure `{name}`: {reason}")
+            text = str(reason).removeprefix(f"figure {name}: ")
+            left_out.append(f"The figure `{name}`: {text}".replace(f": figure {name} ", " "))
         else:
             calls = _calls(request, request.family) if "ratio" in recipe.parameters else {}
             yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **calls, "parameters": values}

@@ -62,7 +62,7 @@ class Entry:
 ENTRIES = (
     Entry("ratio", "ratio of the moments", "$I=I_3/I_2$", "", "(33)"),
     Entry("larmor", "field as a rate", r"$|\mathbf{B}'|$", "1/time", "(27)"),
-    Entry("tilt", "angle between axis and field at the start", r"$\theta_0$", "rad", ""),
+    Entry("tilt", "angle between axis and B\N{PRIME} at the start", r"$\theta_0$", "rad", ""),
     Entry("turn", "time of one turn about the field", "$T$", "time", "(79)"),
     Entry("spin", "rate about the body's axis", r"$\phi$", "1/time", "(72)"),
     Entry(
@@ -82,7 +82,7 @@ def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
     for one in ENTRIES:
         try:
             found[one.key] = float(_number(one.key, family, motion, arguments, math))
-        except (DomainError, ZeroDivisionError):
+        except (DomainError, ZeroDivisionError, OverflowError):
             continue
     return {key: value for key, value in found.items() if math.isfinite(value)}
 
@@ -159,25 +159,40 @@ class Balls:
 
 
 def card(request: Asked) -> dict[str, dict[str, Any]]:
-    """Return the card: of each key value, digits as text, unit, sigma, proven digits, equation; or the reason."""
+    """Return the card: of each key value, digits as text, unit, sigma, proven digits, equation; or the reason.
+
+    A double that is not within its proven digits gives way to them: squares of tiny or huge rates are no doubles.
+    """
     item = thing_of(request)
     names = [p.name for p in request.family.parameters]
     exact, floats = dict(zip(names, item.exact, strict=True)), dict(zip(names, item.floats, strict=True))
     there, motion = numbers(request.family, floats), request.family.kernels()(*item.floats)
+    centre = centre_of(request)
     made = dict[str, dict[str, Any]]()
     for one in ENTRIES:
+        text = _proven(one.key, item, exact, request.digits)
+        equation = one.equation if request.family.takes("ratio") else ""
         entry: dict[str, Any] = {
-            "says": one.says, "letter": one.letter, "value": there.get(one.key), "unit": _unit(one.unit, request.time),
+            "says": one.says.replace("the field", centre), "letter": one.letter,
+            "value": _value(there.get(one.key), text), "unit": _unit(one.unit, request.time),
             "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
-            "equation": one.equation or None, "reason": None,
+            "equation": equation or None, "reason": None,
         }  # fmt: skip
         if entry["value"] is None:
             entry |= {"unit": None, "reason": reason_of(one.key, request.family, motion, floats)}
         else:
-            text = _proven(one.key, item, exact, request.digits)
             entry |= {"digits": text or f"{entry['value']:.10g}", "proven_digits": significant(text)}
+        if entry["sigma"] == math.inf:
+            entry |= {"sigma": None, "proven_digits": 0, "reason": "the errors of the inputs tell no deviation of it"}
         made[one.key] = entry
     return made
+
+
+def _value(value: float | None, text: str) -> float | None:
+    """Return a double, or that of its proven digits where they differ."""
+    if text and not (value and math.isclose(value, float(text), rel_tol=10.0 ** (1 - significant(text)))):
+        return float(text)
+    return value
 
 
 def significant(text: str) -> int:
@@ -198,7 +213,9 @@ def reason_of(key: str, family: Family, motion: Any, arguments: Mapping[str, Any
         return str(reason).rstrip(".")
     except ZeroDivisionError:
         return "the axis does not go round"
-    return "it is infinite"
+    except OverflowError:
+        return "it is beyond the largest double"
+    return "the motion has no period"
 
 
 def _proven(key: str, item: Thing, exact: Mapping[str, Any], digits: int) -> str:
@@ -255,6 +272,8 @@ def place_of(family: Family, motion: Any) -> str:
         return "Any other start makes the axis nod."
     if family.takes("omega2"):
         return "The given start lies on it: the axis keeps its angle with the field."
+    if str(motion.kind) == "ball":
+        return "All axes of a ball are alike: the drawn one turns about the angular momentum, and that about the field."
     nods = str(motion.kind).startswith("nutation")
     return (
         "The given start lies off it, so that the axis nods." if nods else "From the given start the axis does not nod."
@@ -279,11 +298,25 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
     subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
     if turn["value"] is None:
         return f"{subject}: {says}"
-    centre = "the vertical" if request.family.takes("coupling") else "its momentum"
-    about = "the field" if made["larmor"]["value"] is not None else centre
     unit = turn["unit"].replace("time", "units of time")
     time = concise(turn["value"], turn["sigma"]) if turn["sigma"] else f"{turn['value']:.4g}"
-    return f"{subject} turns about {about} once in {time} {unit}; {says}"
+    return f"{subject} turns about {centre_of(request)} once in {time} {unit}; {says}"
+
+
+def centre_of(request: Asked) -> str:
+    """Return the direction that the axis goes round, in words."""
+    if request.family.takes("coupling"):
+        return "the vertical"
+    components = case_of(request).components if request.body else request.values.get("field", ())
+    return "the field" if any(components) else "its momentum"
+
+
+def sign_of(request: Asked) -> str:
+    """Return a sentence on the field of a negative charge, none for another."""
+    B = (request.field or {}).get("B")
+    if not B or not request.body or sum(x * y for x, y in zip(B[-2:], case_of(request).components, strict=True)) >= 0:
+        return ""
+    return "The charge is negative: B\N{PRIME} points against B, and arrows named B in the figures show B\N{PRIME}."
 
 
 def shape_of(request: Asked) -> dict[str, Any] | None:
@@ -411,7 +444,8 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
     others = [table_of(request, "properties", one.name, {"given": False}) for one in other_families(family)]
     return {
         "name": name_of(request), "title": request.title or title_of(request, made, says), "verdict": says,
-        "place": place_of(family, motion), "command": command_of(request), "note": request.note, "family": family.name,
+        "place": place_of(family, motion), "sign": sign_of(request), "command": command_of(request),
+        "note": request.note, "family": family.name,
         "card": list(_rows(made)), "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
         "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
         "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed),
@@ -423,8 +457,9 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
     """Yield the rows of the card: words, letter, value with its error, unit, proven digits, equation."""
     for entry in made.values():
         value = "–" if entry["value"] is None else Number(entry["digits"]).words()
-        if entry["sigma"]:
-            value = Number(concise(entry["value"], entry["sigma"])).words()
+        unknown_error = entry["value"] is not None and entry["reason"]
+        if entry["sigma"] or unknown_error:
+            value = Number(concise(entry["value"], math.inf if unknown_error else entry["sigma"])).words()
         proven = str(entry["proven_digits"] or "") if not entry["sigma"] else ""
         equation = f"@{entry['equation']}" if entry["equation"] and entry["value"] is not None else ""
         yield [entry["says"], entry["letter"], value, entry["unit"] or "", proven, equation]
@@ -432,10 +467,11 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
 
 def _absent(request: Asked, shape: Mapping[str, Any] | None) -> Iterator[str]:
     """Yield sentences on parts that this report does not have, with the reason."""
-    if not shape:
+    is_top = request.family.takes("coupling")
+    if not shape and not is_top:
         yield "A picture of the body: no cylinder, ring, disk, rod or ball was given as its shape."
     if not request.deviations:
         yield "Errors of the numbers: the inputs have none; type 1.20(5)um for one."
     if not request.body:
         yield "Quadric, hyperbola and the map of all motions: they are those of a symmetric body in a field."
-    yield "Gravity, drag, radiation, induced magnetism and a distance between the centres of charge and mass."
+    yield f"{'D' if is_top else 'Gravity, d'}rag, radiation, induced magnetism, different centres of charge and mass."

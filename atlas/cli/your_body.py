@@ -2,7 +2,6 @@
 
 import tomllib
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +29,7 @@ def make(wanted: Any, options: dict[str, Any]) -> int:
 
     if uncertain(options):
         deviations = UncertainAnswer.of(answered, options | {"decimal": False}).spread.sigma
-        sigma = {place[0]: x for place, x in deviations.items() if isfinite(x)}
-        wanted = replace(wanted, sigma=sigma)
+        wanted = replace(wanted, sigma={place[0]: x for place, x in deviations.items()})
     name, out = name_of(wanted), options["out"]
     built = build(name, files_of(wanted), out, options["jobs"], FORMATS)
     for place in (built.index, built.pdf, out / f"{name}.card.json", out / f"{name}.inputs.toml"):
@@ -63,7 +61,7 @@ def typed_in(files: list[str]) -> list[str]:
     """Return the words that a file of inputs holds. Raises click.UsageError for another file."""
     try:
         return [str(word) for word in tomllib.loads(Path(files[0]).read_text(encoding="utf-8"))["typed"]]
-    except (IndexError, KeyError, OSError, ValueError) as error:
+    except (IndexError, KeyError, OSError, TypeError, ValueError) as error:
         raise click.UsageError(
             f"--from takes a file NAME.inputs.toml that {NAME} wrote, not {' '.join(files) or 'nothing'!r}."
         ) from error

@@ -140,11 +140,16 @@ class Motion(CarriesUncertainty, Shown, Generic[Single]):
             raise AtlasError(f"A {type(self).__name__} by its class has its parameters, and R(0) = 1.")
         return p.tensor, p.field, p.attitude, p.omega
 
-    @cached_property
+    @property
     def own(self) -> Self:
         """The same motion along the axes of its class, with R(0) = 1."""
+        return self._unplaced or self  # a motion that kept itself would be garbage
+
+    @cached_property
+    def _unplaced(self) -> Self | None:
+        """The motion along the axes of its class, None for one that is given along these."""
         if self._placement is None:
-            return self
+            return None
         own = type(self)(**self._placement.arguments)
         own._made = self._made  # noqa: SLF001  of this class
         return own
