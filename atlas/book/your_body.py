@@ -261,6 +261,8 @@ def verdict(family: Family, motion: Any) -> str:
         nutation = str(next(q for q in family.quantities if q.name == "nutation").value(motion))
         return f"{motion.case}, {nutation} against small nutations"
     kind = str(motion.kind)
+    if kind == "ball":
+        kind = "it turns as a ball does, about its momentum"
     says = "its axis nods" if kind.startswith("nutation") else kind
     stable = getattr(motion, "stable", None) if family.takes("coupling") else None
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"

@@ -56,6 +56,7 @@ def at_times(t: Any) -> dict[str, Any]:
     return {name: lambda m, name=name: getattr(m, name)(t) for name in names} | {"invariants": lambda m: m.invariants()}
 
 
+@pytest.mark.slow
 @share(0.1, 60)
 @given(bodies, pairs, arrays(numbers), st.none() | arrays(numbers), times, st.floats(-10, 10), st.integers(0, 9))
 def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int) -> None:
@@ -85,6 +86,7 @@ def families(draw: Any) -> tuple[str, list[Any]]:
     return one.name, given
 
 
+@pytest.mark.slow
 @share(0.1, 60)
 @given(families(), times)
 def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
@@ -95,6 +97,7 @@ def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
     asked(lambda: one.kernels()(*given), {q.name: q.value for q in one.quantities} | at)
 
 
+@pytest.mark.slow
 @share(0.1, 40)
 @given(bodies, pairs, vectors)
 def test_quadric(I: Any, field: Any, omega: Any) -> None:
@@ -106,6 +109,7 @@ def test_quadric(I: Any, field: Any, omega: Any) -> None:
     )
 
 
+@pytest.mark.slow
 @share(0.1, 40)
 @given(bodies, st.tuples(numbers, numbers), arrays(numbers), st.sampled_from([2, 3, 7, 1, 0, 2.5, [0.0, 1.0], [800.0]]))
 def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
@@ -122,6 +126,7 @@ def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
     )
 
 
+@pytest.mark.slow
 @share(0.1, 40)
 @given(arrays(numbers), arrays(numbers), pairs, times)
 def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
@@ -137,6 +142,7 @@ def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
     )
 
 
+@pytest.mark.slow
 @share(0.1, 40)
 @given(arrays(numbers), vectors, vectors, vectors, vectors, st.one_of(st.just(1.0), numbers), times)
 def test_particle_motion(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any) -> None:
@@ -230,6 +236,7 @@ CALLS = {
 }
 
 
+@pytest.mark.slow
 @share(0.1, 200)
 @given(
     st.sampled_from(sorted(CALLS)), st.one_of(no_numbers, st.lists(no_numbers | numbers, max_size=4), arrays(numbers))

@@ -137,6 +137,7 @@ def checked(words: list[str]) -> None:
     assert "nan" not in out.lower(), told
 
 
+@pytest.mark.slow
 @share(0.7, 60)
 @given(lines())
 def test_any_words_get_an_answer_or_one_line(words: list[str]) -> None:
@@ -194,6 +195,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("fuzz")
 
 
+@pytest.mark.slow
 @share(0.2, 40)
 @given(content=files(), given_too=st.booleans(), as_json=st.booleans())
 def test_any_file_is_graded_or_told(folder: Path, content: bytes, *, given_too: bool, as_json: bool) -> None:

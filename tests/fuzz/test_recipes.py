@@ -31,6 +31,7 @@ def asked(draw: Any) -> tuple[str, dict[str, Any]]:
     return name, dict(setting(f"{key}={draw(values)}") for key in keys)
 
 
+@pytest.mark.slow
 @share(0.05, 25)
 @given(asked())
 def test_any_parameter_gives_a_scene_or_a_line(case: tuple[str, dict[str, Any]]) -> None:

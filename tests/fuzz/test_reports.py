@@ -136,6 +136,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("reports")
 
 
+@pytest.mark.slow
 def test_the_report_that_is_changed_is_a_good_one(folder: Path) -> None:
     """What the changes start from becomes pages, with each of the tables."""
     names = ("one", *(table.replace("_", "-") for table in TABLES))  # the prose cites the first

@@ -54,6 +54,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("sweeps")
 
 
+@pytest.mark.slow
 @share(0.03, 25)
 @given(words=asked(), kind=st.sampled_from(["csv", "csv", "csv", "npz", "txt"]))
 def test_any_sweep_is_a_table_or_a_line(folder: Path, words: list[str], kind: str) -> None:
@@ -86,6 +87,7 @@ def recipes(draw: Any) -> tuple[str, dict[str, Any]]:
     return family, given
 
 
+@pytest.mark.slow
 @share(0.02, 10)
 @given(recipe=recipes())
 def test_any_file_of_a_sweep_is_a_table_or_a_line(folder: Path, recipe: tuple[str, dict[str, Any]]) -> None:

@@ -24,6 +24,7 @@ FAMILIES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
 def test_energy_has_the_rates_for_derivatives_in_the_actions(name: str) -> None:
     """Along a way through the starts of a family, by differences of motions: d energy = sum of rate d action."""
@@ -56,6 +57,7 @@ def followed(motion: Any, t: float, field: float, drag: tuple[float, float], qua
 CHANGES = ({"field": 0.5}, {"drag": (0.1, 0.15)}, {"field": 0.3, "drag": (0.2, 0.2), "quadratic": 0.3})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", CHANGES)
 def test_drift_is_that_of_an_integrator_to_the_order_of_the_change(change: Any) -> None:
     """Energy, M3 and p after a time 1/e, for a change slow by e: errors of e at most, less for a smaller e."""
@@ -70,6 +72,7 @@ def test_drift_is_that_of_an_integrator_to_the_order_of_the_change(change: Any) 
     assert errors[1] <= errors[0] / 3
 
 
+@pytest.mark.slow
 def test_a_slow_change_of_the_field_keeps_the_actions() -> None:
     """M3, p and the action of nutation, which is that of the motion, also of a steady precession; energy does not."""
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
@@ -108,6 +111,7 @@ def test_what_has_no_drift_is_refused() -> None:
         atlas.GeneralMotion([1.5, 1.2], (1.0, 2.0), (0.3, 0.7, 0.2)).actions  # noqa: B018
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [-565, 510])
 def test_actions_and_lines_in_any_unit_of_time(exponent: int) -> None:
     """Where squares of the rates are no floats actions and lines are those of another unit, times its power of two."""

@@ -208,6 +208,7 @@ def quantities(floor: str) -> set[str]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("floor", FLOORS)
 def test_every_public_quantity_is_tied_to_the_ledger(floor: str) -> None:
     """A new kernel needs a tie in the file of its topic, or a reason in UNTIED."""
@@ -216,12 +217,14 @@ def test_every_public_quantity_is_tied_to_the_ledger(floor: str) -> None:
     assert tied & set(UNTIED) == set()
 
 
+@pytest.mark.slow
 def test_what_is_registered_exists() -> None:
     """No tie and no reason outlives its quantity."""
     existing = quantities("kernel") | quantities("certified")
     assert {tie.quantity for tie in TIES} | set(UNTIED) <= existing
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("floor", FLOORS)
 def test_a_new_kernel_is_noticed(floor: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """One more public property is one more quantity."""

@@ -41,6 +41,7 @@ def test_the_bodies_of_the_film_strip_go_on_in_turn() -> None:
     assert "start" not in {one.text for one in layers(scene, Label)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MOVING)
 def test_a_loop_closes_or_says_that_it_jumps(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where the paths of a figure do not end as the identity, the command tells it beside the file's name."""
@@ -77,6 +78,7 @@ def jumps(motion: Any, times: Any = None) -> bool:
     return moving.jumps
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("p", "q", "periods"), [(-1, 1, 1), (2, 3, 3)])
 def test_an_animation_of_a_closed_motion_closes(p: int, q: int, periods: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """It lasts until the body is back; a frame after the last would be the first, its trace included."""
@@ -163,6 +165,7 @@ def test_a_cone_as_flat_as_a_disk_is_drawn() -> None:
     assert np.linalg.norm(disk.rims[0], axis=1).min() == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_frames_share_one_view() -> None:
     """Over omega2 the arrow of the field, which is the same in all frames, is drawn at the same place in all."""
     moving = animation.Frames(
@@ -184,6 +187,7 @@ def test_frames_share_one_view() -> None:
     assert np.ptp(heads, axis=0).max() > 1.0
 
 
+@pytest.mark.slow
 def test_axes_do_not_jump() -> None:
     """Limits that a recipe chooses for each value are those that hold all of them."""
     moving = animation.Frames(
@@ -207,6 +211,7 @@ def run(words: str, folder: Path) -> Any:
     return CliRunner().invoke(command_line, ["animate", *words.split(), "--dpi", "40", "--out", str(folder)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["gif", "apng"])
 def test_a_file_has_the_frames(tmp_path: Path, kind: str) -> None:
     """So many frames as asked for, which differ, and nothing else in the folder."""
@@ -223,6 +228,7 @@ def test_a_file_has_the_frames(tmp_path: Path, kind: str) -> None:
     assert np.abs(frames[0] - frames[1]).mean() > 0.5
 
 
+@pytest.mark.slow
 def test_an_mp4_is_what_ffmpeg_makes_of_the_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Matplotlib's writer gives raw frames to the program; here one that keeps them stands for it."""
     program, out = tmp_path / "ffmpeg", tmp_path / "out"
@@ -243,6 +249,7 @@ def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.Mon
         animation.check("mp4", 20)
 
 
+@pytest.mark.slow
 def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)

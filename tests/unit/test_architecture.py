@@ -41,6 +41,7 @@ def test_no_module_has_a_public_name() -> None:
     assert modules & set(atlas.__all__) == set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "first", ["atlas.fitting", "atlas.checking.check", "atlas.sweeps.run", "atlas.pictures.drawing"]
 )
@@ -70,6 +71,7 @@ def names_compared(code: str) -> list[str]:
     return found
 
 
+@pytest.mark.slow
 def test_no_name_of_a_family_is_tested_outside_its_folder() -> None:
     """What a place needs to know of a family is said by its line in the register."""
     assert names_compared("motion.family == 'top'")

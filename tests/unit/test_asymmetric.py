@@ -121,6 +121,7 @@ def test_too_many_digits_are_refused_at_once() -> None:
         Balls(*QUICK).rotation(1)
 
 
+@pytest.mark.slow
 def test_thirty_digits_are_proven_at_a_trillion() -> None:
     """At t = 1e12 R R^T = 1, R K = B', and H, F and (M, K) are those of the start, to thirty digits."""
     motion = quick()
@@ -144,6 +145,7 @@ def test_thirty_digits_are_proven_at_a_trillion() -> None:
         assert narrow(m, 2.0**-100)
 
 
+@pytest.mark.slow
 def test_a_motion_goes_on_from_where_it_is() -> None:
     """R(t + s) = R(t) R(s) of the motion that starts with the state at t, rounded to 80 bits, t = 1e9."""
     motion, t, s = quick(), 10**9, fmpq(7, 2)
@@ -156,6 +158,7 @@ def test_a_motion_goes_on_from_where_it_is() -> None:
         assert narrow(expected, 1e-18)
 
 
+@pytest.mark.slow
 def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
     """From -2B' - omega: R(t) = R_B(-2bt) R(-t), theorem-pair."""
     field, omega = fractions(QUICK[1]), fractions(QUICK[2])
@@ -182,6 +185,7 @@ def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
         assert narrow(found, 1e-16)
 
 
+@pytest.mark.slow
 def test_the_symmetric_body_is_exact_and_the_limit_of_others() -> None:
     """Two equal moments, in any place, give the general motion; R(30) for I2 = I1 (1 + 2^-n) tends to it as 2^-n."""
     moments, field, omega = (1, 1, fmpq(3, 2)), (fmpq(1, 5), 1, fmpq(3, 5)), (fmpq(3, 10), fmpq(7, 10), fmpq(1, 5))
@@ -202,6 +206,7 @@ def test_the_symmetric_body_is_exact_and_the_limit_of_others() -> None:
         assert max(abs(float(x)) for x in np.ravel(above + below)) < 1e-9 * largest
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "kind"),
     [
@@ -279,6 +284,7 @@ def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch
     assert narrow(reduced, 1e-16)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [QUICK, EXTREME["flat"]])
 def test_in_a_period_the_body_turns_by_half_a_turn_at_most(case: tuple[Any, ...]) -> None:
     """f3 + b times the times of a period are its angle, less whole turns, along both flows."""
@@ -291,6 +297,7 @@ def test_in_a_period_the_body_turns_by_half_a_turn_at_most(case: tuple[Any, ...]
     assert f3 + b == pytest.approx(np.dot(angles, [f1, f2]) / (2 * math.pi), rel=1e-11)
 
 
+@pytest.mark.slow
 def test_the_unit_of_time_changes_nothing() -> None:
     """All frequencies times 2^k and the time over it: the same matrix, to the bit."""
     motion = quick()
@@ -305,6 +312,7 @@ def not_found(_: Any) -> None:
     raise atlas.NotCertifiedError("not certified: not four.")
 
 
+@pytest.mark.slow
 def test_a_period_that_is_none_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     """With a period off by a part in eight Newton's method in balls finds no proof, and says so."""
     true = torus.real_periods
@@ -314,6 +322,7 @@ def test_a_period_that_is_none_is_not_certified(monkeypatch: pytest.MonkeyPatch)
         Balls(*QUICK).rotation(10**6)
 
 
+@pytest.mark.slow
 def test_no_periods_leave_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no periods are found a short time goes directly, a long one is refused in one line."""
     monkeypatch.setattr(torus, "lattice", not_found)
@@ -342,6 +351,7 @@ def test_a_slip_in_the_series_is_found_by_its_defect(monkeypatch: pytest.MonkeyP
     assert wide > 1e-8
 
 
+@pytest.mark.slow
 def test_floats_are_balls_rounded_and_arrays_are_motions_one_by_one() -> None:
     """R, Omega, K and m of arrays, at times of any shape; grids at exact times."""
     inertia, field, omega = ([float(x) for x in v] for v in QUICK)
@@ -399,6 +409,7 @@ def test_what_is_no_motion_is_refused_in_one_line(case: tuple[Any, ...], words: 
     assert "\n" not in str(raised.value)
 
 
+@pytest.mark.slow
 def test_the_command_prints_proven_digits_or_one_line() -> None:
     """`atlas motion` prints its kind and digits, or raises what becomes one line and status 2."""
     given = [w for name, v in zip(("inertia", "field", "omega"), QUICK, strict=True) for w in (f"--{name}", *v)]

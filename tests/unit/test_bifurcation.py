@@ -135,6 +135,7 @@ def departed(M: np.ndarray, K: np.ndarray) -> float:
     return float(np.abs((other - one)[:, M == 0]).max()) / 1e-6
 
 
+@pytest.mark.slow
 def test_plane_pendulums_have_the_values_of_the_rays_and_their_stability() -> None:
     """K across an axis, M along it: the values lie on the ray, 1e-12, and a push grows on the unstable part alone."""
     for axis, low, high, stable in Bifurcation(BODY, 1.0, 0.0).rays():
@@ -202,6 +203,7 @@ def rings(line: FloatArray) -> float:
     return float(2 * np.arctan2(top, 1 + line @ pole + following @ pole + np.vecdot(line, following)).sum())
 
 
+@pytest.mark.slow
 def test_the_loop_on_the_torus_closes_and_turns_the_body_by_its_rate_less_an_area() -> None:
     """K is back, 1e-8; the certified angle about the field is the integral of (K, V)/b less the area, 1e-4."""
     scene = recipes.load("torus_of_flows").scene(stop=12.0)
@@ -250,6 +252,7 @@ def test_the_turn_is_the_dynamic_part_less_the_area_of_the_curve_on_the_sphere()
     assert np.abs(dots[:, 1] - [turn[0, 1], dynamic[0, 1], geometric[0, 1]]).max() <= 1e-9
 
 
+@pytest.mark.slow
 def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
     """R_3 at the last time drawn, seen with the field upright, 1e-8; the first body is symmetric, its zone narrow."""
     panels = recipes.load("flattening").scene(first=(1.0, 0.5), stop=6.0).panels

@@ -116,6 +116,7 @@ def test_balls_and_plane_bodies_have_exact_ratios() -> None:
     assert SymmetricBody.ring(0.3, 0.7).ratio == SymmetricBody.disk(0.3, 0.7).ratio == 2
 
 
+@pytest.mark.slow
 @given(seeds)
 def test_a_turned_body_is_found_with_its_axis(seed: int) -> None:
     """Turning and shifting the points changes neither moment, and turns the axis along."""

@@ -54,6 +54,7 @@ def put(folder: str) -> None:
         Cache(Path(folder)).put(KEY, LARGE)
 
 
+@pytest.mark.slow
 def test_a_process_killed_at_any_moment_leaves_no_wrong_entry(tmp_path: Path) -> None:
     """Killed at random moments, a process leaves the entry whole or absent, never half."""
     context, chance = multiprocessing.get_context("fork"), random.Random(5)  # noqa: S311  reproducible, not secret

@@ -83,6 +83,7 @@ def copy(peace: Path, tmp_path: Path) -> Path:
     return shutil.copytree(peace, tmp_path / "copy")
 
 
+@pytest.mark.slow
 def test_a_killed_build_leaves_no_process_behind(tmp_path: Path) -> None:
     """When the build alone is killed, the processes that draw for it come to an end by themselves."""
     chance = random.Random(5)  # noqa: S311  reproducible, not secret

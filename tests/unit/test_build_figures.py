@@ -156,6 +156,7 @@ def test_a_parameter_draws_again_its_figure(checkout: Path, keys: Keys) -> None:
     assert different(keys(), keys(hyperbola=changed)) == {"hyperbola"}
 
 
+@pytest.mark.slow
 def test_the_gl_library_draws_again_what_is_shaded(checkout: Path, keys: Keys) -> None:
     """Another GL library, or none, makes only the shaded figures new."""
     assert checkout.is_dir()
@@ -183,6 +184,7 @@ def test_the_place_of_the_checkout_does_not_matter(checkout: Path, keys: Keys, m
     assert not different(before, keys())
 
 
+@pytest.mark.slow
 def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
     """The first time a figure is drawn, the second time it is taken; both have the same files and facts."""
     cache = Cache(tmp_path)
@@ -197,6 +199,7 @@ def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
     assert first[0].contents != first[1].contents
 
 
+@pytest.mark.slow
 def test_what_changed_is_told_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A figure that is drawn again says which parts of what it depends on are new, or that a file was lost."""
     cache = Cache(tmp_path)
@@ -230,6 +233,7 @@ def test_whatever_the_cache_has_lost_the_files_are_the_same(tmp_path: Path) -> N
         assert again.contents == first.contents
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_figure_that_fails_does_not_stop_the_others(tmp_path: Path, jobs: int) -> None:
     """A recipe that raises is returned with its reason, and the others are drawn."""
@@ -279,6 +283,7 @@ class Deadly:
         return os._exit, (9,)
 
 
+@pytest.mark.slow
 def test_compressed_data_are_the_data(tmp_path: Path) -> None:
     """The file of gzip holds the CSV, and in its header no date and no system, so that its bytes are the same."""
     (one,) = made([figure("trochoids", "csv", "csv.gz")], Cache(tmp_path))
@@ -299,6 +304,7 @@ def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) 
     assert [bool(one.contents) for one in wanted] == [True, False, True]
 
 
+@pytest.mark.slow
 def test_a_library_that_cannot_be_loaded_is_told(tmp_path: Path) -> None:
     """What Matplotlib refuses when it is loaded is a failure of each figure, in a line."""
     broken = tmp_path / "broken" / "contourpy"
@@ -317,6 +323,7 @@ def test_a_library_that_cannot_be_loaded_is_told(tmp_path: Path) -> None:
     assert done.stderr.count("nonsense") >= 2
 
 
+@pytest.mark.slow
 def test_a_script_without_a_guard_builds(tmp_path: Path) -> None:
     """Workers do not run the script that started them: one that builds at its top level is run once."""
     script = tmp_path / "script.py"
@@ -342,6 +349,7 @@ def test_an_error_of_the_disk_is_raised(tmp_path: Path) -> None:
         worker.draw(worker.Task("lssc", {}, "vector", None, {"svg": digest("key")}, tmp_path / "file"))
 
 
+@pytest.mark.slow
 def test_the_costs_of_a_figure_are_noted(tmp_path: Path) -> None:
     """The points and faces of the scene are counted, and time, memory and bytes noted."""
     plane, space = made([figure("hyperbola"), figure("cone")], Cache(tmp_path))
@@ -378,6 +386,7 @@ def test_a_recipe_that_misbehaves_fails_alone(
     assert capfd.readouterr().out == ""
 
 
+@pytest.mark.slow
 def test_figures_keep_their_order_and_fail_alone(tmp_path: Path) -> None:
     """The results come in the order asked for, and one that fails has the reason and no files."""
     found = list(build_figures(["trochoids", "lssc"], ("svg",), tmp_path, parameters={"mu": 0.0}, jobs=2))

@@ -208,6 +208,7 @@ def test_a_mistake_names_the_file(tmp_path: Path, right: str, wrong: str, said: 
         build_report(file, tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_a_citation_that_leads_nowhere_is_an_error(tmp_path: Path) -> None:
     """A misspelt label names the file, the block and the nearest label, and nothing is written."""
     file = tmp_path / "mine.toml"

@@ -77,6 +77,7 @@ def test_a_failing_pdf_leaves_the_last_good_one(
     assert build_report(tmp_path / "plain.toml", out).pdf.read_bytes() != old
 
 
+@pytest.mark.slow
 def test_edited_pages_do_not_stop_the_pdf(tmp_path: Path) -> None:
     """An edited page is told of, and the PDF is new all the same."""
     built = build_report(report(tmp_path, "Old"), tmp_path)
@@ -118,6 +119,7 @@ def test_what_is_stale_goes_and_what_is_foreign_stays(tmp_path: Path) -> None:
     assert "plain/second.html" not in names
 
 
+@pytest.mark.slow
 def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
     """Where a folder of the report's name holds the user's own files, they stay."""
     mine = tmp_path / "out" / "plain" / "notes" / "thesis.tex"

@@ -300,6 +300,7 @@ def test_the_size_of_the_blocks_changes_nothing(long_file: Path, monkeypatch: py
     assert check(long_file, threshold=11) == whole
 
 
+@pytest.mark.slow
 def test_the_balls_agree_with_the_blocks_and_are_asked_seldom(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Graded by balls alone every column has the same grade; with blocks, balls decide fewer than 1 row in 20."""
     asked, certified = [], grades.Errors.certified
@@ -326,6 +327,7 @@ def test_a_curve_keeps_the_largest_errors_of_its_rows() -> None:
     assert envelope.errors() == {"R": largest}
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @example("omega2 near -(2-I) B2", 1643)  # a phase of 2^22, which three words hold to 2^-59
 @given(st.sampled_from(sorted(REGIMES)), st.integers(0, 10**6))

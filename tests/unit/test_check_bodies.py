@@ -60,6 +60,7 @@ def digits(found: Check) -> dict[str, float]:
     return {column.name: column.worst for column in found.columns}
 
 
+@pytest.mark.slow
 def test_a_body_with_three_moments_has_its_digits(tmp_path: Path, of_body: np.ndarray) -> None:
     """Rounded true values have the digits to which the closed form is known, and nothing drifts."""
     found = check(written(tmp_path, of_body), **BODY)
@@ -72,6 +73,7 @@ def test_a_body_with_three_moments_has_its_digits(tmp_path: Path, of_body: np.nd
     assert found.parameters == {name: list(values) for name, values in BODY.items()}
 
 
+@pytest.mark.slow
 def test_an_error_of_such_a_body_is_measured_by_balls(tmp_path: Path, of_body: np.ndarray) -> None:
     """R22 off by 2^-30 from the third row on has 9.03 digits there; Omega is measured by the largest rate."""
     wrong = of_body.copy()
@@ -105,6 +107,7 @@ def test_where_balls_answer_there_are_all_digits(tmp_path: Path, inertia: tuple[
     assert min(digits(check(written(tmp_path, rows), **given)).values()) > 15.9
 
 
+@pytest.mark.slow
 def test_more_digits_than_the_closed_form_has_are_no_threshold(tmp_path: Path, of_body: np.ndarray) -> None:
     """The sentence says how many there may be."""
     with pytest.raises(AtlasError, match=r"may be 1\d\.\d digits at most"):

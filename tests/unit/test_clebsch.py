@@ -59,6 +59,7 @@ def test_the_error_of_a_way_is_what_is_stated(
             assert max(float(x.rad()) for x, _ in pairs) * 2.0**bits == pytest.approx(radius, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BODIES)
 def test_states_that_a_way_passes_are_those_at_which_it_would_end(name: str) -> None:
     """At fractions of a way each radius bounds the difference from 120 more bits, and is small."""
@@ -126,6 +127,7 @@ B, OMEGA = (0.3, 1.0, -2.0), (0.4, 0.5, -0.6)
 NAMES = ("H", "F", "MK", "K2", "energy")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inertia", [TENSOR, [1.0, 1.7, 2.2], [1.0, 1.0, 1.5], [1.0, 1.0, 1.0]])
 def test_all_five_are_conserved(inertia: object) -> None:
     """Along the Taylor series of any body they keep their initial values within 64 eps of the size of their terms."""

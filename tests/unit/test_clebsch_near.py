@@ -72,6 +72,7 @@ def test_real_periods_have_no_imaginary_part(case: tuple[tuple[float, ...], ...]
             assert abs(float(x.imag.mid())) < 1e-30 * max(abs(float(y.real.mid())) for y in period[:2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("apart", [1e-10, 1e-6])
 def test_a_start_far_from_the_real_times_keeps_its_attitude(apart: float) -> None:
     """There a factor of N, exp(i l zeta), is below all floats; the motion is the certified one."""
@@ -123,6 +124,7 @@ def test_integrals_without_digits_are_an_error_in_one_line(monkeypatch: pytest.M
     assert motion.agreement == "certified at each time: integrals between zeros of the motion's torus lose all digits."
 
 
+@pytest.mark.slow
 def test_many_times_without_a_closed_form_take_one_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """Moments that differ by rounding: each value of an array is that of its time alone, and few steps are gone."""
     inertia, field, omega = (1.0, 1.0 + 2.0**-52, 1.9), (0.3, -0.7, 0.5), (0.4, 0.2, -0.6)

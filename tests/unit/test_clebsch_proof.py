@@ -64,6 +64,7 @@ def bound(theta: ThetaMotion) -> float:
         return np.inf
 
 
+@pytest.mark.slow
 def test_the_bound_holds_where_balls_know_the_motion() -> None:
     """K of the theta functions at t = 7/2 is that of Taylor's series, within the proved bound and 1e-35."""
     theta, t = made(), fmpq(7, 2)

@@ -60,6 +60,7 @@ def kernel(inertia: Three, field: Three, omega: Three) -> ThetaKernel:
     return closed_form(Balls(inertia, field, omega), max(map(abs, (*field, *omega))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [QUICK, WEAK])
 def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three]) -> None:
     """R, K and Omega up to t = 8e11 are those of proven digits, within 8 ulp of 1 and the motion's own bound."""
@@ -163,6 +164,7 @@ def test_inverses_are_rounded_once() -> None:
     assert 0.9 < worst < theta_sums.ROUNDED
 
 
+@pytest.mark.slow
 def test_columns_fields_and_grids_are_parts_of_the_matrix() -> None:
     """R is orthogonal, R_j its columns, K = R^T B'; a grid has the matrices at its exact times, not rounded."""
     closed, B = kernel(*QUICK), np.array(QUICK[1])
@@ -214,6 +216,7 @@ def test_it_tends_to_the_symmetric_body() -> None:
     assert d / 10 < apart < 1000 * d
 
 
+@pytest.mark.slow
 def test_frequencies_are_those_of_the_motion() -> None:
     """K at 2000 times up to 1e6 is a sum of cosines and sines of n1 f1 + n2 f2 alone, |n| <= 9, to 8 digits."""
     closed = kernel(*WEAK)
@@ -246,6 +249,7 @@ def test_the_third_frequency_is_that_about_the_field() -> None:
         atlas.AsymmetricMotion((1.0, 1.0, 0.5), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)).frequencies  # noqa: B018
 
 
+@pytest.mark.slow
 def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_it() -> None:
     """Tau is symmetric, Im tau > 0, |tau11| >= 1, |tau22| >= 2; proven periods are sums of the approximate ones."""
     balls = motion()._single().exact.on_torus
@@ -306,6 +310,7 @@ def test_a_slip_is_noticed_and_the_certified_twin_answers(
         _ = one.theta
 
 
+@pytest.mark.slow
 def test_a_motion_says_what_is_known_of_it() -> None:
     """`agreement` says that it is proved; at t = 0 all is exact; times have an end."""
     one = motion()
@@ -333,6 +338,7 @@ def test_what_symmetry_makes_zero_is_shown_as_zero() -> None:
     assert (parts == 0).any()
 
 
+@pytest.mark.slow
 def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where theta functions are not proved, `agreement` names the difference from the twin and the last time."""
 
@@ -407,6 +413,7 @@ def test_a_closed_form_that_rounds_badly_is_refused(
             closed_form(exact, 1.25)
 
 
+@pytest.mark.slow
 def test_a_table_of_periods_names_them_from_one_on() -> None:
     """With both times and the turn, beside the numbers of `theorem-lie-poisson` that they belong to."""
     asked = {"inertia": [0.8, 1.0, 1.3], "field": [0.2, 1.0, 0.6], "omega": [0.3, 0.7, 0.2]}

@@ -165,6 +165,7 @@ def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch:
     assert f"'{tmp_path / 'new'}' cannot be written: its folder is read-only" in result.stderr
 
 
+@pytest.mark.slow
 def test_a_library_that_is_missing_is_told_in_one_line() -> None:
     """As after new code came with new libraries: what is missing, and what installs it."""
     block = "import sys; sys.modules['pylatexenc'] = None; from atlas.cli.app import main; main(['verify', '71'])"
@@ -294,6 +295,7 @@ def test_a_broken_recipe_hides_no_other(bad_recipe: Path) -> None:
     assert (bad_recipe / "lssc.svg").exists()
 
 
+@pytest.mark.slow
 def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A line drawing in place of a shaded figure is told in one line, with the command that brings the rest."""
     from atlas import gl
@@ -308,6 +310,7 @@ def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch:
     gl.library.cache_clear()
 
 
+@pytest.mark.slow
 def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
     """Asked for shaded, a figure without a panel in space says in one line what drew it."""
     words = ["figure", "hyperbola", "--renderer", "shaded", "--out", str(tmp_path)]
@@ -396,6 +399,7 @@ def test_zero_may_have_a_unit() -> None:
     assert record(*"classify --ratio 1.5 --magnetic 1T 0T --mu 1 --json".split())["parameters"]["magnetic"] == [1, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [f"{MOTION} --grid 0 1 20000 --json", f"{MOTION} --times 0:10:100000", "--help"])
 def test_the_reader_of_a_pipe_may_leave(words: str) -> None:
     """A closed pipe ends the program quietly, as by SIGPIPE, and long before all of a long table is computed."""

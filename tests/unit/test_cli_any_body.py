@@ -99,6 +99,7 @@ def test_the_unit_of_time_is_a_second_where_the_field_is_in_tesla() -> None:
     assert "/time" not in out
 
 
+@pytest.mark.slow
 def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> None:
     """Points turned by 30 degrees about z: it says the axes, right-handed, and the moments 3, 5, 6."""
     c, s = np.sqrt(3) / 2, 0.5
@@ -119,6 +120,7 @@ def turned_digits(digits: list[list[str]], turn: list[list[Fraction]], other: li
     return [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in once]
 
 
+@pytest.mark.slow
 def test_digits_are_proven_in_any_axes_and_from_any_attitude() -> None:
     """A tensor and an attitude of rational turns have the digits of the motion along its principal axes from R(0)=1."""
     turn = [[Fraction(x) for x in row] for row in (("0.6", "0.8", "0"), ("-0.8", "0.6", "0"), ("0", "0", "1"))]
@@ -155,6 +157,7 @@ def test_points_without_charges_are_a_body(tmp_path: Path) -> None:
     assert numbers("motion", "--points", file, "--field", "0", "1", "2", *REST.split())["kind"] == "on a torus"
 
 
+@pytest.mark.slow
 def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
     """`atlas check` takes the same body and field; at t = 0 R = 1 and Omega = omega."""
     mine = tmp_path / "mine.csv"
@@ -167,6 +170,7 @@ def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
     assert [column["name"] for column in found["columns"]] == ["R11", "R12", "Omega3"]
 
 
+@pytest.mark.slow
 def test_frequencies_or_why_there_are_none() -> None:
     """A motion on a torus prints its three; of a symmetric body proven digits say that it has no torus."""
     words = "--field 0.2 1 0.6 --omega 1 2 3"
@@ -232,6 +236,7 @@ def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -
     assert "no digit is proven without --digits" in run(*words, "1")[1]
 
 
+@pytest.mark.slow
 def test_units_are_those_of_si() -> None:
     """A cylinder in um, kg/m3, e, T and degrees is that in SI by hand, and turns a second are 2 pi as many radians."""
     typed = (
@@ -305,6 +310,7 @@ def test_a_start_without_a_field_is_a_free_body(start: str) -> None:
         assert alone[0] == 0
 
 
+@pytest.mark.slow
 def test_the_table_of_a_tensor_has_its_principal_moments() -> None:
     """The printed moments and axes are those of the JSON."""
     words = "motion --tensor 1 1.2 1.1 .1 0 .05 --field 0 0 1 --omega .1 .2 .3".split()
@@ -361,6 +367,7 @@ def test_a_range_of_times_is_its_list() -> None:
 TENSOR = "--tensor 2 1.5 1 0.1 0.05 0.2 --field 0.3 0 1 --spin 3"
 
 
+@pytest.mark.slow
 def test_a_tensor_is_the_same_body_for_every_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Digits, a page, sliders and a sweep are of the motion along its principal axes, which they name."""
     monkeypatch.chdir(tmp_path)
@@ -429,6 +436,7 @@ def page_of(words: list[str]) -> list[str]:
     return found[: found.index("--note")] if "--note" in found else found
 
 
+@pytest.mark.slow
 def test_an_attitude_turns_the_laboratory() -> None:
     """A motion that starts from R(0) in a field of the laboratory is R(0) times that in the field of the body."""
     Q = Rotation.from_quat([0.6, 0.0, 0.0, 0.8]).as_matrix()

@@ -349,6 +349,7 @@ def told(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
     return error.format_message() if isinstance(error, click.ClickException) else str(error), passed
 
 
+@pytest.mark.slow
 def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -> None:
     """Of every statement that raises in atlas/cli, and each call of `fail`, a case stands above; nothing is written."""
     reached, missing = set(), list[str]()

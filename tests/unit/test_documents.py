@@ -55,6 +55,7 @@ def test_every_command_has_an_example() -> None:
     assert {words.split()[0] for words in EXAMPLES} == set(command_line.commands)
 
 
+@pytest.mark.slow
 def test_the_readme_in_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What the README types in Python runs as it stands; its animation has few frames here."""
     monkeypatch.setattr(animation, "FRAMES", 4)
@@ -154,6 +155,7 @@ def test_a_caption_is_marked_where_the_ledger_has_the_number() -> None:
     )
 
 
+@pytest.mark.slow
 def test_every_citation_of_the_sources_is_in_the_ledger() -> None:
     """Docstrings, messages, captions and comments of the package and of the recipes."""
     found = [(path.name, line, name) for path in SOURCES for line, text in words(path) for name in cited(text)]

@@ -56,6 +56,7 @@ def ball_scene(**options: Any) -> Scene:
     return Scene("Ball", "A caption.", "A ball.", (Space((ball, arrow), **options),), size=(50.0, 50.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("make", "kind"), [(flat_scene, "svg"), (flat_scene, "pdf"), (ball_scene, "png")])
 def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, make: Callable[[], Scene], kind: str) -> None:
     """No date, no random name, nothing left over from the first drawing."""

@@ -176,6 +176,7 @@ def test_glass_is_what_sorted_rays_give(case: str, tmp_path: Path, monkeypatch: 
     assert away.mean() < 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
 @pytest.mark.parametrize("dpi", [100.0, 300.0, 900.0])
 @pytest.mark.parametrize("slope", [0.0, 0.3, 1.0])

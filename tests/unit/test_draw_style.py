@@ -155,6 +155,7 @@ def test_pgf_needs_no_latex_to_be_written(tmp_path: Path, monkeypatch: pytest.Mo
     assert "′" not in first
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("pdflatex"), reason="no pdflatex here")
 def test_pgf_compiles(tmp_path: Path) -> None:
     """A document that inputs figures, one with underscores in its names, is set without an error."""
@@ -187,6 +188,7 @@ def test_a_plotter_needs_a_panel_in_space() -> None:
         atlas.pictures.drawing.to_plotter(lines())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
 def test_a_plotter_that_may_be_turned_peels() -> None:
     """Depth peeling is used in the picture, without antialiasing, in the coordinates of the scene; names are labels."""
@@ -302,6 +304,7 @@ def test_the_key_to_the_colours_holds_in_grey_print() -> None:
     assert len({(look.marker, look.colour == "#ffffff") for look in marks}) == len(marks) == 4
 
 
+@pytest.mark.slow
 def test_the_key_of_a_tinted_surface_holds_on_both_sides() -> None:
     """Of a rate on the ribbon the key, the outside and the inside have one colour, to 0.06 of its opacity."""
     with context():

@@ -50,6 +50,7 @@ def followed(t: Any, field: float = 0.0, drag: Any = 0.0, turning: Any = (0.0, 0
     return integrals(np.einsum("it,ijt->jt", y[12:], y[:9].reshape(3, 3, -1)), y[9:12])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [{"field": 1.0}, {"drag": (1.0, 1.5, 0.7)}])
 def test_errors_fall_in_proportion_to_the_slowness(change: Any) -> None:
     """Of H, F and c, largest up to e t = 0.1: a change half as fast has half the error, within 30 %."""
@@ -74,6 +75,7 @@ def test_a_field_that_turns_slowly_changes_no_integral_to_first_order() -> None:
     assert 2 / 1.3 < swings[0] / swings[1] < 2 * 1.3
 
 
+@pytest.mark.slow
 def test_a_field_that_grows_keeps_the_actions_of_the_torus() -> None:
     """Three actions, those of the motion, while the field grows by a quarter; the motion of a later time has them."""
     found: Any = atlas.drift(motion(), [0.0, 2.5e7], field=1e-8)
@@ -97,6 +99,7 @@ def test_equal_drag_slows_a_free_body(unit: float) -> None:
         assert values[1] == pytest.approx(values[0] * np.exp(-power), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_separatrix_is_said_with_its_time() -> None:
     """Dzhanibekov's top that loses energy faster than momentum: when 2 H I2 falls to m^2, as by an integrator."""
     free, drag = atlas.AsymmetricMotion(I, (0, 0, 0), (1.2, 0.7, 0.3)), np.array([5e-4, 1e-4, 1e-4])

@@ -119,6 +119,7 @@ def test_vectors_are_true_to_8_ulp_of_their_length(inputs: tuple[float, float, f
 extreme_numbers = st.floats(-1e300, 1e300) | st.sampled_from([0.5, -0.5 + 2.0**-53, 0.75, 1e160, -1e-160, 1e308])
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(st.floats(1e-300, 2) | st.just(0.75), *[extreme_numbers] * 4)
 def test_the_constants_are_the_nearest_doubles(I: float, B2: float, B3: float, omega2: float, omega3: float) -> None:

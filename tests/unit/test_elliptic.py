@@ -91,6 +91,7 @@ def test_floats_are_within_16_ulp_of_balls_at_any_time(case: tuple[object, ...])
 part = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     st.tuples(*[st.floats(0.0, 1.0)] * 3),

@@ -32,6 +32,7 @@ def proven(value: arb | Fraction | float, count: int, layout: Layout = "plain") 
     return printed(value if isinstance(value, arb) else rational(value, "it"), count, layout).text
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(balls, st.integers(1, 45), st.sampled_from(["plain", "scientific", "fixed"]), st.floats(-1, 1))
 def test_every_number_in_the_ball_rounds_to_the_text(
@@ -51,6 +52,7 @@ def test_every_number_in_the_ball_rounds_to_the_text(
     assert abs(Fraction(text) - inside) <= half_unit(text)
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(st.fractions(max_denominator=10**6).filter(bool), st.integers(1, 40))
 def test_an_exact_rational_is_rounded_half_to_even(value: Fraction, count: int) -> None:

@@ -204,6 +204,7 @@ def test_stability_of_a_motion_is_that_of_the_ratio_that_was_given() -> None:
         assert quantity.value(motion) == nearest(CertifiedHyperbola(ratio, field).stability(1.7))
 
 
+@pytest.mark.slow
 def test_a_page_of_three_components_takes_the_product_without_rounding() -> None:
     """The tables of a page evaluate mu B/2 of three moments exactly: the report file has the product as a fraction."""
     words = "--inertia .8 1 1.3 --magnetic .2 .7 -.3 --mu 1.3 --omega .3 .7 .2"

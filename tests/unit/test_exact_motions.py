@@ -68,6 +68,7 @@ ratios = st.floats(1e-3, 2) | st.sampled_from([1.0, 2.0, 1.0 + 2**-52, 1.0 - 2**
 times = st.floats(-1e15, 1e15) | st.sampled_from([0.0, 1e-300, 1.0])
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes, ordinary, times)
 def test_elementary_motion_contains_mpmath(I: float, B2: float, B3: float, w2: float, t: float) -> None:
@@ -148,6 +149,7 @@ def test_decimal_strings_are_taken_as_typed() -> None:
     assert typed.phi != doubles.phi
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes)
 def test_quadric_contains_mpmath(I: float, B2: float, B3: float) -> None:
@@ -300,6 +302,7 @@ def test_the_free_body_obeys_the_equations_of_motion(omega: Triple, I: float) ->
 vectors = st.tuples(*[st.floats(-4, 4) | st.just(0.0)] * 3)
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(st.floats(-2, 2), vectors, vectors, vectors, vectors, st.floats(-30, 30), st.sampled_from([1.0, 2.5]))
 def test_particle_contains_the_matrix_exponential(

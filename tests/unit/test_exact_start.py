@@ -68,6 +68,7 @@ def balls(ratio: float, field: Any, omega: Any, t: float) -> np.ndarray:
     return np.array([[nearest(x) for x in row] for row in enclosed(lambda: exact.rotation(t), 60)])
 
 
+@pytest.mark.slow
 def test_an_unstable_start_beside_the_curve_leaves_it() -> None:
     """R33 at t = 30, 60, 100 is that of Taylor series, of proven digits and of the motion of three moments."""
     m = atlas.motion(RATIO, FIELD, OMEGA)
@@ -92,6 +93,7 @@ def unstable(seed: int) -> tuple[float, np.ndarray, np.ndarray]:
     return ratio, turn @ (0.0, 1.0, slope), turn @ (0.0, x - 1, field.omega3)
 
 
+@pytest.mark.slow
 def test_sixty_turned_starts_on_the_unstable_band_are_those_of_proven_digits() -> None:
     """In the body's axes and from an attitude, whose rotation is that of its quaternion, up to t = 100."""
     for seed in range(60):
@@ -107,6 +109,7 @@ def test_sixty_turned_starts_on_the_unstable_band_are_those_of_proven_digits() -
             assert np.abs(m.rotation(100.0) - A @ R).max() <= 32 * EPS
 
 
+@pytest.mark.slow
 def test_fields_of_three_components_move_a_body_as_taylor_series_do() -> None:
     """Any ratio, field and start; arrays have each motion as it is alone, at any time."""
     rng = np.random.default_rng(7)
@@ -125,6 +128,7 @@ def test_fields_of_three_components_move_a_body_as_taylor_series_do() -> None:
         assert several.period[i] == alone.period
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1.0, 1.5, (0.8, 1.0, 1.3)])
 def test_a_turned_laboratory_turns_the_motion_at_any_time(ratio: Any) -> None:
     """By a third of a turn about (1, 1, 1), which floats hold; by another turn the constants lose no digit."""
@@ -193,6 +197,7 @@ def test_the_moments_of_a_heavy_top_are_not_rounded() -> None:
     assert np.abs(top.rotation(1e9) - rounded.rotation(1e9)).max() > 1e-9
 
 
+@pytest.mark.slow
 def test_the_error_of_rounded_inputs_bounds_what_an_ulp_changes() -> None:
     """On the unstable start each input moved by half an ulp, in twice the digits, turns the body by no more."""
     m = atlas.motion(RATIO, FIELD, OMEGA)

@@ -162,6 +162,7 @@ def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
     assert b"{%" not in ask(server, f"/{server.folder}/style.css")[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*FAMILIES])
 def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
     """The command that is shown, asked for as many digits, prints what the page shows as proven."""
@@ -237,6 +238,7 @@ def test_what_turns_fills_the_picture(server: Explorer, name: str, places: list[
     assert width * places[0][2] / (height * places[0][3]) == pytest.approx(cell[0] / cell[1])
 
 
+@pytest.mark.slow
 def test_figures_are_saved(server: Explorer) -> None:
     """PDF, SVG and PNG of what is shown; another format is refused in a sentence."""
     for kind, head in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):
@@ -286,6 +288,7 @@ def test_a_name_that_a_page_sends_is_never_a_file(server: Explorer, tmp_path: Pa
     assert mark.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.getuid() != 0 or not which("setpriv"), reason="needs root, to become another user")
 def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
     """The arguments of all processes, the file that the browser is given, and the socket tell another user nothing."""

@@ -50,6 +50,7 @@ def cases() -> Any:
     return np.stack([I, B2, B3, omega2, random.uniform(0.0, 20.0, COUNT)], axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_closed_forms_of_the_script_are_those_of_python(cases: Any) -> None:
     """10 000 motions: scalars within 1e-11 of their size, the entries of R(t) within that times the phase."""
@@ -94,6 +95,7 @@ def run(program: str, given: Any) -> Any:
     return json.loads(done.stdout)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_courses_of_the_script_are_general_motions() -> None:
     """Over a minute R is right to 1e-8, from anywhere, a turning point, beside the hyperbola and at I = 1."""
@@ -145,6 +147,7 @@ def test_fractions_of_the_script_are_closed_motions() -> None:
     assert found == pytest.approx(true, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_a_point_of_the_plane_settles_where_it_is_to_a_few_pixels() -> None:
     """The nearest point of the curve, along the pole and at -B' too; the distance is that of the curve as drawn."""
@@ -219,6 +222,7 @@ def test_an_explorer_is_hidden_until_its_script_runs(tmp_path: Any) -> None:
     assert " hidden>" in made["index.html"]
 
 
+@pytest.mark.slow
 def test_the_front_page_shows_a_cut_of_a_figure_of_each_page(tmp_path: Any) -> None:
     """The first figure of the page, or any that the page names; a page without one has none."""
 

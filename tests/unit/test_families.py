@@ -91,6 +91,7 @@ def test_both_classes_take_the_parameters(one: Family) -> None:
             assert all(p.range[0] <= x <= p.range[1] for x in p.default)
 
 
+@pytest.mark.slow
 @EVERY
 def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
     """At the defaults each number is within its promise of the ball, or within two ulp; names are the same."""
@@ -116,6 +117,7 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
             assert max(own(numbers, true)) <= one.promises.get(q.checked, 2), q.name
 
 
+@pytest.mark.slow
 @EVERY
 def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None:
     """Matrices within their promise in ulps of 1, vectors in ulps of their length; or within sixteen."""

@@ -192,6 +192,7 @@ def test_the_three_traces_wave_have_cusps_and_loop() -> None:
     assert loop > 0.1
 
 
+@pytest.mark.slow
 def test_the_axes_of_four_tops_follow_the_equations_of_a_top() -> None:
     """The heavy top's trace ends where Taylor series of its equations take it, n upright; all lie on the sphere."""
     drawn = [layers(panel, Curve, "trace")[0].points for panel in panels("tops")]

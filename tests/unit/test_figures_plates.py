@@ -34,6 +34,7 @@ def test_the_drawn_cylinders_have_the_moments_of_their_place_on_the_scale() -> N
     assert scale[5] == scale[6] == 2.0
 
 
+@pytest.mark.slow
 def test_disk_and_loop_have_one_quadric() -> None:
     """The surfaces over the disk and the loop are the same but for their place, 8 eps in their forms."""
     (panel,) = panels("body_ruler")

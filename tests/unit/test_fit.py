@@ -113,6 +113,7 @@ def test_slopes_are_those_of_the_residuals(kind: str, family: str) -> None:
     np.testing.assert_allclose(problem.jacobian(x), np.transpose(expected), atol=1e-7)
 
 
+@pytest.mark.slow
 def test_an_elementary_motion_does_not_tell_ratio_and_field_apart() -> None:
     """It is said in words, with the combination, which leaves the motion as it is; and what is known else is found."""
     rng = np.random.default_rng(2)
@@ -129,6 +130,7 @@ def test_an_elementary_motion_does_not_tell_ratio_and_field_apart() -> None:
     assert abs(known.params["b"].value - np.sqrt(5)) < 5 * known.params["b"].stderr < 0.1
 
 
+@pytest.mark.slow
 def test_the_axis_of_an_elementary_motion_tells_no_more_than_the_direction_of_the_field() -> None:
     """The axis turns about the field at omega2 / sin(angle), whatever the ratio and the size of the field."""
     rng = np.random.default_rng(1)
@@ -140,6 +142,7 @@ def test_the_axis_of_an_elementary_motion_tells_no_more_than_the_direction_of_th
     assert "ratio is not determined by these data." in found.undetermined
 
 
+@pytest.mark.slow
 def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
     """Without sigma the scatter tells it; with a robust loss one attitude in fifteen may be anything."""
     t, R = measured("rotation")
@@ -165,6 +168,7 @@ def test_one_outlier_of_few_attitudes_is_told() -> None:
     assert any("soft_l1" in words for words in atlas.fit(t, "free", rotation=R).warnings)
 
 
+@pytest.mark.slow
 def test_rounding_errors_determine_nothing() -> None:
     """Exact data of a body at rest, and of a spin about its axis, say nothing of ratio and field."""
     t = np.arange(20.0)
@@ -175,6 +179,7 @@ def test_rounding_errors_determine_nothing() -> None:
         assert any("ratio" in words for words in found.undetermined)
 
 
+@pytest.mark.slow
 def test_drag_is_told() -> None:
     """A spin that dies away by two percent is no motion of the family: chi square and correlations say so."""
     t, _ = measured("rotation", 60, 15.0)
@@ -185,6 +190,7 @@ def test_drag_is_told() -> None:
     assert "drag" in str(found)
 
 
+@pytest.mark.slow
 def test_a_wider_family_is_named() -> None:
     """Of a body with three moments, fitted as a symmetric one, the family that has it is named."""
     t, _ = measured("rotation", 60, 15.0)
@@ -210,6 +216,7 @@ def test_the_small_nutation_of_a_fast_spin_is_found_in_axes(seed: int) -> None:
     assert found.params["ratio"].value * (found.params["omega3"].value + K3) == pytest.approx(1.8 * 30.8, rel=0.1)
 
 
+@pytest.mark.slow
 def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
     """Noise as large as the changes of the rates is no doubt where chi square is what it should be."""
     rng, t = np.random.default_rng(0), np.linspace(0.0, 40.0, 400)
@@ -220,6 +227,7 @@ def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
     assert not found.warnings
 
 
+@pytest.mark.slow
 def test_bounds_and_expressions_are_kept() -> None:
     """As lmfit has them: what is tied follows, and is none of the varied ones."""
     t, R = measured("rotation", 80, 15.0)
@@ -237,6 +245,7 @@ def test_times_may_come_in_any_order() -> None:
     assert data.sigma[:, 0].tolist() == [4, 2, 3, 1, 5]
 
 
+@pytest.mark.slow
 def test_a_fit_is_shown(attitudes: Any) -> None:
     """As text, in a notebook, as a figure of two panels, and as plain data."""
     assert "reduced chi square" in str(attitudes)
@@ -259,6 +268,7 @@ def fitted_signal(start: Any) -> Any:
     return atlas.fit(t, signal=(quotient(motion.rotation(t)), quotient), sigma=NOISE, params=start)
 
 
+@pytest.mark.slow
 def test_a_process_returns_a_fit(attitudes: Any) -> None:
     """With its parameters, its motion and its predictions, all equal; and so do copies and pickles."""
     start = {"ratio": RATIO, **{f"B{i}": x for i, x in enumerate(FIELD, 1)}}
@@ -343,6 +353,7 @@ OF_TOP = {n: x for n, x in TRUTH.items() if n[0] in "oa"} | {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("family", "signal", "truth", "count"),
     [
@@ -369,6 +380,7 @@ def test_solutions_that_are_equal_by_symmetry_are_listed(family: str, signal: An
         assert min(np.abs(np.subtract(solutions[i + 1], x)).max() for x in solutions[: i + 1]) > 1e-3
 
 
+@pytest.mark.slow
 def test_a_signal_found_without_a_start_has_the_truth_among_its_solutions() -> None:
     """Where the fit has another one, that of the truth is listed."""
     motion, t = atlas.motion(1.4, (0.4, -0.9, 1.2), (0.5, 0.3, -1.1)), np.linspace(0, 20, 200)
@@ -379,6 +391,7 @@ def test_a_signal_found_without_a_start_has_the_truth_among_its_solutions() -> N
     assert min(np.abs(np.subtract(field, (0.4, -0.9, 1.2))).max() for field in fields) < 1e-3
 
 
+@pytest.mark.slow
 def test_bounds_choose_one_of_equal_solutions() -> None:
     """With the signs of two components known there is one only."""
     t = np.linspace(0, 20, 200)
@@ -390,6 +403,7 @@ def test_bounds_choose_one_of_equal_solutions() -> None:
     assert not found.warnings
 
 
+@pytest.mark.slow
 def test_other_kinds_of_data_have_their_equal_solutions() -> None:
     """The axis of three moments does not tell a half turn about it; attitudes and the axis of a symmetric body do."""
     t, rng = np.linspace(0, 15, 100), np.random.default_rng(1)
@@ -405,6 +419,7 @@ def test_other_kinds_of_data_have_their_equal_solutions() -> None:
                 assert axes == pytest.approx(found.motion.rotation(t)[:, :, 2], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_dipole_that_biases_the_field_is_named() -> None:
     """Unseen in a second the family top fits as well, with other values; where it is seen, that is a warning."""
     t, b = np.linspace(0, 1, 300), float(np.linalg.norm((0.3, 0.5, 1.1)))
@@ -435,6 +450,7 @@ def written(path: Path, count: int = 80) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_the_command_fits_a_file(tmp_path: Path) -> None:
     """With sigma from its head, predictions, a figure, and JSON that holds the same numbers."""
     file = written(tmp_path / "mine.csv")
@@ -476,6 +492,7 @@ def test_the_command_knows_the_families() -> None:
     assert get_args(Loss) == fit.LOSSES
 
 
+@pytest.mark.slow
 def test_other_families_are_found() -> None:
     """A free body, and a heavy top in a known direction."""
     rng = np.random.default_rng(3)
@@ -492,6 +509,7 @@ def test_other_families_are_found() -> None:
     assert found.covariance.shape == (8, 8)
 
 
+@pytest.mark.slow
 def test_three_moments_are_found() -> None:
     """From attitudes without a start, in steps of an integration, with errors and predictions of the closed form."""
     rng = np.random.default_rng(4)
@@ -519,6 +537,7 @@ def test_an_elliptic_motion_says_what_it_does_not_tell() -> None:
     assert any("I1" in words and "not determined apart" in words for words in found.undetermined)
 
 
+@pytest.mark.slow
 def test_tops_are_found_from_rates() -> None:
     """The direction of the field in the body is sought; the turn about it is not seen."""
     rng = np.random.default_rng(6)
@@ -550,6 +569,7 @@ def test_a_signal_of_few_numbers_is_enough(seen: Any) -> None:
     assert [words for words in found.warnings if "by symmetry" not in words] == []
 
 
+@pytest.mark.slow
 def test_a_free_body_is_not_taken_for_one_of_those_in_a_field_that_turn_alike() -> None:
     """For s > 0, and some s < 0, these have moments J_i (J_j + J_k + s), but for a factor, in the field M/s along M."""
     J, omega = np.array([0.8, 1.0, 1.3]), np.array([1.3, 1.2, 0.9])
@@ -582,6 +602,7 @@ def test_bodies_that_turn_like_a_free_one_are_bodies_for_the_fields_that_are_sai
     assert len(kinds) == 4
 
 
+@pytest.mark.slow
 def test_confidence_intervals_are_those_of_lmfit(attitudes: Any) -> None:
     """Where errors are small the ends at one sigma are one standard error away; none where nothing is determined."""
     found = attitudes.conf_interval(p_names=["ratio"], sigmas=[1])["ratio"]
@@ -590,6 +611,7 @@ def test_confidence_intervals_are_those_of_lmfit(attitudes: Any) -> None:
     assert [best - low, high - best] == pytest.approx([attitudes.params["ratio"].stderr] * 2, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_start_is_taken() -> None:
     """A value that is given is where all motions start, at the epoch; what is far off is left."""
     t, w = measured("angular_velocity", 60, 10.0)
@@ -600,6 +622,7 @@ def test_a_start_is_taken() -> None:
     assert abs(atlas.fit(hard.t, **hard.given, params=start).redchi - 1) < 0.1
 
 
+@pytest.mark.slow
 def test_a_fast_turn_by_little_is_found() -> None:
     """Of a ball in a strong field, whose body turns slowly: within five standard errors."""
     fast = KINDS["ball, attitudes"](np.random.default_rng([0, 25]))
@@ -729,6 +752,7 @@ def test_a_held_value_is_within_its_own_bounds() -> None:
     assert taken(ratio={"value": 2.0, "max": 2.0, "vary": False})[0]["ratio"].value == 2.0
 
 
+@pytest.mark.slow
 def test_no_prediction_is_better_than_all_are(attitudes: Any, tmp_path: Path) -> None:
     """The horizon is then nowhere, in words and in JSON, and a time of the data where only some are that good."""
     sigma = attitudes.predict(attitudes.t).sigma.max(-1)
@@ -757,6 +781,7 @@ def test_a_cell_is_named_as_its_file_has_it(tmp_path: Path) -> None:
         of_file(tmp_path / "q.csv", None)
 
 
+@pytest.mark.slow
 def test_few_axes_of_unknown_noise_are_followed_by_the_least_squares() -> None:
     """Of 20 axes another motion leaves residuals nearly three times as large, which without sigma might be noise."""
     rng = np.random.default_rng(612)
@@ -770,6 +795,7 @@ def test_few_axes_of_unknown_noise_are_followed_by_the_least_squares() -> None:
     assert found.alternatives
 
 
+@pytest.mark.slow
 def test_the_sign_of_an_elementary_field_is_not_seen_on_the_axis() -> None:
     """In the opposite field, with the opposite omega2, the axis goes the same way: both are named as equal."""
     t, rng = np.linspace(0, 20, 200), np.random.default_rng(3)
@@ -794,6 +820,7 @@ def test_fits_of_tops_have_exact_derivatives(monkeypatch: pytest.MonkeyPatch) ->
     assert top.vectors(values, top.names, t, {}, motion) == pytest.approx(v, abs=1e-7 * abs(v).max())
 
 
+@pytest.mark.slow
 def test_data_are_named_in_the_plural_as_in_check() -> None:
     """Plural names of the data give the same fit as singular ones; both together, or another name, are refused."""
     t, R = measured("rotation", 30, 5.0)

@@ -75,6 +75,7 @@ def rows(page: Path, table: str) -> list[list[str]]:
     return [[cell.replace("\xa0", " ").replace("\N{MINUS SIGN}", "-").strip() for cell in row] for row in texts]
 
 
+@pytest.mark.slow
 def test_its_numbers_are_those_of_the_fit(folder: Path) -> None:
     """Parameters and errors to the digits shown, correlations, horizons and a prediction, as `atlas fit` has them."""
     page = folder / "out" / "fit-mine-predict-20.html"
@@ -192,6 +193,7 @@ def test_what_speaks_against_the_family_is_told(tmp_path: Path, capsys: pytest.C
     assert "by params (--start)" in page
 
 
+@pytest.mark.slow
 def test_a_bad_file_or_a_changed_one_leaves_the_page(folder: Path, tmp_path: Path) -> None:
     """What is no data, a recipe that was edited and a folder that is read-only are refused; what is there stays."""
     place = shutil.copytree(folder, tmp_path / "copy")
@@ -221,6 +223,7 @@ MOTIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", MODELS)
 def test_the_figures_are_of_the_motion(family: str) -> None:
     """In other axes, and without the attitude, the motion of each family turns as fast at each time."""

@@ -51,6 +51,7 @@ def test_a_point_starts_where_it_is_put() -> None:
     assert np.abs(Flight(PARTICLE, Tabulated(), point, FRAME).position(0.0) - (PARTICLE.y0 + point)).max() <= 4 * EPS
 
 
+@pytest.mark.slow
 def test_the_body_is_rigid() -> None:
     """Distances and handedness of three points about the centre of mass stay as they were, and the centre flies on."""
     points = np.array([[0.3, -0.1, 0.7], [1.0, 0.2, 0.1], [-0.4, 0.5, 0.6]])
@@ -88,6 +89,7 @@ def test_the_points_feel_the_lorentz_force_and_no_other() -> None:
     assert np.abs(slope(v.sum(axis=0)) - force.sum(axis=0)).max() < 1e-11
 
 
+@pytest.mark.slow
 def test_without_a_frame_the_user_is_in_the_laboratory() -> None:
     """The arm is R(t) x_N(0) as it stands, for times of any shape."""
     flight, motion = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7]), Tabulated()

@@ -80,6 +80,7 @@ def test_code_and_command_of_a_plate_make_its_figure(built: Path) -> None:
         assert ast.literal_eval(expression.value.args[0]) == shlex.split(command)[2]
 
 
+@pytest.mark.slow
 def test_a_gallery_follows_an_edited_recipe(built: Path) -> None:
     """Its own recipe is drawn anew, and the other two are taken."""
     (built / "mine.py").write_text(OWN.replace("A line rises.", "A line falls."), "utf-8")
@@ -88,6 +89,7 @@ def test_a_gallery_follows_an_edited_recipe(built: Path) -> None:
     assert "A line falls." in page(built)
 
 
+@pytest.mark.slow
 def test_the_pdf_has_no_gallery_and_the_first_page_leads_to_it(tmp_path: Path) -> None:
     """A report names recipes beside it by a pattern."""
     (tmp_path / "mine.py").write_text(OWN, "utf-8")

@@ -77,6 +77,7 @@ def times(inputs: Any, seed: int) -> Any:
     return r.choice([-1.0, 1.0], size.size) * 10.0 ** r.uniform(-3, 6, size.size) / size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("draw", [partial(ordinary, 60), partial(planar, 60), extreme])
 def test_scalars_of_many_motions_have_the_bits_of_one_by_one(draw: Any) -> None:
     """Kind, turning points, roots, period, moduli, nome and angles are those of each motion made alone, to the bit."""
@@ -239,6 +240,7 @@ def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
     return found + [np.where(x.is_certain, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
 
 
+@pytest.mark.slow
 def test_a_motion_does_not_depend_on_those_beside_it() -> None:
     """In any order and any part of an array, extreme neighbours or none, each row has the same bits."""
     r = np.random.default_rng(0)

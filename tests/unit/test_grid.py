@@ -84,6 +84,7 @@ def test_the_small_third_column_keeps_its_digits_also_through_zero(start: float,
                 assert abs(mpf(float(R[i, j, 2])) - column[j, 2]) <= 8 * float(np.spacing(abs(float(column[j, 2]))))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="without long doubles the table is less exact")
 def test_the_fine_table_is_rounded_once() -> None:
     """Its first rows, twice the third column of R, are within half an ulp of the true ones, on both sides of zero."""

@@ -85,6 +85,7 @@ def test_the_reference_holds_every_public_name() -> None:
     assert all(one.docstring for name in known.values() for one in (name, *name.members.values()))
 
 
+@pytest.mark.slow
 def test_examples_in_docstrings_give_what_they_show() -> None:
     """What `help` shows of the package and of its classes of motions and surfaces can be typed."""
     texts = {"atlas": atlas.__doc__ or ""} | {name: one.docstring for name, one in described().items()}

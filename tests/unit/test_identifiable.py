@@ -43,6 +43,7 @@ def rank(moments: np.ndarray, field: np.ndarray, omega: np.ndarray) -> int:
     return int((sizes > 1e-8 * sizes[0]).sum())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_a_general_motion_tells_its_body(seed: int) -> None:
     """The six unknowns are determined but for one factor, with three moments and with two equal ones."""
@@ -68,6 +69,7 @@ def test_a_plane_motion_does_not() -> None:
     assert rank(inertia, field, np.array([-0.6, -0.8, 0.9])) == 3
 
 
+@pytest.mark.slow
 def test_the_table_of_open_combinations_agrees_with_ranks_and_the_theorem() -> None:
     """A general motion leaves the common factor, and a fit nothing; one of the family three numbers, and a fit one."""
     field, omega = [0.3, 0.75, 0.5], [0.3, -0.5, 0.8]

@@ -114,6 +114,7 @@ def test_what_has_no_order_or_other_names_is_no_vector(value: Any) -> None:
         atlas.ElementaryMotion(1.5, value, 0.7)
 
 
+@pytest.mark.slow
 def test_a_series_is_its_values_and_a_table_no_vector() -> None:
     """Whatever its index."""
     import pandas as pd

@@ -14,6 +14,7 @@ EPS = float(np.finfo(float).eps)
 NAMES = ("E", "K2", "c3", "c5")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("I", [0.25, 1.0, 1.5, 2.0])
 def test_they_stay_along_a_motion(I: float) -> None:
     """On the Taylor series' motion all four keep their value to rounding."""

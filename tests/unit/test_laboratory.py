@@ -159,6 +159,7 @@ def test_a_dipole_swings_as_a_pendulum_and_precesses_as_a_gyroscope() -> None:
     assert fast[4] == pytest.approx(fast[3], rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spin", [0.0, 500.0])
 def test_lines_say_how_far_a_component_swings(spin: float) -> None:
     """Fourier integrals of one component along the field, and of that across it that each line moves most: 1 %."""
@@ -224,6 +225,7 @@ def test_the_precession_beyond_larmors_turn_is_that_of_the_general_motion() -> N
     assert none == quotient == 0
 
 
+@pytest.mark.slow
 def test_the_charge_changes_less_than_its_own_precession() -> None:
     """Rates do not add: one of two tops in Larmor's frame less the other, by steps of Runge and Kutta, 2 % of it.
 

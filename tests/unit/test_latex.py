@@ -153,6 +153,7 @@ def compiled(folder: Path, file: str) -> tuple[int, str, str]:
     return done.returncode, done.stdout, words.stdout
 
 
+@pytest.mark.slow
 @needs_latex
 def test_the_paper_compiles(made: Path, numbers: dict[str, tuple[int, str, str]]) -> None:
     """REVTeX sets it without an error, a line that is too wide or a letter of pixels, and prints the numbers."""
@@ -166,6 +167,7 @@ def test_the_paper_compiles(made: Path, numbers: dict[str, tuple[int, str, str]]
     assert numbers["numbers/k"][1] in re.sub(r"[\s\u2009\u202f]", "", text).replace("\N{MINUS SIGN}", "-")
 
 
+@pytest.mark.slow
 @needs_latex
 def test_latex_rounds_a_number_and_refuses_more_than_is_proven(
     made: Path, numbers: dict[str, tuple[int, str, str]]
@@ -186,6 +188,7 @@ def test_latex_rounds_a_number_and_refuses_more_than_is_proven(
         assert reason in log.replace("\n", "")
 
 
+@pytest.mark.slow
 @needs_latex
 def test_the_report_of_a_page_has_keys_by_the_names_in_python(tmp_path: Path) -> None:
     """LaTeX prints such a number with its unit; a float that is not certified has no key."""
@@ -261,6 +264,7 @@ def test_a_table_is_as_wide_and_as_high_as_its_words(letters: tuple[int, ...], c
     assert says in table_of(TableView(1, "tab-x", columns, rows, 0, 0, None, "x"), texts, texts)
 
 
+@pytest.mark.slow
 @needs_latex
 def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
     """All its rows are printed, with the heads again on the second page; a lower one stays in one piece."""

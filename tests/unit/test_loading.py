@@ -223,6 +223,7 @@ def test_a_command_loads_what_it_lists(room: Room, case: Case) -> None:
     assert room.run(case.words, case.status) | ({"fontTools"} & lists) == lists  # Matplotlib before 3.11 does without
 
 
+@pytest.mark.slow
 def test_a_figure_from_the_store_loads_nothing_that_draws(room: Room) -> None:
     """Asked for again, also in another format that is there, a figure is taken as it is."""
     room.run("figure lssc --format svg pdf --out twice", 0)
@@ -293,6 +294,7 @@ def test_help_is_there_at_once() -> None:
     assert len(found - other - needed) <= 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("statement", "loads"),
     [

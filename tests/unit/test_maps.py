@@ -85,6 +85,7 @@ def matrix(t: float) -> list[Any]:
     return [R[i, j] for i in range(3) for j in range(3)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "parameters"), [("stability_map", {}), ("motion_map", {"cells": 12}), ("error_maps", {})]
 )

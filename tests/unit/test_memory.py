@@ -59,6 +59,7 @@ def test_kernels_keep_their_memory_where_the_system_wants_it_back(code: str) -> 
     assert int(done.stdout) < 40_000 / 5
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="what glibc does with memory is tried")
 def test_sweeps_keep_the_memory_of_long_arrays() -> None:
     """There, too, a part of a table gets a new page less than once in fifty rows."""
@@ -124,6 +125,7 @@ print(worst)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="what glibc does with memory is tried")
 def test_thousands_of_times_get_no_new_pages() -> None:
     """In a new process each family is evaluated at 5000 times, again and again, in memory that it has already."""

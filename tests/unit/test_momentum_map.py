@@ -141,6 +141,7 @@ def test_a_steady_precession_may_lie_on_the_axis(end: int) -> None:
     assert pytest.approx((w - A / w) ** 2, rel=64 * EPS) == D
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.4, 0.8, 1.0, 1.6])
 def test_maps_tell_what_a_simulation_does(ratio: float) -> None:
     """The range of nu, and whether the precession turns back, are those of a long simulation, to 1e-3 of the range."""

@@ -52,6 +52,7 @@ BODIES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 @pytest.mark.parametrize("name", BODIES)
 def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
@@ -118,6 +119,7 @@ def test_the_class_that_fits_is_found() -> None:
         assert np.array_equal(m.angular_velocity(0.0), np.asarray(given[2], dtype=float))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 def test_a_disk_is_a_body_in_any_axes() -> None:
     """The rounding of its tensor makes I3 more than I1 + I2, or I2 other than I1: it moves as the disk does."""
@@ -185,6 +187,7 @@ def test_a_start_beside_an_elementary_one_is_not_taken_for_it(ratio: float, fiel
         assert np.array_equal(found.rotation(t), true.rotation(t))
 
 
+@pytest.mark.slow
 def test_what_is_given_broadcasts() -> None:
     """Arrays of moments in a tuple, of fields that are zero, of attitudes; columns of arrays."""
     a, b, c = np.array([0.8, 0.7]), np.array([1.0, 1.1]), np.array([1.3, 1.2])

@@ -22,6 +22,7 @@ COMMANDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_table_is_graded_by_itself(tmp_path: Path, name: str) -> None:
     """Its head has the motion: without an option all its columns have their digits."""

@@ -31,6 +31,7 @@ console.log(JSON.stringify(data.wide.spaces.map(([frame, riders], k) => riders.f
 node = shutil.which("node")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 @pytest.mark.parametrize("name", ["flight", "rolling_cones", "tipping_disk"])
 def test_the_script_carries_a_scene_as_the_paths_do(name: str) -> None:
@@ -104,6 +105,7 @@ def test_what_rides_is_there_on_both_screens(name: str) -> None:
             assert all(last <= len(panel[kind]) for kind, _, last, _ in riders)
 
 
+@pytest.mark.slow
 def test_what_does_not_move_has_no_script() -> None:
     """A figure without paths has none; one that is flat has marks alone; the program is small and asks for nothing."""
     assert not moves.script(recipes.load("cone").scene())

@@ -29,6 +29,7 @@ def tensor(moments: Sequence[float], axes: Any = TURN) -> Any:
     return np.triu(J) + np.triu(J, 1).T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("axis", "spin", "field"), [(0, 1.7, 0.9), (2, -3.5, 1.2), (2, 1.3, 0.6)])
 def test_a_spin_along_the_field_in_turned_axes_is_a_uniform_rotation(axis: int, spin: float, field: float) -> None:
     """Stable spins stay within rounding of exp(spin t) at short and long times."""
@@ -40,6 +41,7 @@ def test_a_spin_along_the_field_in_turned_axes_is_a_uniform_rotation(axis: int, 
         assert abs(m.rotation(t) - uniform).max() < 1e-15 * (20 + abs(t))
 
 
+@pytest.mark.slow
 def test_a_spin_next_to_an_unstable_axis_is_what_was_typed() -> None:
     """Rounding of the middle axis grows as the body flees: the motion is that of the given doubles."""
     e = TURN[:, 1]
@@ -89,6 +91,7 @@ def test_moments_that_are_equal_as_given_are_one() -> None:
         assert atlas.motion(J, (0.3, 0.1, 1), (0.2, 1.0, 0.4)).family == "general"
 
 
+@pytest.mark.slow
 def test_the_quaternion_at_the_start_has_no_negative_w() -> None:
     """Half turns, whose w is zero but for rounding, too; and those after it follow without a jump."""
     rng = np.random.default_rng(7)

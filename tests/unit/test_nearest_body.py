@@ -100,6 +100,7 @@ def test_a_tensor_of_single_precision_is_a_body() -> None:
     assert told
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", [["--ratio", "1.5(1)"], ["--ratio", "1.5+-0.1"], ["--inertia", "1", "1", "1.3(1)"]])
 def test_uncertain_bodies_are_no_printed_digits(body: list[str]) -> None:
     """Numbers with a standard deviation are taken as typed."""

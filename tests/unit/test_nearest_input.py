@@ -28,6 +28,7 @@ def test_an_attitude_in_single_precision_is_taken_to_the_nearest_rotation() -> N
         assert np.abs(atlas.motion(1.5, FIELD, OMEGA, np.round(TURN, 3)).rotation(0.0) - TURN).max() < 1e-3
 
 
+@pytest.mark.slow
 def test_a_tensor_in_single_precision_is_taken() -> None:
     """A tensor off symmetry, or beyond a plane body, by single precision only is taken with a warning."""
     tensor = TURN @ np.diag([1.0, 2.0, 2.5]) @ TURN.T

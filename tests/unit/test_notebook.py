@@ -81,6 +81,7 @@ def test_a_repr_is_one_line_that_makes_the_same_again(one: Any) -> None:
     assert repr(again) == said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("one", [*ONE, ONE[2].closed(2, 3)], ids=name)
 def test_it_can_be_copied_and_sent_to_another_process(one: Any) -> None:
     """A copy and what pickle makes of it are the same object, with the same matrices to the last bit."""
@@ -139,6 +140,7 @@ def test_html_shows_what_the_register_has_of_it(one: Any, monkeypatch: pytest.Mo
     assert table.count(r"\\") + 1 >= len(FAMILIES[one.family].quantities)
 
 
+@pytest.mark.slow
 def test_html_has_proven_digits() -> None:
     """The period of a precession by Machin's own pi: 2 pi/(omega2/B2hat), B2hat = B2/|B|, (79)."""
     with_precision = ctx.prec
@@ -170,6 +172,7 @@ def pixels(html: str) -> tuple[int, int]:
     return width, height
 
 
+@pytest.mark.slow
 def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
     """One panel, as a picture in the text, with twice the pixels of the width that it is shown in; none of an array."""
     assert picture(Quadric([1.5, 0.5], (1, 2))) == ""
@@ -193,6 +196,7 @@ def test_a_figure_shows_itself() -> None:
     assert shown["width"] > 200
 
 
+@pytest.mark.slow
 def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
     """The frame is sandboxed, its policy lets nothing in, and it has still, scene and script in it."""
     scene = recipes.load("quadric").scene()
@@ -257,6 +261,7 @@ def test_the_picture_of_a_particle_is_its_path() -> None:
     assert np.abs((path[-1] - path[0]) - (y[-1] - y[0]) / span.max()).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_the_picture_of_a_flight_is_the_way_of_its_point() -> None:
     """Of any motion of the body, in the user's axes: both paths, and the arm at its end as it is there."""
     field = Field((0.0, 1.0, 2.0), mu=1.0, E=(-1.0, 0.3, 0.0))
@@ -277,6 +282,7 @@ def test_the_picture_of_a_flight_is_the_way_of_its_point() -> None:
     assert "<img" in one._repr_html_()
 
 
+@pytest.mark.slow
 def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
     """The panel asked for, into one of two axes; the figure that comes back is theirs."""
     figure = Figure((8, 4))
@@ -367,6 +373,7 @@ def test_a_data_frame_has_a_row_for_each_time() -> None:
     assert ONE[5].to_dataframe([]).shape == (0, frame.shape[1])
 
 
+@pytest.mark.slow
 def test_a_closed_motion_is_not_taken_for_another() -> None:
     """It is made of p and q, which are no omega2 and omega3: its quantities are its own, and so is its picture."""
     closed = Hyperbola(1.5, (1.0, 2.0)).closed(1, 3)

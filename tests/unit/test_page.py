@@ -210,6 +210,7 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
     assert b"my ball" in made.read_bytes()
 
 
+@pytest.mark.slow
 def test_several_reports_are_built_at_once(tmp_path: Path) -> None:
     """Each is told by its place, in their order."""
     for name in ("one", "two"):
@@ -341,6 +342,7 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
     assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14, abs=0.0)
 
 
+@pytest.mark.slow
 def test_a_precession_too_slow_to_be_drawn_is_told(
     unbuilt: Callable[[str], dict[str, Any]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -403,6 +405,7 @@ def test_a_report_of_several_pages_is_not_one_file() -> None:
         single({"index.html": b"", "more.html": b""}, "x")
 
 
+@pytest.mark.slow
 def test_a_body_without_a_field_is_free_and_its_times_have_a_unit() -> None:
     """No caption and no heading calls it charged, or says how strong no field is; a time is never a bare number."""
     made = definition(Asked(FAMILIES["asymmetric"], {}, {

@@ -124,6 +124,7 @@ def test_every_citation_is_one_of_the_ledger() -> None:
     assert set(names) <= set(EQUATIONS)
 
 
+@pytest.mark.slow
 def test_nothing_of_a_text_is_lost_on_a_terminal() -> None:
     """No TeX is left, and every letter, digit and sign of a formula is still there."""
     for text in TEXTS:

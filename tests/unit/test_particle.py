@@ -44,6 +44,7 @@ def sizes(p: ParticleMotion, t: float) -> tuple[float, float]:
     return np.hypot.reduce(p.y0) + abs(t) * (v + drift + along * abs(t) / 2), v + drift + along * abs(t)
 
 
+@pytest.mark.slow
 @given(charges, vectors, vectors, vectors, vectors, st.floats(0.5, 2), st.floats(-9, 9))
 @example(1.0, np.array([0, 1.0, 0]), np.array([0, 0, 1.0]), ORIGIN, ORIGIN, 1.0, 6.283185307179586)
 @example(-1.0, np.array([0, 1.0, 1e-9]), np.array([0, 0, 1e-9]), ORIGIN, np.array([1.0, 0, 0]), 1.0, 5.0)
@@ -59,6 +60,7 @@ def test_position_and_velocity_solve_the_equation(
             assert max(abs(float(g) - w) for g, w in zip(got, true, strict=True)) <= 8 * EPS * size + 1e-300
 
 
+@pytest.mark.slow
 @given(vectors, vectors, st.sampled_from([1.0, -1.0]), st.integers(-1000, 0))
 def test_the_field_can_go_to_zero(E: Any, B: Any, mu: float, power: int) -> None:
     """As B -> 0 by powers of two, the path goes over to the parabola of (90), with no loss on the way."""

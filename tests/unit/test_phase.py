@@ -64,6 +64,7 @@ def test_odd_quarter_turns_are_no_worse(f: float, digits: int, seed: int) -> Non
     assert worst(phases_of(f), f, np.minimum(turns * np.pi, 2.0**50) / f * (1 - 2.0**-52)) <= PROVEN
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(
     st.floats(-1e3, 1e3).filter(lambda f: abs(f) > 1e-6),

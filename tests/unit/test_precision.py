@@ -41,6 +41,7 @@ def doubles(make: Callable[[], Any]) -> dict[str, list[float]]:
     return {name: values.tolist() for name, values in found.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", MAKERS)
 def test_the_precision_of_flint_outside_changes_nothing(
     make: Callable[[], Any], monkeypatch: pytest.MonkeyPatch

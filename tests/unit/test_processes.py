@@ -26,6 +26,7 @@ def workers_of(process: "subprocess.Popen[str]") -> list[str]:
     return Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("interrupts")
 @pytest.mark.parametrize("wait", [0.0, 0.1, 0.5])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

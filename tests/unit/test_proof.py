@@ -47,6 +47,7 @@ DEFINITIONS = ["(1)", "(2)", "(7)", "(8)", "(10)", "(58)"]
 IN_WORDS = [name for name, entry in EQUATIONS.items() if entry.number is None and name not in REFUTED]
 
 
+@pytest.mark.slow
 def test_every_entry_of_the_ledger_has_a_trial_and_a_recorded_verdict() -> None:
     """Each name is tried in the file of its topic, and nothing else is."""
     tried = [name for stem in {topic(name) for name in EQUATIONS} for name in trials(stem)]
@@ -140,6 +141,7 @@ def test_every_claim_in_words_has_a_false_sentence_beside_it() -> None:
     assert [name for name in IN_WORDS if not RECORDED[name].false] == []
 
 
+@pytest.mark.slow
 def test_a_trial_that_cannot_fail_is_found_out() -> None:
     """That the masses balance says nothing of the electric field: with unequal charges the trial must say no."""
     electric = trial("text-electric-field")
@@ -185,6 +187,7 @@ def test_a_recorded_verdict_is_found_again(name: str) -> None:
     assert replace(try_one(name), seconds=RECORDED[name].seconds) == RECORDED[name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SLIPS)
 def test_the_slips_of_the_paper_are_found(name: str) -> None:
     """Each is refuted as printed, with the values on record that show it, and its corrected form is proved."""
@@ -393,6 +396,7 @@ def test_a_definition_may_be_used_through_another_letter() -> None:
     assert found.method.endswith(" b")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "right", "wrong"),
     [

@@ -82,6 +82,7 @@ def test_a_definition_that_is_changed_does_not_hold(name: str) -> None:
                 assert again.broken or not again.kept, (formula, what)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if DOMAIN.search(str(entry.assumptions))])
 def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each domain that is read, turned round, leaves the entry undecided, but where the claim is true there, too."""
@@ -96,6 +97,7 @@ def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.Monkey
         assert case.assumed.broken or case.of_printed().decision == "undecided", clause
 
 
+@pytest.mark.slow
 def test_what_is_not_read_is_on_record() -> None:
     """Clauses of an entry that are not held against its model stand in its record, and no others do."""
     for name, entry in EQUATIONS.items():

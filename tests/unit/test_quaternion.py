@@ -46,6 +46,7 @@ def of(q: Any) -> Any:
     return Rotation.from_quat(q.reshape(-1, 4)).as_matrix().reshape(*q.shape[:-1], 3, 3)
 
 
+@pytest.mark.slow
 @EVERY
 def test_quaternion_is_that_of_the_matrix_and_follows_the_equation_of_motion(name: str) -> None:
     """Within 20 eps of R; and q' = q Omega/2, integrated from t = 0, gives it with its sign after several turns."""

@@ -58,6 +58,7 @@ def observed(I: Vector, K: Vector, omega: Vector, T: float) -> tuple[int, float,
     return int(c), turned(R[:, :, c], outside) / T, -2 * np.pi * windings[c] / T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("I", "omega"), TUMBLING)
 def test_rates_of_a_free_body_are_those_of_the_axis_that_its_momentum_goes_round(I: Vector, omega: Vector) -> None:
     """The period is Jacobi's, the rates are those that integrated motions have, and balls agree."""
@@ -99,6 +100,7 @@ def test_rates_of_a_free_body_go_on_where_two_moments_become_equal(I3: float, om
     assert near.mode == symmetric.mode == direct.mode
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("branch", [1, -1])
 @pytest.mark.parametrize("z", [1.7, 0.4, -1.2])
 @pytest.mark.parametrize("field", [(0.2, 1.0, 0.6), (0.2, 0.3, -1.0), (-1.0, 0.1, 0.1)])

@@ -156,6 +156,7 @@ def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     assert (first.command, second.command) == ("make bench", "")
 
 
+@pytest.mark.slow
 def test_tables_stand_in_their_order(tmp_path: Path) -> None:
     """One of words, which stays in its place, does not overtake one of numbers that floats to the next page."""
     said = "\n\n".join(["filled " * 90] * 6)
@@ -195,6 +196,7 @@ blocks = [
 """
 
 
+@pytest.mark.slow
 def test_a_short_report_has_its_title_first_and_no_empty_head(tmp_path: Path) -> None:
     """No cover, and no heading for an abstract that is not there, in a bound one neither; a figure stays below."""
     (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
@@ -209,6 +211,7 @@ def test_a_short_report_has_its_title_first_and_no_empty_head(tmp_path: Path) ->
     assert not any("Abstract" in page for page in pages)
 
 
+@pytest.mark.slow
 def test_a_short_report_names_its_authors_and_counts_only_tables_with_a_caption(tmp_path: Path) -> None:
     """The authors stand below the title; a table of the text takes no number from those that have one."""
     said = 'What it says, @tab:here.\\n\\n| a | b |\\n|---|---|\\n| 1 | 2 |" },\n'

@@ -60,6 +60,7 @@ def test_what_is_nested_as_people_nest_is_none_of_these() -> None:
     assert deepest("$x^{y^{z}}$ and $" + "{a}" * 50 + "$") == 2
 
 
+@pytest.mark.slow
 def test_a_text_that_pandoc_cannot_finish_ends_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     """Thirty open brackets, unless they are refused before: pandoc is ended after its seconds, or with its memory."""
     monkeypatch.setattr(pandoc, "SECONDS", 1)
@@ -96,6 +97,7 @@ def _runs(process: int) -> bool:
         return False
 
 
+@pytest.mark.slow
 def test_a_program_has_no_more_than_its_seconds() -> None:
     """One that computes without end is ended after a second of a processor; one that ends well says what it wrote."""
     with pytest.raises(subprocess.TimeoutExpired):

@@ -87,6 +87,7 @@ def test_bold_italic_letters_become_upright_and_no_others() -> None:
     assert "".join(map(_upright, "𝑨𝒁𝒂𝒛 𝑧𝒜𝜶")) == "𝐀𝐙𝐚𝐳 𝑧𝒜𝜶"
 
 
+@pytest.mark.slow
 def test_functions_have_their_spaces() -> None:
     """A thin space stands on both sides of sin in `a sin x`, and of ln, none before a bracket."""
     assert one(r"$a\sin x$").count("mspace") == 4

@@ -128,6 +128,7 @@ def test_inputs_are_listed_and_nothing_is_drawn(paper: Path) -> None:
     assert [*paper.parent.iterdir()] == [paper]
 
 
+@pytest.mark.slow
 def test_a_mistake_has_the_line_of_the_file(paper: Path) -> None:
     """Below a loop that makes lines, and in a template."""
     values = evaluated(paper, {"height": "1"})

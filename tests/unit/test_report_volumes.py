@@ -143,6 +143,7 @@ def _write(where: Path, report: str = REPORT, works: str = WORKS) -> Path:
     return where / "cited.toml"
 
 
+@pytest.mark.slow
 def test_page_and_print_cite_alike(tmp_path: Path) -> None:
     """Author and year, in brackets or in the sentence, and the list holds what is cited and nothing else."""
     built = build_report(_write(tmp_path), tmp_path / "out")
@@ -177,6 +178,7 @@ def test_what_is_wrong_with_a_citation_is_said(tmp_path: Path, old: str, new: st
         build_report(_write(tmp_path, REPORT.replace(old, new)), tmp_path / "out", formats=("html",))
 
 
+@pytest.mark.slow
 def test_a_file_that_is_no_bibliography_is_refused(tmp_path: Path) -> None:
     """Nothing in it, or an entry that breaks off."""
     for works in ("", "@article{x, author="):

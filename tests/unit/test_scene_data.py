@@ -46,6 +46,7 @@ def test_every_kind_of_layer_has_its_rows() -> None:
     assert "# panel 2: x: $x$; y: y\n" in data.table(scene)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("renderer", ["vector", "shaded"])
 def test_data_are_a_format_of_a_figure(renderer: str, tmp_path: Path) -> None:
     """The format csv needs no drawing and is that of the scene, whatever the renderer."""

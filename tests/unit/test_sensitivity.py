@@ -91,6 +91,7 @@ def test_sensitivity_of_a_general_motion_is_the_difference_of_two(ratio: float, 
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "values",
     [
@@ -197,6 +198,7 @@ def in_given_axes(**x: float) -> Any:
     return atlas.motion(x["ratio"], field, omega, attitude)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("inputs", "size"),
     [
@@ -256,6 +258,7 @@ def test_scalars_have_derivatives() -> None:
     assert found == pytest.approx([5 / 3, 0], abs=1e-15)
 
 
+@pytest.mark.slow
 def test_sensitivity_of_a_body_with_three_moments() -> None:
     """By theta functions: against a difference of motions in all inputs at once, and along the motion at any time."""
     x = np.array([0.8, 1.0, 1.3, 0.2, 1.0, 0.6, 0.3, 0.7, 0.2])

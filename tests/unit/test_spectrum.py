@@ -38,6 +38,7 @@ MOTIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MOTIONS)
 def test_lines_add_up_to_the_motion(name: str) -> None:
     """At other times than those it was sampled at, and to the mean square (Parseval), 3 of R and 1 of an axis."""

@@ -99,6 +99,7 @@ def test_the_fastest_point_of_a_body_is_the_fastest_of_many(shape: str, sizes: d
         assert fastest_point(shape, sizes, omega) == pytest.approx(fastest, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_points_and_sweeps_know_their_speed_too(tmp_path: Path) -> None:
     """The point farthest from the axis counts, and of a sweep the largest angular velocity, in one line."""
     points = tmp_path / "p.csv"

@@ -93,6 +93,7 @@ def test_small_entries_are_promised_before_they_are_large(
     assert ulps > 1e9 if seen else ulps <= PROMISES["R13, R23 for |kt| < 1"]
 
 
+@pytest.mark.slow
 def test_arrays_of_elementary_motions_keep_the_promises() -> None:
     """20 000 rows, each rounded once, and as good as single motions."""
     worst = check_rows(3, 0).worst

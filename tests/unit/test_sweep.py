@@ -62,6 +62,7 @@ def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: st
     assert len(names(tmp_path)) == 3
 
 
+@pytest.mark.slow
 def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:
     """A local cluster of two workers writes the bytes of the single process."""
     with dask_client(2) as client:
@@ -321,6 +322,7 @@ def test_the_first_row_outside_the_domain_is_named(tmp_path: Path, listed: bool,
     assert bool(list(tmp_path.iterdir())) is (rows == 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_quantity_of_every_family_has_a_value_a_row(family: str) -> None:
     """All quantities of a list of two rows are finite, NaN with a reason, or names that fit."""
@@ -366,6 +368,7 @@ def test_a_toml_file_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: 
     assert CliRunner().invoke(program, ["sweep", "--file", "s.toml"]).exit_code == 2
 
 
+@pytest.mark.slow
 def test_no_field_of_a_record_shadows_a_name_in_the_annotations_beside_it() -> None:
     """From Python 3.14 on annotations are evaluated late, when a field `list` would be what `list` means."""
     shadows = []

@@ -59,6 +59,7 @@ def test_a_new_data_set_takes_the_place_of_an_old_one_and_of_nothing_else(tmp_pa
     assert len(list(out.iterdir())) == 9
 
 
+@pytest.mark.slow
 def test_a_data_set_at_an_address_is_read_from_there() -> None:
     """What fsspec knows is written and read as a folder is, and nothing is left beside it."""
     fsspec, pandas = pytest.importorskip("fsspec"), pytest.importorskip("pandas")

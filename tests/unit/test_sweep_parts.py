@@ -326,6 +326,7 @@ def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_f
     assert lock.read_text() == "mine"
 
 
+@pytest.mark.slow
 def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
     """After SIGKILL the same command ends with the table of a sweep that nobody disturbed."""
     arguments = [

@@ -139,6 +139,7 @@ def test_arrays_with_nan_are_graded_and_fitted_without_those_rows() -> None:
             call()
 
 
+@pytest.mark.slow
 def test_standard_errors_stand_in_a_column_or_have_a_unit(tmp_path: Path) -> None:
     """A column sigma [deg] and the option 1deg are the same as radians; results are in s where times have a unit."""
     motion, t = MOTIONS["general"], np.linspace(0, 8, 41)

@@ -63,6 +63,7 @@ def test_panels_that_can_be_spared_are_left_out_of_a_slide_and_named(name: str) 
     assert len(arranged(scene, find("aps-double")).panels) == len(scene.panels)
 
 
+@pytest.mark.slow
 def test_the_command_names_panels_that_are_left_out(tmp_path: Path) -> None:
     """A slide lacks panels, which a line on standard error names; a whole page has all, and no line."""
     letters = [made("cusps").panels[k].title[:3] for k in made("cusps").spare]
@@ -106,6 +107,7 @@ def test_what_needs_the_page_says_so(name: str) -> None:
     assert arranged(recipe.scene(), find("aps-double")).size[0] == 178.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "target"), [("motion_map", "iop"), ("quadrics_of_tops", "aps"), ("simulators", "beamer")]
 )
@@ -185,6 +187,7 @@ def test_what_needs_the_page_gets_it(name: str) -> None:
     assert suited(recipes.load(name).scene(), [find("aps"), find("aps-double")]).width == 178.0
 
 
+@pytest.mark.slow
 def test_files_have_the_size_the_fonts_and_the_resolution(tmp_path: Path) -> None:
     """A PDF of 86 mm with TrueType fonts alone; a PNG of 600 dots an inch without alpha, with its words; PGF too."""
     (made,) = build_figures(["hyperbola"], ["pdf", "png", "pgf"], tmp_path, target="aps")

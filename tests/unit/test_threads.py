@@ -93,6 +93,7 @@ def _restless() -> Iterator[None]:
     sys.setswitchinterval(before)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FRESH)
 @pytest.mark.usefixtures("_restless")
 def test_threads_that_share_a_new_object_get_what_it_gives_alone(name: str) -> None:
@@ -113,6 +114,7 @@ def test_threads_that_share_a_new_object_get_what_it_gives_alone(name: str) -> N
         assert [pair for pair in found if pair[1] != expected[pair[0]]] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FRESH)
 def test_values_do_not_depend_on_the_precision_that_flint_has(name: str) -> None:
     """Which is another thread's, or the caller's own: of 24 digits nothing is seen."""

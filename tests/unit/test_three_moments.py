@@ -49,6 +49,7 @@ def test_the_letter_is_about_one_body() -> None:
     assert fields == 4 * [DATA[1]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("moment", [1.25, 1.125])
 def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, tmp_path: Path) -> None:
     """The largest moment in the file: the keys have the digits of balls, and the sentence the number by its key."""
@@ -94,6 +95,7 @@ def test_the_rows_of_the_family_are_those_of_the_formulas_of_the_letter() -> Non
         assert row[-1] == ("stable" if C > 0 else "unstable")
 
 
+@pytest.mark.slow
 def test_the_tables_of_the_letter_are_proven_to_the_last_digit() -> None:
     """The motion at t = 2 has the digits of balls; pairs of times found in another way are sums of these."""
     inertia, field, omega = DATA

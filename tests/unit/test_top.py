@@ -81,6 +81,7 @@ def test_floats_are_within_16_ulp_of_balls_at_any_time(name: str) -> None:
         assert np.abs(velocity - middle(turned)[0]).max() <= 16 * EPS * rate
 
 
+@pytest.mark.slow
 def test_a_slow_nutation_under_a_fast_spin_keeps_its_digits() -> None:
     """Entries of R to 16 ulp where a period is 1e4 to 1e9 and holds as many turns: alone, in arrays and on grids."""
     random = Random(34)  # noqa: S311  reproducible, not secret
@@ -99,6 +100,7 @@ def test_a_slow_nutation_under_a_fast_spin_keeps_its_digits() -> None:
 number = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
 
 
+@pytest.mark.slow
 @given(
     st.floats(0.02, 2).map(lambda x: round(x, 6)),
     *(st.tuples(*[number] * n) for n in (2, 2, 3, 2)),
@@ -393,6 +395,7 @@ def test_the_susceptibility_of_an_ellipsoid_is_its_polarizability() -> None:
     assert gaussian.quadratic == pytest.approx(found * 1e7, rel=1e-8)  # type: ignore[attr-defined]  # erg
 
 
+@pytest.mark.slow
 def test_random_and_extreme_tops_move_as_the_equations_say() -> None:
     """By DOP853 at three times, to 1e-11, 16 ordinary tops and 6 hard ones; `tests/tops.py` draws 1300."""
     random = Random(7)  # noqa: S311  reproducible, not secret

@@ -74,6 +74,7 @@ def test_most_ordinary_tops_are_made_in_arrays(couplings: tuple[float, float] | 
         assert len(extreme) <= 4
 
 
+@pytest.mark.slow
 def test_a_row_does_not_depend_on_those_beside_it() -> None:
     """The bits of R and Omega in the whole array, in its halves and in reverse are the same."""
     tops = [top for name in ("top, ordinary", "top, near the cubic", "top, sleeping") for top in drawn(name, 12)]
@@ -121,6 +122,7 @@ def test_the_turn_about_the_axis_joins_where_the_quartic_becomes_a_cubic() -> No
         assert np.abs(found[i] - atlas.TopMotion(*top).rotation(times[i])).max() <= 16 * EPS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["top, ordinary", "top, near the cubic", "top, near the quadratic", "top, sleeping"])
 def test_scalars_in_arrays_are_those_of_single_tops_to_the_bit(name: str) -> None:
     """Kind, period, modulus and turning points of tops with any kappa, and of two that start at a turning point."""

@@ -58,6 +58,7 @@ def test_a_period_that_is_too_long_is_tried_once(monkeypatch: pytest.MonkeyPatch
     assert tried == [128, torus.PERIOD_BITS, 2 * torus.PERIOD_BITS]
 
 
+@pytest.mark.slow
 def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> None:
     """Beyond GOOD bits a start is improved, each time to nearly twice the bits; a way without a proof costs less."""
     true, gone, real = kept().periods(128), list[tuple[int, bool]](), torus.Flow.go
@@ -111,6 +112,7 @@ def test_branch_points_lie_on_the_curve(found: dict[str, Any]) -> None:
             assert abs(b2 * z * z + (F + e2 * b2) * z + 2 * D * H + 2 * c * v) < 1e-36
 
 
+@pytest.mark.slow
 def test_periods_and_frequencies_belong_together(found: dict[str, Any]) -> None:
     """(f1, f2) is dual to the periods; f3 turns R about B: what is left of K's turn in the laboratory has f1 and f2."""
     motion = atlas.AsymmetricMotion(BODY, FIELD, OMEGA)
@@ -159,6 +161,7 @@ def test_actions_have_as_many_digits_as_are_asked_for() -> None:
         assert min(J.rel_accuracy_bits() for J in curve.actions) > 490
 
 
+@pytest.mark.slow
 def test_more_digits_begin_with_fewer(found: dict[str, Any]) -> None:
     """Digits of 20 are those of 40, but for the last, which is rounded; in Python they are those of the doubles."""
     short = atlas.AsymmetricMotion(BODY, FIELD, OMEGA).curve.record(14)

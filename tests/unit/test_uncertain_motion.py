@@ -57,6 +57,7 @@ def test_a_matrix_scatters_as_its_draws_do() -> None:
     np.testing.assert_allclose([x.std_dev for x in product], 0.0, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_numbers_of_a_wide_input_are_sampled_with_a_warning() -> None:
     """A modulus beyond first order is told of, and is independent of the input."""
     motion = atlas.motion(1.3, FIELD, (0.3, ufloat(0.7, 0.3), 0.2))

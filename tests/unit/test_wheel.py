@@ -67,6 +67,7 @@ def test_the_types_are_in_the_wheel(program: Path) -> None:
     assert (place / "__init__.pyi").exists()
 
 
+@pytest.mark.slow
 def test_modules_of_the_users_own_break_nothing(run: Run, tmp_path: Path) -> None:
     """A folder may hold a signal.py and a struct.py: neither the workers nor the probe for GL load them."""
     for name in ("signal", "struct", "multiprocessing", "numpy", "vtkmodules"):

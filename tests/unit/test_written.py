@@ -67,6 +67,7 @@ def one_line(done: subprocess.CompletedProcess[str], status: int, *words: str) -
     assert all(word in done.stderr for word in words), done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), [marked(*case) for case in WRITERS.items()])
 def test_what_is_in_the_way_stays(tmp_path: Path, words: str, name: str) -> None:
     """A link to nothing, a folder in the place of a file, a disk without room: one line that names the place."""
@@ -94,6 +95,7 @@ LONE = {
 """Commands that write one file, with a number that changes it."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), LONE.items(), ids=[words.split()[0] for words in LONE])
 def test_a_file_that_was_edited_or_is_foreign_stays(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, name: str
@@ -133,6 +135,7 @@ def test_a_file_that_was_edited_or_is_foreign_stays(
     assert new.read_bytes() == first
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [marked(words) for words in WRITERS if not words.startswith("figure")])
 def test_a_disk_without_room_leaves_what_was_there(tmp_path: Path, words: str) -> None:
     """One line names the file or the folder; a figure is in the cache by then, and the system copies it from there."""
