@@ -315,8 +315,8 @@ def centre_of(request: Asked) -> str:
 
 def sign_of(request: Asked) -> str:
     """Return a sentence on the field of a negative charge, none for another."""
-    B = (request.field or {}).get("B")
-    if not B or not request.body or sum(x * y for x, y in zip(B[-2:], case_of(request).components, strict=True)) >= 0:
+    record = {**(request.body or {}), **(request.field or {})}
+    if not any(Fraction(record.get(name) or 0) < 0 for name in ("charge", "charge_to_mass")):
         return ""
     return "The charge is negative: B\N{PRIME} points against B, and arrows named B in the figures show B\N{PRIME}."
 

@@ -3,7 +3,7 @@
 import json
 import tomllib
 from dataclasses import replace
-from math import hypot, pi, sqrt
+from math import hypot, inf, pi, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from syrupy.assertion import SnapshotAssertion
 
 from atlas.book.load import load
 from atlas.book.page import Asked
-from atlas.book.your_body import card, files_of, name_of, stands, thing_of, title_of, verdict
+from atlas.book.your_body import card, files_of, name_of, sign_of, stands, thing_of, title_of, verdict
 from atlas.cli.app import main
 from atlas.cli.page import commands_of
 from atlas.cli.your_body import YourBody
@@ -71,6 +71,36 @@ def test_numbers_of_the_card_are_those_of_plain_formulas() -> None:
     free = card(request_of("--ratio 1.5 --omega 0.3 0.7 0.2"))
     assert free["turn"]["value"] == pytest.approx(2 * pi / hypot(0.3, 0.7, 1.5 * 0.2))
     assert free["spin"]["value"] == pytest.approx((1 - 1.5) * 0.2)
+
+
+@pytest.mark.parametrize("scale", ["1e-300", "1e300"])
+def test_cards_of_tiny_and_huge_rates_are_those_of_one(scale: str) -> None:
+    """Rates are proportional to their unit, also where their squares are no doubles."""
+    of_one, scaled = (card(request_of(f"--ratio 0.7 --field {x} {x} --omega2 {x}")) for x in ("1", scale))
+    powers = {"ratio": 0, "tilt": 0, "larmor": 1, "spin": 1, "turn": -1, "nutation": -1}
+    for key, power in powers.items():
+        assert scaled[key]["value"] == pytest.approx(of_one[key]["value"] * float(scale) ** power, rel=1e-9)
+        assert scaled[key]["proven_digits"] == of_one[key]["proven_digits"]
+
+
+def test_a_negative_charge_turns_the_arrow_of_the_field() -> None:
+    """A sentence says that B' points against B; other reports have none."""
+    assert (
+        "The charge is negative" in files_of(negative := request_of(CASES["negative disk"]))[f"{name_of(negative)}.md"]
+    )
+    for name in ("short in SI", "long on the curve", "free", "heavy top"):
+        assert sign_of(request_of(CASES[name])) == ""
+
+
+def test_an_error_without_a_deviation_is_said() -> None:
+    """Where errors of the inputs leave the domain, no number is called proven, and the last page says why."""
+    request = replace(request_of(SHELL), sigma={"ratio": inf, "larmor": 0.1})
+    made = card(request)
+    assert (made["ratio"]["sigma"], made["ratio"]["proven_digits"]) == (None, 0)
+    text = files_of(request)[f"{name_of(request)}.md"]
+    assert f"{made['ratio']['value']:.10g}(?)" in text
+    assert made["ratio"]["reason"] in text
+    assert "0.53(10)" in text  # |B'| = mu B/2, with its standard deviation in the last digits
 
 
 def test_every_card_has_the_same_keys_and_a_reason_for_each_gap() -> None:
