@@ -7,6 +7,7 @@ from math import hypot, inf, pi, sqrt
 from pathlib import Path
 from typing import Any
 
+import click
 import pytest
 from lxml import html
 from syrupy.assertion import SnapshotAssertion
@@ -152,6 +153,15 @@ def test_inputs_are_as_typed_and_as_evaluated() -> None:
 def test_a_ratio_has_a_place_between_needle_and_disk(ratio: float, words: str) -> None:
     """One function says where I stands."""
     assert words in stands(ratio)
+
+
+@pytest.mark.parametrize("text", ["typed = 5", "x = 1", "[", ""])
+def test_another_file_than_that_of_the_inputs_is_refused(text: str, tmp_path: Path) -> None:
+    """It is named, in one line."""
+    file = tmp_path / "other.toml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(click.UsageError, match=r"--from takes a file NAME\.inputs\.toml that your_body wrote"):
+        request_of(["--from", str(file)])
 
 
 @pytest.mark.parametrize(
