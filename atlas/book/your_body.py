@@ -286,9 +286,13 @@ def body_named(request: Asked, made: Mapping[str, Any]) -> str:
     """Return the body in words, with its size or its moments as they were typed."""
     options = request.options
     if "shape" in options:
-        size = next((options[name][0] for name in ("radius", "length", "equatorial") if name in options), "")
-        unit = " m" if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
-        return f"{options['shape'][0].replace('-', ' ').replace('_', ' ')} of {size}{unit}"
+        shape = options["shape"][0].replace("-", " ").replace("_", " ")
+        for name in ("radius", "length", "equatorial", "polar"):
+            if name in options:
+                size = options[name][0]
+                unit = " m" if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
+                return f"{shape} of {name}{' radius' if name in {'equatorial', 'polar'} else ''} {size}{unit}"
+        return shape
     if made["ratio"]["value"] is not None:
         return f"body with I = {made['ratio']['value']:.8g}"
     return f"body with the moments {', '.join(map(plain, request.values['inertia']))}"
