@@ -274,7 +274,7 @@ def place_of(family: Family, motion: Any) -> str:
         return "Any other start makes the axis nod."
     if family.takes("omega2"):
         return "The given start lies on it: the axis keeps its angle with the field."
-    if str(motion.kind) == "ball":
+    if motion.kind == "ball":
         return "All axes of a ball are alike: the drawn one turns about the angular momentum, and that about the field."
     nods = str(motion.kind).startswith("nutation")
     return (
