@@ -177,7 +177,7 @@ def frozen(value: Value) -> Value:
 
 
 class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
-    """A `cached_property` whose arrays are read-only: other values depend on their numbers."""
+    """A `cached_property` whose arrays are read-only, since other cached values are made from them."""
 
     finish = staticmethod(frozen)
 

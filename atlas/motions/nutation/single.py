@@ -103,7 +103,7 @@ class SingleMotion:
 
     @cached_property
     def _to_quaternion(self) -> FloatArray:
-        """Matrix (4, 4) from the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
+        """Matrix (4, 4) that takes real and imaginary parts of alpha and beta to (x, y, z, w), with w >= 0 at t = 0."""
         matrix = between(*self.sides)[[3, 0, 2, 1]]
         start = Evaluation(self.pair, 1, signed=True).components(np.zeros(1))[:, 0] @ matrix
         return np.asarray(-matrix if start[3] < 0 else matrix)
