@@ -1,4 +1,4 @@
-"""One report from its TOML file to pages and PDF: only changed parts are made, and all is written whole.
+"""One report from its file to pages and PDF: only changed parts are made, and each format is written whole.
 
 The order: is anything new at all; which figures are missing; draw them; compute the tables and set the texts; set the
 pages and the PDF; write them beside their places, and rename them.

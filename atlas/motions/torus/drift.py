@@ -184,7 +184,7 @@ class Torus:
         return np.moveaxis(a, (-1, -2), (0, 1)), np.linalg.det(a)
 
     def _evened(self, y: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return states on the torus y at equal steps of both phases, with their times and density, from states near it."""
+        """Return states on the torus y at equal steps of both phases, from states near it; their times and density."""
         x = self._projected(y, x, NEAR_TORUS)
         a, density = self._times(x)
         for _ in range(MAX_EVENING):
