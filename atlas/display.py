@@ -9,6 +9,7 @@ import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike, StyleLike
 from atlas.arithmetic.inputs import kept
+from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.errors import AtlasError, nearest
 from atlas.viewers import notebook
 
@@ -21,7 +22,7 @@ MAX_SHOWN_NUMBERS, MAX_COUNTED_OBJECTS = 9, 4096
 """Numbers of an array that are written out; objects whose kinds are counted."""
 
 
-class Shown:
+class Shown(CarriesUncertainty):
     """An object that says what it is, in a terminal and in a notebook.
 
     `family` is its name in the register, `arguments` what it was made of, by name and in their order; and `made_by`

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.dimensions import bare
 from atlas.arithmetic.given import Given, exact_number
+from atlas.arithmetic.uncertainty import is_uncertain
 from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
 
@@ -56,7 +57,7 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
 
 def _not_real(value: Any, name: str) -> AtlasError:
     """Return the error for an input that is not made of real numbers."""
-    carried = " atlas.motion and classes of motions carry a standard deviation." * hasattr(value, "std_dev")
+    carried = " Motions, bodies, fields and surfaces carry a standard deviation." * is_uncertain(value)
     return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.{carried}")
 
 

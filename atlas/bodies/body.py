@@ -14,6 +14,7 @@ from atlas.arithmetic.double_double import given, over
 from atlas.arithmetic.given import exact_number as given_number
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, matrix, numbers, plain
 from atlas.arithmetic.numbers import nearest
+from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.bodies import formula_shapes as formulas
 from atlas.bodies.formula_domain import NO_SUCH_BODY, ROD, check_ratio
 from atlas.bodies.inertia import (
@@ -71,7 +72,7 @@ def kept_ratio(ratio: Any, I3: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class SymmetricBody:
+class SymmetricBody(CarriesUncertainty):
     """Symmetric body with I1 = I2, eq. (33), or an array of such bodies.
 
     Parameters

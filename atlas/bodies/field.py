@@ -12,6 +12,7 @@ from atlas.arithmetic.dimensions import NO_FIELDS, RATE, SI_FIELDS
 from atlas.arithmetic.given import as_float_or_fraction
 from atlas.arithmetic.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
 from atlas.arithmetic.numbers import cross, dot, nearest, root, unit, workprec
+from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.arithmetic.words import exact
 from atlas.bodies import units as unit_systems
 from atlas.bodies.speeds import check_drift
@@ -32,7 +33,7 @@ class Prime(np.ndarray[Any, np.dtype[np.float64]]):
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class Field(CarriesUncertainty):
     """Constant fields B and E that act on matter of charge-to-mass ratio mu, eqs. (32), (89).
 
     Parameters
@@ -219,7 +220,7 @@ class Field:
 
 
 @dataclass(frozen=True, eq=False)
-class LaboratoryFrame:
+class LaboratoryFrame(CarriesUncertainty):
     """Laboratory frame of figure Lssc: e3 along the body's axis, B' in the plane (e2, e3), B2 >= 0, eq. (32).
 
     Parameters

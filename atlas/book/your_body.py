@@ -14,6 +14,7 @@ from hashlib import sha256
 from typing import Any
 
 from atlas.arithmetic.certified_digits import MARK
+from atlas.arithmetic.uncertainty import concise
 from atlas.book import toml
 from atlas.book.digits import Number, plain
 from atlas.book.expansion import expanded
@@ -35,7 +36,6 @@ from atlas.book.tables.table import Request, certified, quantity
 from atlas.book.templates import versions
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import Family
-from atlas.motions.uncertainty import concise
 from atlas.places import folder
 
 REPORTED = ("elementary", "general", "asymmetric", "top", "quadric")

@@ -11,6 +11,7 @@ from typing import Any
 
 import click
 
+from atlas.arithmetic.uncertainty import mapped
 from atlas.cli import body
 from atlas.cli.axes import OWN_AXES, axes_text, motion_in_given_axes
 from atlas.cli.options import chosen_times, examples, given, numbers, output_options, stack, times_options
@@ -38,7 +39,6 @@ from atlas.families.family import RATE, TIME
 from atlas.lazy import cached_property
 from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.motions.register import Command as Described
-from atlas.motions.uncertainty import mapped
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""

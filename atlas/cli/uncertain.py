@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from atlas.arithmetic.uncertainty import Spread, concise, mapped, spread
 from atlas.cli.present import bar
 from atlas.cli.typed import Typed, parts_of
-from atlas.motions.uncertainty import Spread, concise, mapped, spread
 
 FIRST_ORDER = "In brackets one standard deviation, in the last digits; of first order, by derivatives."
 

@@ -3,12 +3,12 @@
 from typing import Any, TypeAlias
 
 from atlas.arithmetic.annotations import AttitudeLike, BodyLike, FieldLike, RealArrayLike
+from atlas.arithmetic.uncertainty import UncertainObject, is_uncertain
 from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
 from atlas.motions.elementary.kernel_ball import BallMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.start import argument, start_of
 from atlas.motions.torus.kernel import AsymmetricMotion
-from atlas.motions.uncertainty import UncertainMotion, is_uncertain
 
 AnyMotion: TypeAlias = AsymmetricMotion | FreeMotion | ElementaryMotion | BallMotion | GeneralMotion
 
@@ -71,7 +71,8 @@ def motion(
 
     Any number of the inputs may have a standard deviation, as `uncertainties.ufloat` has it: numbers with the
     attributes `nominal_value` and `std_dev`. Quantities and matrices of the motion are then `ufloat` too, correlated
-    with the inputs; `nominal_value` is the motion at the nominal inputs. Classes of motions take such inputs alike.
+    with the inputs; `nominal_value` is the motion at the nominal inputs. Classes of motions, bodies, fields and
+    surfaces take such inputs alike, and motions take such bodies and fields.
 
     Examples
     --------
@@ -82,7 +83,7 @@ def motion(
     if is_uncertain(inertia, field, omega, attitude, omega_laboratory):
         starts = {"attitude": attitude, "omega_laboratory": omega_laboratory}
         named = {name: x for name, x in starts.items() if x is not None}
-        return UncertainMotion(motion, (inertia, field, omega), named)  # type: ignore[return-value]  # its numbers vary
+        return UncertainObject(motion, (inertia, field, omega), named)  # type: ignore[return-value]  # its numbers vary
     start = start_of(inertia, field, omega, attitude, omega_laboratory)
     name, w = ("omega", omega) if omega is not None else ("omega_laboratory", omega_laboratory)
     arguments = {

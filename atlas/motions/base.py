@@ -26,7 +26,6 @@ from atlas.lazy import cached_property
 from atlas.motions.actions import Actions, actions
 from atlas.motions.frames import Placement
 from atlas.motions.spectrum import Spectrum, SpectrumOf, Wheels, function_of, spectrum
-from atlas.motions.uncertainty import CarriesUncertainty
 from atlas.viewers import notebook
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ def check_column(j: Any) -> None:
         raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
 
 
-class Motion(CarriesUncertainty, Shown, Generic[Single]):
+class Motion(Shown, Generic[Single]):
     """Motions R(t) of the shape of the parameters, which broadcasts with the times.
 
     One motion is evaluated by the object that `_single` makes of its inputs. So is each of an array at many times,

@@ -10,9 +10,9 @@ import pytest
 from click.testing import CliRunner
 
 import atlas
+from atlas.arithmetic import uncertainty
+from atlas.arithmetic.uncertainty import concise
 from atlas.cli.app import atlas as command
-from atlas.motions import uncertainty
-from atlas.motions.uncertainty import concise
 
 
 @pytest.fixture(autouse=True)
@@ -146,7 +146,7 @@ def test_a_digit_below_the_error_of_a_deviation_is_not_printed(error: float, tex
         (-0.01276, 5.1e-4, "-0.01276(51)"),
         (12566370.6, 2e4, "1.2566(20)e+07"),
         (1.0, 0.0, "1"),
-        (5000.0, 2.3, "5000.0(23)"),
+        (5000.0, 2.3, "5000.0(2.3)"),
         (1e-9, 9.96e-11, "1.00(10)e-09"),
         (0.0, 0.02, "0.000(20)"),
     ],

@@ -93,5 +93,24 @@ def test_a_spectrum_is_of_the_nominal_motion() -> None:
     with pytest.raises(atlas.AtlasError, match=r"take nominal_value\.spectrum"):
         motion.spectrum()
     assert pickle.loads(pickle.dumps(motion)).period.std_dev == motion.period.std_dev  # noqa: S301
-    with pytest.raises(atlas.AtlasError, match=r"atlas\.motion and classes of motions"):
-        atlas.SymmetricBody(1.0, ufloat(0.5, 0.1))
+
+
+def test_bodies_and_fields_carry_their_deviations_into_motions() -> None:
+    """A charge in B' = e B/(2 m) and a radius in I3 reach each motion as the products of numbers do."""
+    radius, charge = ufloat(1.0, 0.01), ufloat(2.0, 0.1)
+    body = atlas.SymmetricBody.solid_cylinder(mass=1.0, radius=radius, height=2.0)
+    field = atlas.Field.si((0.0, 1.0, 2.0), charge=charge, mass=1.0)
+    assert (body.I3 / radius**2).std_dev < 1e-9
+    assert (field.prime[2] / charge).std_dev < 1e-9
+    by_hand = atlas.motion(6 * radius**2 / (3 * radius**2 + 4), tuple(charge * B / 2 for B in (0.0, 1.0, 2.0)), OMEGA)
+    motion = atlas.motion(body, field, OMEGA)
+    assert (motion.spin_rate - by_hand.spin_rate).std_dev < 1e-6 * motion.spin_rate.std_dev
+    turned = atlas.GeneralMotion.in_laboratory(body, field, np.eye(3), omega_laboratory=OMEGA)
+    assert (turned.spin_rate - motion.spin_rate).std_dev < 1e-6 * motion.spin_rate.std_dev
+    assert repr(motion) == f"motion({body!r}, {field!r}, {OMEGA})"
+
+
+def test_functions_without_derivatives_refuse_a_deviation() -> None:
+    """The error names the classes that carry one."""
+    with pytest.raises(atlas.AtlasError, match="bodies, fields"):
+        atlas.simulate((1, 1, ufloat(1.3, 0.1)), FIELD, OMEGA, [1.0])

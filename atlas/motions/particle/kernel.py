@@ -14,10 +14,9 @@ from atlas.bodies.field import Field
 from atlas.display import Shown
 from atlas.errors import DomainError
 from atlas.motions.particle.rows import BLOCK, Charge
-from atlas.motions.uncertainty import CarriesUncertainty
 
 
-class ParticleMotion(CarriesUncertainty, Shown):
+class ParticleMotion(Shown):
     """Motion of a charged point particle in constant fields E and B, eqs. (89)-(99).
 
     Parameters

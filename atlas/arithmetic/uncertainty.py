@@ -1,10 +1,10 @@
-"""Standard deviations of numbers that depend on uncertain inputs, and motions whose inputs are uncertain."""
+"""Standard deviations of numbers that depend on uncertain inputs, and objects that are made of such inputs."""
 
 import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import partial, wraps
 from time import process_time
 from typing import Any, NamedTuple, Self
 
@@ -241,6 +241,8 @@ def _listed(value: Any) -> Any:
 def _uncertain(value: Any) -> Iterator[Any]:
     """Yield the numbers with a standard deviation in a value."""
     value = _listed(value)
+    if isinstance(value, UncertainObject):
+        value = value.inputs
     if isinstance(value, tuple | list):
         for entry in value:
             yield from _uncertain(entry)
@@ -251,22 +253,27 @@ def _uncertain(value: Any) -> Iterator[Any]:
 def _replaced(value: Any, function: Callable[[Any], float]) -> Any:
     """Return a value with each number that has a standard deviation replaced by a function of it."""
     value = _listed(value)
+    if isinstance(value, UncertainObject):
+        return value.made_of(function)
     if isinstance(value, tuple | list):
         entries = [_replaced(entry, function) for entry in value]
         return tuple(entries) if isinstance(value, tuple) else entries
     return function(value) if is_uncertain(value) else value
 
 
-class UncertainMotion:
-    """Motion from inputs with standard deviations, such as those of `uncertainties.ufloat`.
+class UncertainObject:
+    """Motion, body or field from inputs with standard deviations, such as those of `uncertainties.ufloat`.
 
-    Attributes and functions of time are those of the motion: numbers and arrays of them come as `ufloat`, correlated
-    with the inputs and with one another. Text, integers and booleans are those of the nominal motion.
+    Attributes and functions of time are those of the object: numbers and arrays of them come as `ufloat`, correlated
+    with the inputs and with one another. Text, integers and booleans are those of the nominal object. A body or a field
+    with standard deviations is an input like a number.
 
     Attributes
     ----------
-    nominal_value : Motion
-        Motion at the nominal values of the inputs.
+    nominal_value : Motion, SymmetricBody or Field
+        Object at the nominal values of the inputs.
+    inputs : list
+        Positional and named inputs.
 
     Raises
     ------
@@ -283,12 +290,13 @@ class UncertainMotion:
         from uncertainties import ufloat
 
         self._make, self._arguments, self._named = make, arguments, dict(named)
-        inputs = [*_uncertain((*arguments, *named.values()))]
+        self.inputs = [*arguments, *named.values()]
+        inputs = [*_uncertain(self.inputs)]
         self._inputs = {id(x): x if hasattr(x, "derivatives") else ufloat(x.nominal_value, x.std_dev) for x in inputs}
         variables = dict.fromkeys(v for x in self._inputs.values() for v, _ in x.derivatives.items() if v.std_dev)
         self._variables = list(variables)
         self._moved = dict[tuple[float, ...], Any]()
-        self.nominal_value = self._moved_motion((0.0,) * len(self._variables))
+        self.nominal_value = self._moved_object((0.0,) * len(self._variables))
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *dir(self.nominal_value)]
@@ -298,25 +306,30 @@ class UncertainMotion:
 
     def __repr__(self) -> str:
         texts = [*map(repr, self._arguments), *(f"{name}={x!r}" for name, x in self._named.items())]
-        return f"{self._make.__name__}({', '.join(texts)})"
+        family = getattr(self._make, "__self__", None)  # of a class method
+        name = f"{family.__name__}.{self._make.__name__}" if family else self._make.__name__
+        return f"{name}({', '.join(texts)})"
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         value = getattr(self.nominal_value, name)
         if callable(value):
-            return lambda *args, **how: self._uncertain_quantity(
-                name, lambda motion: getattr(motion, name)(*args, **how)
-            )
-        return self._uncertain_quantity(name, lambda motion: getattr(motion, name))
+            return lambda *args, **how: self._uncertain_quantity(name, lambda moved: getattr(moved, name)(*args, **how))
+        return self._uncertain_quantity(name, lambda moved: getattr(moved, name))
 
     @cached_property
     def _units(self) -> list[Any]:
         """Independent inputs less their nominal values, in standard deviations."""
         return [(v - v.nominal_value) / v.std_dev for v in self._variables]
 
-    def _moved_motion(self, steps: Steps) -> Any:
-        """Return the motion for steps of the independent inputs; those of derivatives are kept."""
+    def made_of(self, value_of: Callable[[Any], float]) -> Any:
+        """Return the object of inputs whose uncertain numbers are replaced by a function of them."""
+        arguments, named = (_replaced(tuple(x), value_of) for x in (self._arguments, self._named.values()))
+        return self._make(*arguments, **dict(zip(self._named, named, strict=True)))
+
+    def _moved_object(self, steps: Steps) -> Any:
+        """Return the object for steps of the independent inputs; those of derivatives are kept."""
         key = tuple(steps)
         if key not in self._moved:
             by_variable = dict(zip(self._variables, steps, strict=True))
@@ -326,15 +339,14 @@ class UncertainMotion:
                 changes = (d * v.std_dev * by_variable.get(v, 0.0) for v, d in own.derivatives.items())
                 return float(own.nominal_value + math.fsum(changes))
 
-            arguments, named = _replaced(tuple(self._arguments), value), _replaced((*self._named.values(),), value)
-            motion = self._make(*arguments, **dict(zip(self._named, named, strict=True)))
+            moved = self.made_of(value)
             if len(self._moved) > 4 * len(self._variables) + 4:
-                return motion
-            self._moved[key] = motion
+                return moved
+            self._moved[key] = moved
         return self._moved[key]
 
     def _uncertain_quantity(self, name: str, get: Callable[[Any], Any]) -> Any:
-        """Return a quantity of the motion with its standard deviations."""
+        """Return a quantity of the object with its standard deviations."""
         import numpy as np
 
         nominal = get(self.nominal_value)
@@ -342,13 +354,13 @@ class UncertainMotion:
         if array.dtype.kind in "biU":
             return nominal
         if array.dtype.kind != "f":
-            raise AtlasError(f"{name} carries no standard deviation: take nominal_value.{name}, of the nominal motion.")
+            raise AtlasError(f"{name} carries no standard deviation: take nominal_value.{name}, of the nominal inputs.")
 
         def rows(values: Any) -> dict[str, Any]:
             values = np.asarray(values)
             return {"samples": [{name: row} for row in values.reshape(-1, *values.shape[-1:] or (1,))]}
 
-        found = spread(rows(nominal), lambda steps: rows(get(self._moved_motion(steps))), len(self._variables))
+        found = spread(rows(nominal), lambda steps: rows(get(self._moved_object(steps))), len(self._variables))
         for note in found.notes:
             warnings.warn(note, AtlasWarning, stacklevel=3)
         number = partial(self._number, found)
@@ -368,27 +380,42 @@ class UncertainMotion:
 
 
 class CarriesUncertainty:
-    """Class whose inputs may have standard deviations: it makes an `UncertainMotion` of them."""
+    """Class whose inputs may have standard deviations, those of its class methods too: see `UncertainObject`."""
 
     def __new__(cls, *inputs: Any, **named: Any) -> Self:
-        """Return an object of the class, or the uncertain motion of its inputs."""
+        """Return an object of the class, or the uncertain object of its inputs."""
         if is_uncertain(*inputs, *named.values()):
-            return UncertainMotion(cls, inputs, named)  # type: ignore[return-value]  # its numbers vary
+            return UncertainObject(cls, inputs, named)  # type: ignore[return-value]  # its numbers vary
         return super().__new__(cls)
+
+    def __init_subclass__(cls, **how: Any) -> None:
+        """Let the public class methods take such inputs too."""
+        super().__init_subclass__(**how)
+        for name, method in [*vars(cls).items()]:
+            if isinstance(method, classmethod) and not name.startswith("_"):
+                setattr(cls, name, classmethod(_carrying(method.__func__)))
+
+
+def _carrying(constructor: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function of a class method that makes an uncertain object of uncertain inputs."""
+
+    @wraps(constructor)
+    def made(cls: type, *inputs: Any, **named: Any) -> Any:
+        if is_uncertain(*inputs, *named.values()):
+            return UncertainObject(getattr(cls, constructor.__name__), inputs, named)
+        return constructor(cls, *inputs, **named)
+
+    return made
 
 
 def concise(value: float, sigma: float, error: float = 0.0) -> str:
     """Write a number with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
 
-    In one digit, 12.6(4), where the second is less than the error of the deviation.
+    In one digit, 12.6(3), where the second is less than the error of the deviation.
     """
     if not 0 < sigma < math.inf or not math.isfinite(value):
         return f"{value:.10g}" if sigma == 0 else f"{value:.10g}(?)"
-    last_power = math.floor(math.log10(sigma)) - 1
-    if error > 10.0**last_power or round(sigma / 10.0**last_power) == 100:
-        last_power += 1
-    first_power = math.floor(math.log10(max(abs(value), sigma)))
-    if last_power <= 0 and -4 <= first_power < 10:
-        return f"{value:.{-last_power}f}({round(sigma / 10.0**last_power)})"
-    mantissa = f"{value / 10.0**first_power:.{first_power - last_power}f}"
-    return f"{mantissa}({round(sigma / 10.0**last_power)})e{first_power:+03d}"
+    from uncertainties import ufloat
+
+    digits = 1 if error > 10.0 ** (math.floor(math.log10(sigma)) - 1) else 2
+    return f"{ufloat(value, sigma):.{digits}uS}"
