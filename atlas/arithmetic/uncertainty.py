@@ -2,7 +2,7 @@
 
 import math
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial, wraps
 from time import process_time
@@ -261,6 +261,30 @@ def _replaced(value: Any, function: Callable[[Any], float]) -> Any:
     return function(value) if is_uncertain(value) else value
 
 
+def in_independent_inputs(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, tuple[float, ...]]]:
+    """Return values with the nominal ones of uncertain numbers, and the slopes of these.
+
+    The slopes of a number are its changes over one standard deviation of each independent input.
+    """
+    numbers = {name: _with_derivatives(x) for name, x in values.items() if hasattr(x, "std_dev")}
+    variables = _variables(numbers.values())
+    slopes = {name: tuple(x.derivatives.get(v, 0.0) * v.std_dev for v in variables) for name, x in numbers.items()}
+    nominal = {name: x.nominal_value for name, x in numbers.items()}
+    return dict(values) | nominal, {name: x for name, x in slopes.items() if any(x)}
+
+
+def _with_derivatives(x: Any) -> Any:
+    """Return an uncertain number as one of `uncertainties`."""
+    from uncertainties import ufloat
+
+    return x if hasattr(x, "derivatives") else ufloat(x.nominal_value, x.std_dev)
+
+
+def _variables(numbers: Iterable[Any]) -> list[Any]:
+    """Return the independent inputs of numbers of `uncertainties`."""
+    return list(dict.fromkeys(v for x in numbers for v in x.derivatives if v.std_dev))
+
+
 class UncertainObject:
     """Motion, body or field from inputs with standard deviations, such as those of `uncertainties.ufloat`.
 
@@ -287,14 +311,10 @@ class UncertainObject:
     """
 
     def __init__(self, make: Callable[..., Any], arguments: Sequence[Any], named: Mapping[str, Any]) -> None:
-        from uncertainties import ufloat
-
         self._make, self._arguments, self._named = make, arguments, dict(named)
         self.inputs = [*arguments, *named.values()]
-        inputs = [*_uncertain(self.inputs)]
-        self._inputs = {id(x): x if hasattr(x, "derivatives") else ufloat(x.nominal_value, x.std_dev) for x in inputs}
-        variables = dict.fromkeys(v for x in self._inputs.values() for v, _ in x.derivatives.items() if v.std_dev)
-        self._variables = list(variables)
+        self._inputs = {id(x): _with_derivatives(x) for x in _uncertain(self.inputs)}
+        self._variables = _variables(self._inputs.values())
         self._moved = dict[tuple[float, ...], Any]()
         self.nominal_value = self._moved_object((0.0,) * len(self._variables))
 

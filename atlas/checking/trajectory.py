@@ -1,4 +1,7 @@
-"""A user's trajectory from a CSV file: columns by name, parameters from lines that begin with #.
+"""A user's trajectory from a file: columns by name, parameters from lines that begin with #.
+
+NPZ and Parquet files have arrays by the names of columns, with the lines above as the comment of the archive, or as
+the entry `head` of the metadata, where the atlas wrote them.
 
 Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega1`` to ``Omega3`` (in the body's frame),
 or a gyroscope's x, y, z; a quaternion that takes the body's frame to the laboratory, as ``w x y z``, ``qw qx qy qz``
@@ -13,7 +16,7 @@ import codecs
 import csv
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
@@ -24,6 +27,7 @@ import msgspec
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, real
+from atlas.checking.binary_tables import READERS, head_and_columns
 from atlas.checking.headings import FIELD, MATRIX, OMEGA, QUATERNION, Heading, headed
 from atlas.errors import AtlasError, DomainError
 from atlas.files import lines_of
@@ -85,6 +89,16 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
     Raises AtlasError, which names the line and the column, for no such trajectory; the blocks do as well.
     """
     parameters: dict[str, tuple[float, ...]] = {}
+    extra_names = (*FIELD, "sigma") if fields else ()
+    if path.suffix in READERS:
+        (*head, names), columns = head_and_columns(path)
+        for line in head:
+            parameters |= _parameters(line.lstrip("# "), path.name)
+        title = headed(_split(names, ","), path.name, extra_names)
+        yield Trajectory(
+            path.name, title.written, parameters, _sliced(columns, title, path.name), title.left_out, title.units
+        )
+        return
     separator = ""
     with path.open("rb") as raw:
         encoding = "utf-16" if raw.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
@@ -102,8 +116,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
             elif line.strip():
                 separator = separator or max(",;\t", key=re.sub('"[^"]*"', "", line).count)
                 separator = separator if separator in line else " "
-                title = headed(_split(_one_word(line) if separator == " " else line, separator), place,
-                               (*FIELD, "sigma") if fields else ())  # fmt: skip
+                title = headed(_split(_one_word(line) if separator == " " else line, separator), place, extra_names)
                 blocks = _blocks(lines, number, title, separator, path.name)
                 yield Trajectory(path.name, title.written, parameters, blocks, title.left_out, title.units)
                 return
@@ -217,14 +230,30 @@ def _blocks(
         rows = [(i, line) for i, line in numbered if not line.startswith("#")]
         if rows:
             empty = False
-            columns = _rows(rows, title, separator, file).T
-            sized = zip(title.places, columns, strict=True)
-            yield {
-                name: x * float(title.sizes[name].numerator) / float(title.sizes[name].denominator) for name, x in sized
-            }
+            yield _in_units(title, _rows(rows, title, separator, file).T)
         first_row += len(block)
     if empty:
         raise AtlasError(f"{file} has names but no rows of numbers.")
+
+
+def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:
+    """Yield the rows of whole columns."""
+    names = [*columns]
+    used = {name: columns[names[i]] for name, i in title.places.items()}
+    for name, x in used.items():
+        if x.dtype.kind not in "iuf":
+            raise AtlasError(f"{file}: the column {title.written[name]} does not hold numbers.")
+    for start in range(0, len(used["t"]), BLOCK):
+        yield _in_units(title, [x[start : start + BLOCK] for x in used.values()])
+
+
+def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatArray]:
+    """Return columns by name, times in s and rates in rad/s where they have units."""
+    sizes = ((name, title.sizes[name]) for name in title.places)
+    return {
+        name: x * float(size.numerator) / float(size.denominator)
+        for (name, size), x in zip(sizes, columns, strict=True)
+    }
 
 
 def _rows(rows: Sequence[tuple[int, str]], title: Heading, separator: str, file: str) -> FloatArray:

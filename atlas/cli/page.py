@@ -21,7 +21,7 @@ from atlas.cli.points import points
 from atlas.cli.present import bar, status_of
 from atlas.cli.top import top_units
 from atlas.cli.typed import Inclined, parts_of
-from atlas.cli.uncertain import uncertain
+from atlas.cli.uncertain import certain, uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES, Family
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 Action = Callable[[Any, dict[str, Any]], int]
 """Function of a request and the options of its command, which returns the exit status."""
 
+DEVIATIONS = "atlas.cli.page.deviations"
+"""Key of the deviations of quantities of inputs in other axes than the page has."""
 OWN = {"out", "digits", "title", "name", "jobs", "note"}
 """Options of a page, not of its object."""
 
@@ -133,8 +135,9 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
         if motion is None:
             return []
         if uncertain(options):
-            raise click.UsageError("a page carries uncertainties along principal axes, of three different moments; "
-                                   "atlas motion carries them in any axes.")  # fmt: skip
+            parent.meta[DEVIATIONS] = _deviations(FAMILIES[motion.family], options)
+            options = context.params = {name: certain(value) for name, value in options.items()}
+            motion = motion_in_given_axes(options)
         principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
         if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
             return []
@@ -232,8 +235,11 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     if in_plane(family):
         records["field"] = _field(options)
     title, digits, called = options["title"] or "", options["digits"], _file_name(options)
-    if uncertain(options):
-        records |= dict(zip(("deviations", "deviation_notes"), _deviations(family, options), strict=True))
+    context = click.get_current_context(silent=True)
+    deviations = context.meta.get(DEVIATIONS) if context else None
+    if deviations or uncertain(options):
+        deviations = deviations or _deviations(family, options)
+        records |= dict(zip(("deviations", "deviation_notes"), deviations, strict=True))
     return Asked(
         family, typed_options, values, **records, digits=digits, title=title, called=called, note=options["note"],
         exact=exact,

@@ -9,12 +9,14 @@ from typing import Annotated, Any, NamedTuple
 
 import click
 
+from atlas.arithmetic.uncertainty import is_uncertain
 from atlas.cli import body
 from atlas.cli.axes import along_principal_axes, motion_in_given_axes
 from atlas.cli.options import Place, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.cli.typed import REAL
+from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Command
 from atlas.families.family import TIME
 from atlas.measured import split
@@ -26,7 +28,8 @@ HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, o
 FAMILY is {NAMES}, or motion where the parameters say which; a wrong name of a parameter or quantity is answered with
 the right ones. A row takes microseconds, of the family general some tens of them, of asymmetric up to seconds. A CSV
 file has units in its heading, as in k [1/time]. Where an angle per period, or another quantity, has no value, its cell
-is empty, and the column missing says why; a row outside the domain, as on a pole or beta for B = 0, ends the sweep
+is empty, and the column missing says why. Of inputs with an uncertainty, as 1.50(2), each number has its standard
+deviation in a column NAME_sigma; a row outside the domain, as on a pole or beta for B = 0, ends the sweep
 with status 2, its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was
 stopped goes on when it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of
 fsspec for it), takes a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited,
@@ -133,7 +136,7 @@ class Request(NamedTuple):
         if options["family"] is None:
             raise click.UsageError(f"name the family to sweep: {NAMES}.")
         settings = [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in options["settings"]]
-        fixed, axes = _body(options)
+        fixed, axes = (_uncertain_body(options), "") if uncertain(options) else _body(options)
         names = [*fixed, *(name.strip() for name, _ in settings)]
         _once(names, "--set" + " and the options of body and field" * bool(fixed))
         family = _meant(options["family"], {*names})
@@ -179,9 +182,8 @@ def swept(**options: Any) -> None:
     columns, units = _listed(family, listing) if listing else ({}, set())
     _once([*columns, *parameters], f"{listing} and elsewhere")
     inputs = columns | parameters
-    start = [
-        max((abs(float(x)) for x in _parameter_values(inputs.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)
-    ]
+    typed_starts = [_parameter_values(inputs.get(f"omega{i}", 0.0)) for i in (1, 2, 3)]
+    start = [max((abs(float(getattr(x, "n", x))) for x in values), default=0.0) for values in typed_starts]
     body.check_speeds(options, start if any(start) else None)
     if request.out is None:
         raise click.UsageError("--out is missing: name the file that the table goes to.")
@@ -202,13 +204,14 @@ def swept(**options: Any) -> None:
 def of_three_moments() -> click.Command:
     """Return the command of sweeps over bodies with three moments of inertia."""
     options = options_of(body.any_body_options, body.tensor_option, body.start_option, body.spin_option)
-    command: click.Command = click.command("sweep", cls=Command, help=HELP)(options(swept))
+    command: click.Command = click.command("sweep", cls=Command, carries=True, help=HELP)(options(swept))
     return command
 
 
 @click.command(
     "sweep",
     cls=Command,
+    carries=True,
     other=lambda words: of_three_moments() if words.are_of_any_body else None,
     help=HELP,
     epilog=examples(
@@ -246,12 +249,30 @@ def _meant(family: str, names: set[str]) -> str:
 
 def _parameter_values(values: Any) -> Any:
     """Return the values of a parameter, one or several."""
-    return [values] if isinstance(values, float | int | Fraction) else values
+    return [values] if isinstance(values, float | int | Fraction) or is_uncertain(values) else values
 
 
 def _plain(x: float | Fraction) -> float | Fraction:
     """Return a number that was typed as a float, and one that no float holds as it is."""
     return x if isinstance(x, Fraction) else float(x)
+
+
+def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the numbers of `_body` with standard deviations, correlated by the inputs of the options.
+
+    Raises click.UsageError for a tensor.
+    """
+    if "tensor" in options and body.given_tensor(options) is not None:
+        raise click.UsageError("a sweep carries no uncertainties of a tensor, whose axes move with its elements: give "
+                               "principal moments; atlas motion carries those of a tensor.")  # fmt: skip
+    from uncertainties import ufloat
+
+    found = UncertainAnswer.of(lambda moved: {name: float(x) for name, x in _body(moved)[0].items()}, options)
+    units = [ufloat(0.0, 1.0) for _ in uncertain(options)]
+    return {
+        name: sum((slope * unit for slope, unit in zip(found.spread.slopes[name,], units, strict=True)), x)
+        for name, x in found.answer.items()
+    }
 
 
 def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
@@ -351,7 +372,14 @@ def _values(family: str, name: str, value: Any) -> Any:
     option = click.Option([f"--{_options(family).get(name, (name, ''))[0]}"])  # which says the unit
     option.opts = [name]
     if ":" not in value:
-        return [float(REAL.convert(x.strip(), option, None)) for x in value.split(",")]
+        typed = [REAL.convert(x.strip(), option, click.get_current_context()) for x in value.split(",")]
+        if not any(x.sigma for x in typed):
+            return [*map(float, typed)]
+        if len(typed) > 1:
+            raise click.UsageError(f"{name} = {value}: a parameter with a standard deviation has one value.")
+        from uncertainties import ufloat
+
+        return ufloat(float(typed[0]), typed[0].sigma)
     start, stop, *words = value.split(":")
     if not words or words[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", words[0], re.ASCII):
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {value!r}.")

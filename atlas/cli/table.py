@@ -17,7 +17,7 @@ out_option: Callable[[Any], Any] = click.option(
 
 
 def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[str, str]) -> None:
-    """Write a table of one motion; a CSV file has its conventions and parameters above, which `atlas check` reads.
+    """Write a table of one motion, its conventions and parameters above the rows, which `atlas check` reads.
 
     `units` are other names of units. Raises click.UsageError without times, AtlasError for another ending.
     """
@@ -25,23 +25,21 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
     from atlas.notebook.frames import columns_at
     from atlas.sweeps.families import FAMILIES
     from atlas.sweeps.plan import CONVENTIONS
-    from atlas.sweeps.tables import PARTS, check_format
+    from atlas.sweeps.tables import PARTS, check_format, head_of
 
     check_format(out)
     if not times:
         raise click.UsageError("--out writes the motion at --times or on a --grid: give one of them.")
     columns = dict(columns_at(motion, list(map(float, times))))
     units_by_name = {**FAMILIES[motion.family].units, "t": "time"}
-    content = PARTS[out.suffix[1:]](columns)
-    if out.suffix == ".csv":
-        named = {name: units.get(units_by_name.get(name, ""), units_by_name.get(name, "")) for name in columns}
-        heading = ",".join(f"{name} [{unit}]" if unit else name for name, unit in named.items())
-        lines = [
-            *CONVENTIONS * ("R11" in columns),
-            *(f"{name} = {' '.join(texts)}" for name, texts in parameters_of(motion).items()),
-        ]
-        content = "".join(f"# {line}\n" for line in lines).encode() + f"{heading}\n".encode() + content
-    write(out, content)
+    named = {name: units.get(units_by_name.get(name, ""), units_by_name.get(name, "")) for name in columns}
+    lines = [
+        *CONVENTIONS * ("R11" in columns),
+        *(f"{name} = {' '.join(texts)}" for name, texts in parameters_of(motion).items()),
+    ]
+    head = head_of(lines, (f"{name} [{unit}]" if unit else name for name, unit in named.items()))
+    content = PARTS[out.suffix[1:]](columns, head)
+    write(out, head.encode() * (out.suffix == ".csv") + content)
 
 
 def parameters_of(motion: Any) -> dict[str, list[str]]:

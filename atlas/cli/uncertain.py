@@ -59,6 +59,13 @@ def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
     return [(name, i, x) for name, numbers in values for i, x in enumerate(numbers) if getattr(x, "sigma", 0.0)]
 
 
+def certain(value: Any) -> Any:
+    """Return the value of an option without uncertainties."""
+    if isinstance(value, tuple):
+        return type(value)(map(certain, value))
+    return value.moved(float(value), sigma=0.0) if getattr(value, "sigma", 0.0) else value
+
+
 def _typed_numbers(value: Any) -> tuple[Any, ...]:
     """Return the numbers that were typed for an option."""
     return getattr(value, "parts", parts_of(value))

@@ -4,13 +4,14 @@ import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import prod
+from math import hypot, isfinite, nan, prod
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.uncertainty import concise, in_independent_inputs, is_uncertain, spread
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
 from atlas.sweeps.families import FAMILIES, MISSING
@@ -38,7 +39,8 @@ class Plan:
     one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
     time in headings. `first` is the number in the whole table of the first row. `exact` has those of one value that no
     float holds, as fractions: the quantities are of these. `axes` are the principal axes in those of the user, where
-    these differ: columns that depend on the axes then end in "_principal".
+    these differ: columns that depend on the axes then end in "_principal". `slopes` are the changes of uncertain
+    parameters over one standard deviation of each independent input; the numbers `deviating` have columns in "_sigma".
     """
 
     family: str
@@ -50,6 +52,8 @@ class Plan:
     first: int = 0
     exact: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     axes: str = ""
+    slopes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    deviating: tuple[str, ...] = ()
 
     @classmethod
     def of(
@@ -70,6 +74,7 @@ class Plan:
         columns_of = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
         quantities = [column for name in quantities for column in columns_of.get(name, (name,))]
         FAMILIES[family].check(list(parameters), quantities, digits)
+        parameters, slopes = _nominal(parameters, digits)
         arrays = {name: np.atleast_1d(real(value, name)) for name, value in parameters.items()}
         for name, array in arrays.items():
             if array.ndim != 1:
@@ -87,7 +92,13 @@ class Plan:
         plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time, exact=exact, axes=axes)
         if not 0 < plan.count <= MAX_ROWS:
             raise AtlasError(f"A table has from one row to {MAX_ROWS:.0e}, not {plan.count}.")
-        return plan
+        return plan._with_deviations(slopes) if slopes else plan
+
+    def _with_deviations(self, slopes: Mapping[str, tuple[float, ...]]) -> "Plan":
+        """Return the plan with columns of standard deviations; names of cases have none."""
+        columns, is_asked = self.rows(0, 1), [name in self.quantities for name in self._names]
+        asked = (name for name, wanted in zip(self.names, is_asked, strict=True) if wanted)
+        return replace(self, slopes=slopes, deviating=tuple(x for x in asked if columns[x].dtype.kind == "f"))
 
     @property
     def count(self) -> int:
@@ -99,14 +110,18 @@ class Plan:
     def names(self) -> list[str]:
         """Names of the columns as they are written."""
         vectors = {*LAUNCH, *self._sampled} if self.axes else set()
-        return [f"{name}_principal" if name in vectors else name for name in self._names]
+        return [f"{name}_principal" if name in vectors else name for name in self._names] + [
+            f"{name}_sigma" for name in self.deviating
+        ]
 
     @property
     def conventions(self) -> list[str]:
         """Sentences on the frames of matrices and vectors, where the table has functions of time or turned axes."""
         sentence = f"Columns in _principal are along the principal axes of the body, {self.axes} in those given"
         has_samples = "R11" in self._sampled and not self._sampled.isdisjoint(self._names)
-        return [*CONVENTIONS * has_samples, *[sentence] * bool(self.axes)]
+        inputs = (f"{name} = {concise(float(self.parameters[name][0]), hypot(*x))}" for name, x in self.slopes.items())
+        deviations = f"Columns in _sigma are standard deviations of first order, or sampled, for {', '.join(inputs)}"
+        return [*CONVENTIONS * has_samples, *[sentence] * bool(self.axes), *[deviations] * bool(self.slopes)]
 
     @property
     def _sampled(self) -> set[str]:
@@ -124,7 +139,8 @@ class Plan:
     def headings(self) -> list[str]:
         """Names of the columns as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
         units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
-        columns = zip(self.names, map(units.get, self._names), strict=True)
+        own_names = [*self._names, *(name.removesuffix("_principal") for name in self.deviating)]
+        columns = zip(self.names, map(units.get, own_names), strict=True)
         return [f"{name} [{unit}]" if unit else name for name, unit in columns]
 
     def list_of(self, start: int, stop: int) -> "Plan":
@@ -163,17 +179,38 @@ class Plan:
 
     def _columns(self, start: int, stop: int) -> Columns:
         """Return some rows of the table."""
-        parameters, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
-        defaults = {name: value for name, value in family.optional.items() if value is not None}
-        inputs: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | parameters
+        parameters = self._parameters(np.arange(start, stop))
         exact = {name: Fraction(*pair) for name, pair in self.exact.items()}
-        quantities = (
-            family.columns(inputs, self.quantities, exact)
-            if self.digits is None
-            else family.digits(inputs, self.quantities, self.digits, exact)
-        )
-        columns = (quantities[name] if name in quantities else parameters[name] for name in self._names)
+        quantities = self._quantities(parameters, exact)
+        columns = [quantities[name] if name in quantities else parameters[name] for name in self._names]
+        if self.deviating:
+            columns += [*np.array([*map(self._deviations, range(start, stop))]).T]
         return dict(zip(self.names, columns, strict=True))
+
+    def _quantities(self, parameters: Columns, exact: dict[str, Fraction]) -> Columns:
+        """Return the quantities of rows of parameters."""
+        family, count = FAMILIES[self.family], next(iter(parameters.values())).size
+        defaults = {name: value for name, value in family.optional.items() if value is not None}
+        inputs: Columns = {name: np.full(count, value) for name, value in defaults.items()} | parameters
+        if self.digits is None:
+            return family.columns(inputs, self.quantities, exact)
+        return family.digits(inputs, self.quantities, self.digits, exact)
+
+    def _deviations(self, row: int) -> list[float]:
+        """Return the standard deviations of the numbers of a row, NaN where there is none."""
+        parameters, own_names = (
+            self._parameters(np.array([row])),
+            [x.removesuffix("_principal") for x in self.deviating],
+        )
+
+        def moved(steps: Sequence[float]) -> Columns:
+            changes = {name: np.dot(slopes, steps) for name, slopes in self.slopes.items()}
+            found = self._quantities({name: x + changes.get(name, 0.0) for name, x in parameters.items()}, {})
+            return {name: found[name] for name in own_names}
+
+        count = len(next(iter(self.slopes.values())))
+        sigma = spread(moved([0.0] * count), moved, count).sigma
+        return [x if isfinite(x := sigma.get((name, 0), nan)) else nan for name in own_names]
 
     def _parameters(self, rows: NDArray[np.int64]) -> Columns:
         """Return the parameters of some rows."""
@@ -181,6 +218,17 @@ class Plan:
         if not self.listed:
             places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
         return {name: array[i] for (name, array), i in zip(self.parameters.items(), places, strict=True)}
+
+
+def _nominal(parameters: Mapping[str, Any], digits: int | None) -> tuple[dict[str, Any], dict[str, tuple[float, ...]]]:
+    """Return parameters without standard deviations, and the slopes of a plan. Raises AtlasError where it has none."""
+    nominal, slopes = in_independent_inputs(parameters)
+    for name, value in nominal.items():
+        if is_uncertain(value):
+            raise AtlasError(f"A parameter with a standard deviation has one value, not several as {name}.")
+    if slopes and digits:
+        raise AtlasError(f"Standard deviations, as that of {next(iter(slopes))}, go without certified digits.")
+    return nominal, slopes
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from atlas.libraries import release
 from atlas.sweeps.families import FAMILIES
 from atlas.sweeps.plan import Columns, Plan
 from atlas.sweeps.store import Span, Table, span_of
-from atlas.sweeps.tables import PARTS, write
+from atlas.sweeps.tables import PARTS, head_of, write
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -234,7 +234,7 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
     Where the table's folder is out of reach, return the part itself, too.
     """
     begin = perf_counter(), process_time()
-    data = PARTS[table.ending](plan.rows(start, stop))
+    data = PARTS[table.ending](plan.rows(start, stop), head_of(plan.conventions, plan.headings))
     # without the time of other processes, or of other threads of this one
     seconds = min(perf_counter() - begin[0], process_time() - begin[1])
     name = table.name((plan.first + start, plan.first + stop), data)

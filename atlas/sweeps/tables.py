@@ -24,7 +24,12 @@ ROW_GROUP = 2**17
 """Rows of a row group of Parquet."""
 
 
-def csv_part(columns: Columns) -> bytes:
+def head_of(sentences: Iterable[str], headings: Iterable[str]) -> str:
+    """Return the lines above the rows of a table: sentences behind #, then names with their units."""
+    return "".join(f"# {sentence}\n" for sentence in sentences) + ",".join(headings) + "\n"
+
+
+def csv_part(columns: Columns, _: str = "") -> bytes:
     """Return rows as text; floats with the shortest digits that read back the same, and nothing for NaN."""
     cells = [map(_quoted, x.tolist()) if x.dtype.kind == "U" else _shortest(x) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
@@ -46,23 +51,25 @@ def _shortest(column: NDArray[Any]) -> Iterable[str]:
     return [texts[i] for i in places.tolist()]
 
 
-def array_part(columns: Columns) -> bytes:
-    """Return columns as NumPy's arrays."""
+def array_part(columns: Columns, head: str) -> bytes:
+    """Return columns as NumPy's arrays; the head is the comment of the archive."""
     buffer = io.BytesIO()
     np.savez(buffer, **columns)  # type: ignore[arg-type]  # columns, not its options
+    with zipfile.ZipFile(buffer, "a") as archive:
+        archive.comment = head.encode()
     return buffer.getvalue()
 
 
-def parquet_part(columns: Columns) -> bytes:
-    """Return rows as a Parquet file, null where they have no value."""
+def parquet_part(columns: Columns, head: str) -> bytes:
+    """Return rows as a Parquet file, null where they have no value; the head is in its metadata."""
     buffer = io.BytesIO()
     with _pyarrow() as (arrow, parquet):
         table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
-        parquet.write_table(table, buffer)
+        parquet.write_table(table.replace_schema_metadata({"head": head}), buffer)
     return buffer.getvalue()
 
 
-PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
+PARTS: Mapping[str, Callable[[Columns, str], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
 """How the rows of a part are kept, by the ending of its file and of the table."""
 
 
@@ -77,8 +84,7 @@ def write(out: Path, plan: Plan, part_files: Parts) -> Mapping[str, str]:
 def write_csv(out: Path, plan: Plan, part_files: Parts) -> None:
     """Write the conventions as lines with #, the heading, and the rows."""
     with out.open("wb") as file:
-        file.writelines(f"# {sentence}\n".encode() for sentence in plan.conventions)
-        file.write((",".join(plan.headings) + "\n").encode())
+        file.write(head_of(plan.conventions, plan.headings).encode())
         for rows in part_files:
             file.write(rows.read_bytes())
 
@@ -86,6 +92,7 @@ def write_csv(out: Path, plan: Plan, part_files: Parts) -> None:
 def write_npz(out: Path, plan: Plan, part_files: Parts) -> None:
     """Write one array a column, each from one part after the other."""
     with zipfile.ZipFile(out, "w") as archive:
+        archive.comment = head_of(plan.conventions, plan.headings).encode()
         for name in plan.names:
             with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
                 for rows in part_files:

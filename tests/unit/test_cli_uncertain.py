@@ -3,11 +3,13 @@
 import json
 import math
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from uncertainties import ufloat
 
 import atlas
 from atlas.arithmetic import uncertainty
@@ -131,6 +133,22 @@ def test_numbers_that_depend_on_all_inputs_together_have_a_deviation() -> None:
     """A product of two numbers about zero has that of either times that of the other."""
     found = numbers("motion --ratio 1.3 --magnetic 0.0(2) 0 --mu 0.0(1) --omega 0.3 0.7 0.2")
     assert found["sigma"]["larmor"] > 0
+
+
+def test_a_sweep_has_a_column_for_each_deviation(tmp_path: Path) -> None:
+    """A row's deviations are those that `atlas motion` prints, also of inputs that share a charge."""
+    words = "--shape ring --radius 1.20(3) --mass 1 --charge 2.0(1) --magnetic 0.4 0.69"
+    status, out = run(f"sweep elementary {words} --set omega2=0.2,0.3 --quantity phi case --out {tmp_path / 'a.csv'}")
+    assert status == 0, out
+    head, names, *rows = (tmp_path / "a.csv").read_text().splitlines()
+    assert "B2 = 0.400(20)" in head
+    assert names.endswith("phi [1/s],case,phi_sigma [1/s]")
+    for omega2, row in zip((0.2, 0.3), rows, strict=True):
+        wanted = numbers(f"motion {words} --omega2 {omega2}")["sigma"]["phi"]
+        assert float(row.split(",")[-1]) == pytest.approx(wanted, rel=1e-6)
+    table = atlas.sweep("elementary", {"ratio": ufloat(1.3, 0.1), "B2": 1, "B3": 2, "omega2": [0.2, 0.3]}, ["phi"])
+    motions = [atlas.ElementaryMotion(ufloat(1.3, 0.1), (1, 2), omega2) for omega2 in (0.2, 0.3)]
+    assert table["phi_sigma"] == pytest.approx([motion.phi.std_dev for motion in motions])
 
 
 @pytest.mark.parametrize(("error", "text"), [(0.0, "12.57(31)"), (0.009, "12.57(31)"), (0.02, "12.6(3)")])

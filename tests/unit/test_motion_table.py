@@ -23,13 +23,15 @@ COMMANDS = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", COMMANDS)
-def test_a_table_is_graded_by_itself(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "kind"), [*((name, "csv") for name in COMMANDS), ("hertz", "npz"), ("top", "parquet")]
+)
+def test_a_table_is_graded_by_itself(tmp_path: Path, name: str, kind: str) -> None:
     """Its head has the motion: without an option all its columns have their digits."""
-    out = tmp_path / "att.csv"
+    out = tmp_path / f"att.{kind}"
     outcome = CliRunner().invoke(program, [*COMMANDS[name].split(), *TIMES, "--out", str(out)])
     assert outcome.output == f"{out}\n"
-    assert "whose scalar is qw" in out.read_text()
+    assert b"whose scalar is qw" in out.read_bytes()
     result = check_file(out)
     assert {"R11", "qw", "Omega1"} <= {column.name for column in result.columns}
     assert min(column.worst for column in result.columns) > 13

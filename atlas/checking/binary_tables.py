@@ -1,0 +1,49 @@
+"""Tables of columns that are no text, .npz and .parquet, with the head that a table of the atlas has."""
+
+import zipfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.errors import AtlasError
+from atlas.libraries import of_sweeps
+
+Columns = dict[str, FloatArray]
+
+
+def _npz(path: Path) -> tuple[str, Columns]:
+    """Return the comment of an NPZ file, and its arrays."""
+    with zipfile.ZipFile(path) as archive:
+        head = archive.comment.decode()
+    with np.load(path) as arrays:
+        return head, {name: arrays[name] for name in arrays.files}
+
+
+def _parquet(path: Path) -> tuple[str, Columns]:
+    """Return the head in the metadata of a Parquet file, and its columns, NaN where they are null."""
+    table = of_sweeps("pyarrow.parquet", "Parquet").read_table(path)
+    head = (table.schema.metadata or {}).get(b"head", b"").decode()
+    return head, {name: table[name].to_numpy() for name in table.column_names}
+
+
+READERS: Mapping[str, Callable[[Path], tuple[str, Columns]]] = {".npz": _npz, ".parquet": _parquet}
+"""Readers by the ending of a file."""
+
+
+def head_and_columns(path: Path) -> tuple[list[str], Columns]:
+    """Return the lines above the rows, of which the last has names and units, and the columns.
+
+    Raises AtlasError for a file of another kind, and for columns that are no rows of numbers or text.
+    """
+    try:
+        head, columns = READERS[path.suffix](path)
+    except OSError:
+        raise
+    except Exception as error:  # pyarrow has errors of its own
+        raise AtlasError(f"{path.name} cannot be read as {path.suffix}: {' '.join(str(error).split())}.") from error
+    for name, column in columns.items():
+        if column.shape != next(iter(columns.values())).shape[:1]:
+            raise AtlasError(f"{path.name}: {name} has the shape {column.shape}; each column is an array (N,).")
+    return head.splitlines() or [",".join(columns)], columns
