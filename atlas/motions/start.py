@@ -36,7 +36,8 @@ NEARLY_ORTHOGONAL = 2e-3
 class Body(NamedTuple):
     """Principal moments (..., 3), axes as rows (..., 3, 3) in the given ones, and the inertia tensor (..., 3, 3).
 
-    `exact` is a body, or a ratio, with the moments along the first and the last axis without rounding, or None.
+    `exact` is a body, or a ratio, with the moments along the first and the last axis without rounding; or three
+    different moments, of which floats do not hold all; or None.
     """
 
     moments: FloatArray
@@ -71,6 +72,8 @@ class Start:
     @cached_property
     def is_symmetric(self) -> bool:
         """Whether two moments are equal. Raises DomainError where they are for some bodies of an array."""
+        if isinstance(self.body.exact, tuple):
+            return False
         I = self.body.moments
         symmetric = np.logical_or.reduce([I[..., i] == I[..., j] for i, j in ((0, 1), (1, 2), (0, 2))])
         if symmetric.any() and not symmetric.all():
@@ -166,8 +169,10 @@ def body_of(inertia: Any) -> Body:
     if isinstance(inertia, Fraction):
         return of_moments((1.0, 1.0, moments(inertia)[1]), np.eye(3))._replace(exact=inertia)
     inertia_matrix = real(inertia, "The inertia", "" if is_ratio else INERTIA)
-    if inertia_matrix.shape == (3,):
-        return of_moments(inertia_matrix, np.eye(3))
+    is_diagonal = inertia_matrix.shape == (3, 3) and not (inertia_matrix * (1 - np.eye(3))).any()
+    if is_diagonal or inertia_matrix.shape == (3,):
+        diagonal = tuple(inertia[i][i] for i in range(3)) if is_diagonal else tuple(inertia)
+        return of_moments(components(diagonal, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
     if inertia_matrix.shape[-2:] != (3, 3):
         if isinstance(inertia, tuple | list):
             raise AtlasError(
@@ -209,9 +214,11 @@ def of_moments(moments: Any, axes: FloatArray) -> Body:
     common_shape(*(x.shape for x in principal_moments))
     rows, exact = joined_columns(principal_moments), None
     if rows.ndim == 1 and any(isinstance(x, Given) for x in moments):
-        for third in [i for i in range(3) if moments[i - 2] == moments[i - 1]][:1]:
+        rational = exactly(*moments)
+        for third in [i for i in range(3) if rational[i - 2] == rational[i - 1]][:1]:
             order = [third - 2, third - 1, third]
             exact, rows, axes = SymmetricBody(moments[third - 1], moments[third]), rows[order], axes[order]
+        exact = exact or tuple(moments)
     for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
         inertia_tensor(row)
     tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)

@@ -253,3 +253,14 @@ def test_a_sweep_evaluates_the_product_that_was_typed(tmp_path: Any) -> None:
     parameters |= {"omega1": -0.1972, "omega2": -0.7, "omega3": 1 + EPS, "t": [5.0, 1e9]}
     plan = Plan.of("general", parameters, ["R33"])
     assert plan.list_of(1, 2).rows()["R33"][0] == pytest.approx(found, abs=16 * EPS)
+
+
+def test_fractions_of_a_diagonal_tensor_are_not_rounded() -> None:
+    """Moments in a tuple, a list or a matrix are one body; equal ones are so as given, not by their doubles."""
+    third, start = Fraction(1, 3), ((0.3, 0.0, 1.0), (0.0, 0.1, 3.0))
+    for moments in ((third, third, 0.5), (third, Fraction(2, 3), 0.5)):
+        inputs = [moments, [*moments], [[moments[0], 0, 0], [0, moments[1], 0], [0, 0, moments[2]]]]
+        exact = [repr(atlas.motion(inertia, *start).own.arguments) for inertia in inputs]
+        assert exact[0] == exact[1] == exact[2]
+        assert "Fraction(1, 3)" in exact[0]
+    assert atlas.motion((third, 1 / 3, 0.5), *start).family == "asymmetric"

@@ -402,8 +402,9 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
         """Return the motion of a body with three different moments, and its principal axes."""
-        axes = start.body.axes
-        return None if start.is_symmetric else (cls(parts(start.body.moments), *start.along(axes)), axes)
+        body = start.body
+        moments = body.exact if isinstance(body.exact, tuple) else parts(body.moments)
+        return None if start.is_symmetric else (cls(moments, *start.along(body.axes)), body.axes)
 
     def _inputs_of(self, i: int) -> Any:
         """Return the exact inputs of the i-th motion."""
