@@ -15,7 +15,7 @@ from atlas.bodies.field import LaboratoryFrame
 from atlas.bodies.speeds import check_drift
 from atlas.bodies.units import System, ratio_of, system
 from atlas.book.digits import shown
-from atlas.book.schema import Exact, StrictStruct, TwoNumbers, Vector
+from atlas.book.schema import Exact, StrictStruct, Vector
 from atlas.errors import AtlasError, unknown
 
 DIMENSIONS = {
@@ -35,7 +35,7 @@ class Body(StrictStruct, frozen=True):
 
     title: str
     ratio: float | None = None
-    inertia: TwoNumbers | None = None
+    inertia: tuple[Exact, Exact] | None = None
     shape: str | None = None
     mass: float | None = None
     radius: float | None = None
@@ -130,7 +130,8 @@ def body(record: Body) -> SymmetricBody:
     if record.shape is None:
         if set(sizes) - {"mass"}:
             raise AtlasError(f"the body {record.title!r} has dimensions, {', '.join(sizes)}, but no shape.")
-        return SymmetricBody(1.0, record.ratio) if record.ratio is not None else SymmetricBody(*(record.inertia or ()))
+        moments = (1.0, record.ratio) if record.ratio is not None else record.inertia or ()
+        return SymmetricBody(*(as_float_or_fraction(rational(x, "inertia")) for x in moments))
     if record.shape not in SHAPES:
         raise AtlasError(f"the body {record.title!r}: {unknown('shape', record.shape, SHAPES)}")
     make, names = SHAPES[record.shape]

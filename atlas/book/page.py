@@ -384,7 +384,11 @@ def _python(request: Asked, name: str) -> str:
         if "shape" in body:
             sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
             return f"atlas.SymmetricBody.{body['shape']}({sizes})"
-        return plain(body["ratio"]) if "ratio" in body else f"atlas.SymmetricBody{tuple(body['inertia'])}"
+        return (
+            plain(body["ratio"])
+            if "ratio" in body
+            else f"atlas.SymmetricBody{tuple(float(Fraction(x)) for x in body['inertia'])}"
+        )
     if name == "field" and field:
         if "prime" in field:
             return str(tuple(float(Fraction(x)) for x in field["prime"]))

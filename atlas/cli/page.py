@@ -300,8 +300,7 @@ def _body(options: dict[str, Any]) -> dict[str, Any]:
         if name not in of_field and not isinstance(value, str)
     }
     if options["points"] is not None:
-        masses = points(options["points"])
-        parameters |= {"inertia": [masses.I2, masses.I3]}
+        parameters |= {"inertia": [*map(_exact, points(options["points"]).exact)]}
     if parameters.pop("density", None) is not None:
         parameters["mass"] = float(body.mass_of(options))
     if options["shape"] is not None:
