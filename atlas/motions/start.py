@@ -200,8 +200,8 @@ def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
     if 0 < part <= NEARLY:
         third = (0, 2)[1 - i]
         warnings.warn(
-            f"Two principal moments of the tensor differ by {part:.1g} of the largest: the body has three, and is "
-            "slow to compute and not for long times. If two are meant to be equal, give atlas.SymmetricBody("
+            f"Two principal moments of the tensor differ by {part:.1g} of the largest: the body has three, and the "
+            "closed form of its motion takes up to a minute. If two are meant to be equal, give atlas.SymmetricBody("
             f"{I[1]:.16g}, {I[third]:.16g}, axes), third axis ({', '.join(f'{x:.10g}' for x in axes[third])}).",
             NearlySymmetricWarning,
             stacklevel=5,

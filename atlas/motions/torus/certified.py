@@ -21,7 +21,6 @@ from atlas.arithmetic.certified_rotation import AXES, identity, product, turn
 from atlas.arithmetic.numbers import dot, workprec
 from atlas.arithmetic.numbers import nearest as nearest_float
 from atlas.errors import DomainError, NotCertifiedError
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import matrix
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop, check_moments
 from atlas.motions.nutation.certified_general import Symmetric
@@ -37,11 +36,6 @@ MAX_DIRECT_TIME = 16
 
 MAX_FLOW_TIME = 128
 """Longest time, in 1/rate, where there are no periods."""
-
-NEARLY = fmpq(1, 1 << 40)
-"""Difference of two moments, beside the largest, that may come from rounding."""
-
-REMEDY = " A body for which they are equal is atlas.SymmetricBody(I2, I3, axes), with any times."
 
 STATE_CACHE_SIZE = 4096
 """Size of the cache of states, for further quantities at the same times."""
@@ -79,7 +73,7 @@ class OnTorus:
     @property
     def frequencies(self) -> list[arb]:
         """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
-        periods = self.periods(ctx.prec + GUARD_BITS)
+        periods = self.torus.periods(ctx.prec + GUARD_BITS)
         with workprec(ctx.prec + GUARD_BITS):
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
@@ -135,8 +129,8 @@ class OnTorus:
         """Return the reason why no periods reduce time t, as a clause for an error; empty if periods are used."""
         if not self.is_regular:
             return "the motion is one where two periods of its torus fall together"
-        if self.too_near or abs(t) > MAX_FLOW_TIME:
-            return self.too_near
+        if abs(t) > MAX_FLOW_TIME:
+            return ""
         if self.torus.spin is not None and self.torus.pushed is None:
             return "the motion is next to an unstable spin"
         return "a period of its torus is long" if self.torus.is_long else ""
@@ -148,7 +142,7 @@ class OnTorus:
         if why := self._without_periods(t):
             return self._directly(t, why), turn
         try:
-            r1, r2 = self.periods(ctx.prec + extra_bits)
+            r1, r2 = self.torus.periods(ctx.prec + extra_bits)
         except NotCertifiedError as reason:
             return self._directly(t, str(reason).removeprefix("not certified: ").removesuffix(".")), turn
         with workprec(bits + extra_bits):
@@ -160,27 +154,12 @@ class OnTorus:
             arrival = self._displaced(arrival, H - remaining[0], F - remaining[1])
             return arrival, n * r1.angle + m * r2.angle + turn
 
-    @cached_property
-    def too_near(self) -> str:
-        """Why periods are not looked for: two moments differ by rounding alone, and they are too long; else nothing."""
-        least, middle, most = sorted(self.moments)
-        gap = min(middle - least, most - middle) / most
-        if gap > NEARLY:
-            return ""
-        return f"two moments differ by {nearest_float(gap):.1g} of the largest, so that its periods are too long"
-
-    def periods(self, bits: int) -> Any:
-        """Return the two periods of the torus. Raises NotCertifiedError where none are proved, or looked for."""
-        if self.too_near:
-            raise NotCertifiedError(f"not certified: {self.too_near}.{REMEDY}")
-        return self.torus.periods(bits)
-
     def _directly(self, t: fmpq, why: str) -> Arrival:
         """Return the state at t by Taylor's series from 0. Raises NotCertifiedError beyond `MAX_FLOW_TIME`."""
         if abs(t) > MAX_FLOW_TIME:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
-                f"{nearest_float(MAX_FLOW_TIME / self.rate):.6g}.{REMEDY * bool(self.too_near)}"
+                f"{nearest_float(MAX_FLOW_TIME / self.rate):.6g}."
             )
         bits = ctx.prec + 2 * GUARD_BITS
         while True:

@@ -61,9 +61,6 @@ class SingleAsymmetric:
         elliptic = self.exact.elliptic
         if elliptic is not None:
             return self._elliptic(elliptic)
-        torus = self.exact.on_torus
-        if torus is not None and torus.too_near:
-            return None, f"certified at each time: {torus.too_near}."
         try:
             return closed_form(self.exact, self.size), ""
         except NotCertifiedError as reason:
