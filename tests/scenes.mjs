@@ -166,8 +166,26 @@ for (const name of readdirSync(folder).filter((one) => one.endsWith(".html"))) {
     moved += 1;
   }
   moved = 0;
+  await page.setViewportSize({ width: 390, height: 844 });
+  for (const step of await page.locator(".film .steps > li").all()) {
+    const address = await step.locator(".title a").getAttribute("href");
+    const wanted = Number(new URLSearchParams(address.replace("#motion:", "")).get("omega2"));
+    await step.evaluate((one) => scrollBy(0, one.getBoundingClientRect().top - 0.5 * innerHeight));
+    const chosen = page.locator(".film input[type=range][name=omega2]");
+    await page.waitForFunction(([one, omega2]) => Number(one.value) === omega2, [
+      await chosen.elementHandle(),
+      wanted,
+    ], { timeout: 20000 });
+    for (const place of [".film .plane", ".film .stage"]) {
+      const { y, height } = await page.locator(place).boundingBox();
+      holds(y >= 0 && y + height <= 0.45 * 844, name, `keeps ${place} above the step ${address}`);
+    }
+  }
+  await page.setViewportSize({ width: 1280, height: 1000 });
   const slider = page.locator(".explorer input[type=range]").first();
   if (!await slider.count()) continue;
+  await slider.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(3000); // until the last step of a film has slid to its motion
   const said = await page.locator(".explorer output").first().innerText();
   await slider.focus();
   for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowLeft");

@@ -4,6 +4,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from html import escape as escaped
 from html import unescape
 from io import BytesIO
@@ -57,7 +58,8 @@ def pages(document: Document) -> dict[str, str]:
         "document": document,
         "texts": texts,
         "report": document.report,
-        "cover": _cover(document),
+        "cover": document.report.cover and _drawn(document, document.report.cover, "cover"),
+        "still": partial(_drawn, document, key="still"),
         "cards": cards(document),
     }
     views = document.pages
@@ -144,14 +146,11 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
     return out.getvalue()
 
 
-def _cover(document: Document) -> Card | None:
-    """Return the figure of the front page: the one that the report names."""
-    if document.report.cover is None:
-        return None
-    anchor = f"fig-{document.report.cover}"
-    if f"fig:{document.report.cover}" not in document.targets:
-        raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
-    candidates = (card for card in _figures(document) if card.figure.id == anchor and not card.figure.failure)
+def _drawn(document: Document, name: str, key: str) -> Card | None:
+    """Return the figure that a key of the report names, None if it could not be drawn."""
+    if f"fig:{name}" not in document.targets:
+        raise AtlasError(f"{key}: {unknown('figure', name, document.citable)}")
+    candidates = (card for card in _figures(document) if card.figure.id == f"fig-{name}" and not card.figure.failure)
     return next(candidates, None)
 
 

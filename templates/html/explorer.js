@@ -6,7 +6,8 @@
 "use strict";
 ((root) => {
   const { atlasFormulas: formulas, atlasLooks: looks } = root;
-  const NEARNESS = 1e-8; // of Carlson's arguments to their mean, whose square is the error
+  const NEARNESS = 1e-8, // of Carlson's arguments to their mean, whose square is the error
+    BESIDE = 1e-7; // of a momentum along the axis to that along the field, beside |B'|
   const norm = (...a) => Math.hypot(...a);
   const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]),
     inner = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -190,6 +191,10 @@
   // field and axis, and by chi about the axis, whose rates are rational in nu, theorem-top.
   const course = (I, B2, B3, omega) => {
     const { b, c3, ...constants } = portrait(I, B2, B3, omega), { along, M3 } = constants;
+    // an axis through the pole, where psi and chi are not told apart, is drawn beside it
+    if (Math.abs(Math.abs(along) - Math.abs(M3)) < BESIDE * b) {
+      return course(I, B2, B3, add(omega, [0, 2 * BESIDE * norm(B2, B3) / B2 * b, 0]));
+    }
     const [low, high] = swing(I, B2, B3, omega), nu = B3 / b, ends = [-low / b, -high / b];
     const [far, near] = Math.abs(low) > Math.abs(high) ? ends : ends.toReversed();
     let at = (t) => ({ nu, slope: 0, parts: [t / (1 - nu), t / (1 + nu)] }), start = 0;
@@ -609,12 +614,13 @@
   const DIGITS = (x) =>
       Number.isFinite(x) ? String(Number(x.toPrecision(6))).replace("-", "−") : "none, at the pole",
     NEAR = 5, // pixels
-    AHEAD = 12;
+    AHEAD = 12,
+    SLIDE = 1400; // milliseconds
 
   for (const [number, section] of document.querySelectorAll(".explorer").entries()) {
     const form = section.querySelector("form"),
       out = section.querySelector("output"),
-      line = section.querySelector("code"),
+      line = section.querySelector("form + p code, output + p code"),
       box = section.querySelector(".stage"),
       calm = matchMedia("(prefers-reduced-motion: reduce)"),
       mark = `#motion${number || ""}:`;
@@ -623,7 +629,7 @@
       shown = section.dataset.panels.split(" "),
       flat = [...section.querySelectorAll(".plane")];
     const value = (name, other = 0) => sliders.find(name)?.value ?? other;
-    let seen = false, free = false, viewer, kept = {};
+    let seen = false, free = false, viewer, kept = {}, sliding = 0;
     const place = () => {
       const I = value("I", 1.5),
         angle = sliders.find("angle"),
@@ -699,12 +705,17 @@
       }
       follow();
     };
-    const read = () => {
-      if (location.hash.startsWith(mark)) {
-        sliders.read(new URLSearchParams(location.hash.slice(mark.length)));
-        settle(1e-4);
+    // The state that an address names; without omega3 the point is on the hyperbola.
+    const read = (hash) => {
+      if (!hash.startsWith(mark)) return;
+      const parameters = new URLSearchParams(hash.slice(mark.length));
+      sliders.read(parameters);
+      if (parameters.has("omega3")) settle(1e-4);
+      else {
+        free = false;
+        follow();
       }
-    }; // the state that the address names
+    };
     const say = () => {
       const { says, command } = state();
       out.textContent = says;
@@ -713,6 +724,8 @@
     const spaces = shown.filter((name) => name in SPACES),
       planes = shown.filter((name) => name in PLANES),
       made = (name) => SPACES[name](state(), value("t"));
+    const film = section.classList.contains("film");
+    if (film) spaces.length = 1; // the step says which
     const still = (name) => ["space", "plane", "frequencies"].includes(name);
     const show = (all) => {
       planes.forEach((name, i) => {
@@ -727,6 +740,7 @@
     };
     const changed = (name) => {
       if (!flat.concat(viewer ?? []).length) return;
+      if (name !== "t") cancelAnimationFrame(sliding);
       if (name === "t") {
         show(false);
         return;
@@ -747,8 +761,9 @@
     );
     if (form.dataset.free) free = true;
     else follow();
-    read();
+    read(location.hash);
     section.hidden = false;
+    section.classList.add("live");
     planes.forEach((name, i) => {
       const drawn = node("svg", {
         viewBox: `0 0 ${SIZE} ${SIZE}`,
@@ -770,6 +785,7 @@
       };
       drawn.addEventListener("pointerdown", (event) => {
         drawn.setPointerCapture(event.pointerId);
+        cancelAnimationFrame(sliding);
         drag(event);
       });
       drawn.addEventListener("pointermove", (event) => {
@@ -777,20 +793,62 @@
       });
       drawn.addEventListener("pointerup", keep);
     });
+    // The point slides to the motion of a step.
+    const slide = ({ hash }) => {
+      const wanted = new URLSearchParams(hash.slice(mark.length)),
+        from = sliders.entries(),
+        begun = performance.now(),
+        was = free;
+      cancelAnimationFrame(sliding);
+      const frame = (clock) => {
+        const share = calm.matches ? 1 : Math.min((clock - begun) / SLIDE, 1);
+        if (share >= 1) {
+          read(hash);
+          say();
+        } else {
+          const part = share * share * (3 - 2 * share), at = new Map();
+          for (const [name, start] of from) {
+            const end = wanted.has(name) ? Number(wanted.get(name)) : start;
+            if (name !== "t") at.set(name, start + part * (end - start));
+          }
+          sliders.read(at);
+          free = was || wanted.has("omega3");
+          if (was && !wanted.has("omega3")) {
+            const start = new Map(from).get("omega3");
+            sliders.find("omega3").set(start + part * (place().omega3 - start));
+          }
+          follow();
+          sliding = requestAnimationFrame(frame);
+        }
+        show(true);
+      };
+      frame(begun);
+    };
+    // The step that comes to the middle of what the scene leaves free is shown.
+    const scroll = () => {
+      const steps = [...section.querySelectorAll(".steps > li")];
+      let now = location.hash.startsWith(mark) ? steps[0] : null; // an address stands till one scrolls
+      const watch = new IntersectionObserver((entries) => {
+        const step = entries.find((one) => one.isIntersecting)?.target;
+        if (!step || step === now) return;
+        now = step;
+        spaces[0] = step.dataset.panel;
+        slide(step.querySelector("a"));
+      }, { rootMargin: "-65% 0px -34% 0px" });
+      steps.forEach((step) => watch.observe(step));
+    };
     const share = 1 / spaces.length,
+      wide = film && box.clientWidth < 1.2 * box.clientHeight ? 300 : 450, // a telephone's is square
       layout = () =>
-        spaces.map((
-          _,
-          i,
-        ) => [
+        spaces.map((_, i) => [
           i * share,
           0,
           share,
           1,
-          450 * share,
+          wide * share,
           300,
           spaces.length > 1 ? 215 : 300,
-          225 * share,
+          wide * share / 2,
           150,
         ]);
     if (spaces.length) {
@@ -817,10 +875,11 @@
       calm.addEventListener("change", () => sliders.go(!calm.matches));
     }
     addEventListener("hashchange", () => {
-      read();
+      read(location.hash);
       say();
       show(true);
     });
+    if (film) scroll();
     new IntersectionObserver(([{ isIntersecting }]) => {
       seen = isIntersecting;
       if (seen && sliders.time) sliders.go(sliders.playing);

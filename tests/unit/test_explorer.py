@@ -122,6 +122,15 @@ def test_courses_of_the_script_are_general_motions() -> None:
 
 
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_axis_through_the_pole_is_drawn_beside_it() -> None:
+    """Started at rest in Larmor's frame the axis swings through the field's direction, which R shows to 1e-4."""
+    program = "const {R} = globalThis.atlasMotion.course(...given)(t); return R.flat()"
+    made = run(f"console.log(JSON.stringify([0, 0.7, 3, 9].map(t => {{ {program}; }})));", (0.5, 1.0, 2.0, (0, -1, -2)))
+    true = GeneralMotion(0.5, (1.0, 2.0), (0.0, -1.0, -2.0)).rotation([0.0, 0.7, 3.0, 9.0])
+    assert np.abs(np.array(made, dtype=float).reshape(-1, 3, 3) - true).max() < 1e-4
+
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_turning_points_of_the_script_are_proven_ones() -> None:
     """From anywhere, from a turning point, from next to the hyperbola: within 1e-9 of what the kernel proves."""
     random, given = np.random.default_rng(61), [(1.5, (1.0, 2.0), (0.0, 0.7, 0.2)), (1.0, (1.0, 2.0), (0.3, 0.7, 0.2))]

@@ -4,6 +4,7 @@ import json
 from dataclasses import asdict, dataclass, replace
 from math import atan2, degrees
 from typing import Any, Literal
+from urllib.parse import urlencode
 
 import msgspec
 
@@ -22,12 +23,26 @@ IN_SPACE = ("space", "body")
 Panel = Literal["plane", "space", "body", "frequencies", "portrait", "rosette"]
 
 
+class Step(StrictStruct, frozen=True):
+    """One step of a page that scrolls past a scene: a title and a text in Markdown, and the motion that is seen.
+
+    ``motion`` sets sliders by name; omega3 is that of the hyperbola where it is not set. ``panel`` is seen in space.
+    """
+
+    title: str
+    text: str
+    motion: dict[str, float]
+    panel: Literal["space", "body"] = "body"
+
+
 class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     """A sentence in Markdown with TeX, and below it the motion that the sliders choose.
 
     ``panels`` are the pictures: the ``plane`` of omega2 and omega3 with the hyperbola, the ``space`` with the quadric,
     the ``body``; the ``frequencies`` over omega2, the phase ``portrait``, the ``rosette`` of a point, 40 degrees
     from the axis, as seen along the field.
+    With ``steps`` the page scrolls past one scene, where of the panels in space only the step's is seen; ``still`` is
+    the id of the figure that stands there without script.
     ``sliders`` are among I, angle, omega1, omega2, omega3, p and q; a parameter without a slider keeps the
     register's start, and omega3 is that of the hyperbola. ``start`` sets some of them, ``at`` the field (B2, B3).
     """
@@ -37,11 +52,15 @@ class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     sliders: tuple[str, ...] = ("I", "angle", "omega2", "omega3")
     start: dict[str, float] = msgspec.field(default_factory=dict)
     at: TwoNumbers | None = None
+    steps: tuple[Step, ...] = ()
+    still: str | None = None
 
 
 @dataclass(frozen=True)
 class ExplorerView:
     """The number of its text, its panels and sliders, and for the script the field (B2, B3).
+
+    ``steps`` holds (title, text, address, panel in space), the texts by their numbers.
 
     The field is exact until a slider turns it; ``free`` is a start off the hyperbola.
     """
@@ -51,6 +70,8 @@ class ExplorerView:
     sliders: tuple[Slider, ...]
     field: tuple[float, float]
     free: bool
+    steps: tuple[tuple[int, int, str, str], ...] = ()
+    still: str | None = None
 
     @property
     def described(self) -> str:
@@ -73,7 +94,7 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
         or next(parameter for parameter in FAMILIES["elementary"].parameters if parameter.name == "field").default
     )
     defaults = _sliders(B2, B3)
-    for name in (*block.sliders, *block.start):
+    for name in (*block.sliders, *block.start, *(name for step in block.steps for name in step.motion)):
         if name not in defaults:
             raise unknown("slider", name, defaults)
     if any(name not in block.sliders for name in block.start):
@@ -81,7 +102,11 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
     chosen = [replace(defaults[name], start=block.start.get(name, defaults[name].start)) for name in block.sliders]
     moving = [] if block.panels == ("frequencies",) else [TIME]
     text, is_free = composer.paragraphs(block.text), "omega3" in block.start
-    return ExplorerView(text, block.panels, (*chosen, *moving), (B2, B3), is_free)
+    steps = tuple(
+        (composer.text(step.title, inline=True), composer.paragraphs(step.text), urlencode(step.motion), step.panel)
+        for step in block.steps
+    )
+    return ExplorerView(text, block.panels, (*chosen, *moving), (B2, B3), is_free, steps, block.still)
 
 
 def _sliders(B2: float, B3: float) -> dict[str, Slider]:
