@@ -182,10 +182,9 @@ for (const name of readdirSync(folder).filter((one) => one.endsWith(".html"))) {
     }
   }
   await page.setViewportSize({ width: 1280, height: 1000 });
+  await page.reload();
   const slider = page.locator(".explorer input[type=range]").first();
   if (!await slider.count()) continue;
-  await slider.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(3000); // until the last step of a film has slid to its motion
   const said = await page.locator(".explorer output").first().innerText();
   await slider.focus();
   for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowLeft");
