@@ -1,4 +1,4 @@
-"""What a motion made alone is made of: lines in two words, the further turn of a top, sums of exponentials."""
+"""What a motion made alone is made of: lines in two words, the further turn of a top."""
 
 from collections.abc import Callable, Iterator
 from random import Random

@@ -89,14 +89,10 @@ class Nutating:
         """The constants of alpha and beta, from which R follows, at the precision of the moment."""
         return self._solved()
 
-    def trigonometric(self) -> Solution:
-        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
-        return self._solved(trigonometric=True)
-
-    def _solved(self, *, trigonometric: bool = False) -> Solution:
+    def _solved(self) -> Solution:
         if self.is_steady:
             return steady(self.sphere.tilt, *self.steady_rates(), self._half)
-        return Nutation(self.quartic, self.sphere).solution(trigonometric=trigonometric)
+        return Nutation(self.quartic, self.sphere).solution()
 
     @property
     def _half(self) -> arb:

@@ -50,10 +50,6 @@ class Lattice:
         size = (-arb.pi() * (ratio / 2 if self.oblique else ratio)).exp()
         return acb(0, size) if self.oblique else acb(size)
 
-    def as_trigonometric(self) -> "Lattice":
-        """Return the same periods with trigonometric sums, whatever the nome: they converge slowly next to one."""
-        return replace(self, form="trigonometric", rate=arb.pi() / (2 * self.half))
-
     @property
     def twist(self) -> arb:
         """Phase by time s and by distance y that the turned lattice asks for: -2 g with g = -N pi/(4 T/2 T'/2)."""

@@ -16,7 +16,6 @@ from atlas.motions.nutation.certified_cayley_klein import (
     Solution,
     Sum,
     constant,
-    infinite,
     vanishing_at,
 )
 from atlas.motions.nutation.certified_quartic import Quartic, Root
@@ -101,15 +100,13 @@ class Nutation:
         self.real = [root.value.real for root in self.roots if root.is_real]
         self.turnings = dict[int, TurningPoint]()
 
-    def solution(self, *, trigonometric: bool = False) -> Solution:
-        """Return all constants, with trigonometric sums if that is asked for and there is a period."""
+    def solution(self) -> Solution:
+        """Return all constants."""
         if all(root.multiplicity == 2 for root in self.roots):
             return self._heteroclinic()
         self.start = self._start()
         self.opposite = self.quartic.low + self.quartic.high - self.start.place
         self.lattice = self.start.lattice
-        if trigonometric and not infinite(self.lattice.half):
-            self.lattice = self.lattice.as_trigonometric()
         origin = self._origin()
         c, s, _, _ = self.sphere.tilt
         alpha, beta = (self._parameter(pole, origin, acb(x)) for pole, x in ((-1, c), (1, s)))

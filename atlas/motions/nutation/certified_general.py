@@ -18,10 +18,10 @@ from atlas.arithmetic.numbers import by_precision, dot, root
 from atlas.bodies.certified_body import ratio_of
 from atlas.lazy import cached_property
 from atlas.motions.nutation.certified import Nutating
-from atlas.motions.nutation.certified_cayley_klein import Lattice, Parameter, Solution, Sum, steady
+from atlas.motions.nutation.certified_cayley_klein import Solution, steady
 from atlas.motions.nutation.certified_constants import Nutation
-from atlas.motions.nutation.certified_quartic import Quartic, Vector
-from atlas.motions.nutation.certified_spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
+from atlas.motions.nutation.certified_quartic import Quartic
+from atlas.motions.nutation.certified_spheres import Sphere, sphere_of_field, sphere_of_velocity
 
 
 class GeneralMotion(Nutating):
@@ -82,21 +82,13 @@ class GeneralMotion(Nutating):
         """Third component of the field in the body at t = 0."""
         return self.field[2]
 
-    def _solved(self, *, trigonometric: bool = False) -> Solution:
-        if self.kind == "ball":
-            return self._ball(self.sphere, self._momentum)
-        return super()._solved(trigonometric=trigonometric)
-
     @by_precision
     def velocity(self) -> Solution:
         """The constants of the pair from which Omega follows, see `atlas.motions.nutation.certified_spheres`."""
         sphere = self._velocity_sphere
         if self.is_steady:
             return steady(sphere.tilt, fmpq(0), self._steady_turn(), self._half)
-        if self.kind != "ball":
-            return Nutation(self.quartic, sphere).solution()
-        M1, M2, M3 = self._momentum
-        return self._ball(sphere, (M2, M1, -M3))
+        return Nutation(self.quartic, sphere).solution()
 
     @by_precision
     def sphere(self) -> Sphere:
@@ -106,12 +98,6 @@ class GeneralMotion(Nutating):
     @by_precision
     def _velocity_sphere(self) -> Sphere:
         return sphere_of_velocity(self.quartic)
-
-    @property
-    def _momentum(self) -> Vector:
-        """M of a ball, in the body at t = 0, over its moment."""
-        M1, M2, M3 = (w + K for w, K in zip(self.quartic.Omega, self.quartic.K, strict=True))
-        return M1, M2, M3
 
     @cached_property
     def turning_axis(self) -> tuple[fmpq, fmpq, fmpq]:
@@ -175,28 +161,13 @@ class GeneralMotion(Nutating):
         """Mean rate of the body's turn about its axis, see `Nutating`; of a free body phi."""
         return self.steady_rates()[1] if self.quartic.K2 == 0 else super().spin_rate
 
-    def _ball(self, sphere: Sphere, M: tuple[fmpq, fmpq, fmpq]) -> Solution:
-        """Return the turn of the vector about M, which stands in the body."""
-        c, s, C, S = sphere.tilt
-        size = root(M[0] ** 2 + M[1] ** 2 + M[2] ** 2)
-        m1, m2, m3 = (M[0] * C - M[1] * S) / size, (M[0] * S + M[1] * C) / size, M[2] / size
-        lattice = Lattice("trigonometric", arb.pi() / size, arb("inf"), oblique=False, rate=arb(size) / 2)
-        sums = (
-            Sum(lattice, (acb(-arb(s) * m1, arb(c) * m3 + arb(s) * m2),), (acb(c),), arb(0)),
-            Sum(lattice, (acb(arb(c) * m1, arb(c) * m2 - arb(s) * m3),), (acb(s),), arb(0)),
-        )
-        alpha, beta = (
-            Parameter(acb(1), arb(0), arb(sphere.frames[pole]), arb(0), x, sphere.signs[pole])
-            for pole, x in zip(POLES, sums, strict=True)
-        )
-        return Solution(lattice, arb(0), alpha, beta, sphere.precession, sphere.spin)
-
     @property
     def roots(self) -> list[acb]:
         """Roots of Q, each as often as it counts: the real ones ascending, then the complex pair; none for B = 0."""
         if self.quartic.K2 == 0:
             return []
-        return [root.value for root in self.quartic.roots() for _ in range(root.multiplicity)]
+        finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
+        return [root.value for root in finite_roots for _ in range(root.multiplicity)]
 
     @property
     def turning_points(self) -> tuple[Real, Real]:

@@ -54,6 +54,9 @@ class Root:
         return bool(self.value.real > 0) and not self.value.real.is_finite()
 
 
+INFINITY = acb(arb("inf"))
+
+
 class Quartic:
     """Q of a body of ratio I that turns with Omega where the field is K, both in the body.
 
@@ -107,7 +110,10 @@ class Quartic:
         return torque.sign
 
     def roots(self) -> list[Root]:
-        """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
+        """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair.
+
+        Roots that have gone to infinity, where the leading coefficient is zero, come last.
+        """
         return self._roots
 
     @by_precision
@@ -124,7 +130,8 @@ class Quartic:
         isolated = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
         real = [root for root in isolated if root.is_real]
         real.sort(key=lambda root: root.value.real.mid())
-        return real + [root for root in isolated if root.is_complex]
+        infinite = 5 - len(self.polynomial)
+        return real + [root for root in isolated if root.is_complex] + [Root(INFINITY, infinite)] * bool(infinite)
 
     @cached_property
     def _interval(self) -> tuple[int, int]:
@@ -159,9 +166,6 @@ def rational_polynomial(coefficients: Iterable[fmpq]) -> Polynomial:
     return trimmed([Surd.rational(c) for c in coefficients])
 
 
-INFINITY = acb(arb("inf"))
-
-
 class TopQuartic(Quartic):
     """Q of a top with the moments (1, I), coupling (k2, k3), direction (n2, n3) and angular velocity at t = 0.
 
@@ -191,8 +195,3 @@ class TopQuartic(Quartic):
         """Return the sign of p + M3 for `pole` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
         torque: Surd = self.p - self.M3 * pole
         return torque.sign
-
-    def _isolated(self) -> list[Root]:
-        """Isolate the roots; those that have gone to infinity come last."""
-        infinite = 5 - len(self.polynomial)
-        return super()._isolated() + [Root(INFINITY, infinite)] * bool(infinite)

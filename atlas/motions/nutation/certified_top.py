@@ -123,11 +123,11 @@ class TopMotion(Nutating):
         energy, M3, p = constants(self.I, k2, k3, q.transverse, q.nu, a0, A0, w1, w2, w3)
         return [(energy / 2).value, M3.value, p.value]
 
-    def _solved(self, *, trigonometric: bool = False) -> Solution:
+    def _solved(self) -> Solution:
         if self.is_steady or self.quartic.kappa == 0:
-            return super()._solved(trigonometric=trigonometric)
+            return super()._solved()
         nutation = Nutation(self.quartic, self.sphere)
-        solution = nutation.solution(trigonometric=trigonometric)
+        solution = nutation.solution()
         if self.kind.endswith("between n and -n"):
             return replace(solution, swing=crossing(self.quartic, solution.origin))
         return replace(solution, swing=swing(nutation, self.quartic))

@@ -3,10 +3,7 @@
 Where the grid is fine, the entries of R over a window of some hundred times are polynomials to the last digit: they are
 evaluated at a few of these times and interpolated, by one matrix product. Their last coefficients tell if they are.
 
-Elsewhere, in trigonometric form, alpha and beta are sums of exponentials exp(i f_m t), so that their values at s + tau
-are a product of a coarse table of exp(i f_m s) and a fine one of z_m exp(i f_m tau): one matrix product instead of
-phases and tangents at every time. Where the sums would cancel, next to a separatrix, and on it, a grid that is not fine
-is evaluated time by time.
+A grid that is not fine is evaluated time by time.
 """
 
 from dataclasses import dataclass
@@ -14,27 +11,15 @@ from functools import cache
 from math import frexp
 
 import numpy as np
-from flint import fmpq
 
 from atlas.arithmetic.double_double import DoubleDouble
 from atlas.arithmetic.grid import check_grid
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.machine import shared
-from atlas.arithmetic.numbers import rational
-from atlas.arithmetic.phase import Phases, room
+from atlas.arithmetic.phase import Phases
 from atlas.arithmetic.rotation import BLOCK, combined
-from atlas.motions.nutation.cayley_klein import Evaluation, Products
-from atlas.motions.nutation.exponentials import FINE_TIMES, Exponentials
+from atlas.motions.nutation.cayley_klein import Evaluation
 from atlas.motions.nutation.single import SingleMotion
-
-COARSE_TIMES = 34
-"""Coarse times in one product."""
-
-GROUP = 16 * COARSE_TIMES
-"""Coarse times whose exponentials are made at once."""
-
-MIN_TABLE_COUNT = 100_000
-"""Shorter grids do without: their tables would cost more."""
 
 NODES, LENGTHS = 16, (512, 384, 256, 192, 128, 96, 64)
 """Times at which polynomials are made, and numbers of times that they may serve."""
@@ -66,18 +51,8 @@ def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) 
     length = window(grid, count) if count >= MIN_GRID_COUNT else 0
     if length:
         fill_windows(grid, length, out)
-        return
-    sums = motion.exponentials if count >= MIN_TABLE_COUNT else None
-    if sums is None:
+    else:
         fill_each(grid, out)
-        return
-    blocks, remainder = divmod(count, FINE_TIMES)
-    fill_products(motion, sums, rational(start), rational(step), out[: blocks * FINE_TIMES])
-    if remainder:
-        fill_each(grid, out[count - remainder :], blocks * FINE_TIMES)
-    if step and 0 <= (start_index := -rational(start) / rational(step)) < count:
-        i = int(start_index.ceil())
-        fill_each(grid, out[i : i + 1], i)
 
 
 @dataclass(frozen=True)
@@ -204,36 +179,3 @@ def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
 
     shared(fill, count, WINDOWS_AT_ONCE, length)
     fill_each(grid, out[count * length :], count * length)
-
-
-def fill_products(
-    motion: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
-) -> None:
-    """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE_TIMES."""
-    phases = [x.coarse_phases(start, step * FINE_TIMES) for x in sums]
-    tables = [np.ascontiguousarray(x.fine_table(step).swapaxes(0, 1)) for x in sums]
-    rows = out.reshape(-1, 9)
-
-    def fill(low: int, high: int) -> None:
-        """Fill the blocks low to high."""
-        q, products = np.empty((4, COARSE_TIMES, FINE_TIMES)), Products(COARSE_TIMES * FINE_TIMES)
-        for i in range(low, high, GROUP):
-            j = min(i + GROUP, high)
-            coarse_table = [circles(x, np.arange(float(i), float(j))) for x in phases]
-            for k in range(i, j, COARSE_TIMES):
-                m = min(COARSE_TIMES, j - k)
-                for place, (functions, table) in enumerate(zip(coarse_table, tables, strict=True)):
-                    for half in (0, 1):
-                        np.matmul(functions[k - i : k - i + m], table[half], out=q[place + 2 * half, :m])
-                matrices = products.of_pair(q[:, :m].reshape(4, m * FINE_TIMES))
-                combined(matrices, motion.entries, rows[k * FINE_TIMES : (k + m) * FINE_TIMES])
-
-    shared(fill, len(out) // FINE_TIMES, GROUP, FINE_TIMES)
-
-
-def circles(phases: Phases, i: FloatArray) -> FloatArray:
-    """Return cos and sin of all phases, halved, (m, 2 M)."""
-    count, m = phases.words.shape[1], i.size
-    table = np.empty((2, count, m))
-    phases.circle(i, room(count, m), table[0], table[1], np.empty(m))
-    return np.ascontiguousarray(table.reshape(2 * count, m).T)

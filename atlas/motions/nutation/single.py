@@ -25,7 +25,6 @@ from atlas.motions.nutation.certified_cayley_klein import turning_rate
 from atlas.motions.nutation.certified_general import GeneralMotion
 from atlas.motions.nutation.certified_top import TopMotion
 from atlas.motions.nutation.constants import FIRST_BITS, CayleyKlein
-from atlas.motions.nutation.exponentials import Exponentials, exponentials
 
 BITS = 60
 """Relative accuracy of a scalar before it is rounded, once."""
@@ -111,11 +110,6 @@ class SingleMotion:
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t), shape (..., 3)."""
         return self._linear(self.field, t, (3,), out)
-
-    @cached_property
-    def exponentials(self) -> tuple[Exponentials, Exponentials] | None:
-        """Alpha and beta as sums of exponentials for use on a grid, None where these would cancel or be too many."""
-        return exponentials(self.exact, self.pair.precision)
 
     def _linear(
         self,

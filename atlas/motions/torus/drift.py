@@ -27,13 +27,13 @@ from atlas.motions.torus.kernel import AsymmetricMotion
 FIRST_NODES, MAX_NODES = 16, 128
 """Nodes along an angle at first, and the most: a torus that needs more is next to a separatrix."""
 
-COARSE, FINE = 1e-6, 1e-11
+COARSE, FINE = 1e-8, 1e-11
 """Relative change of means, from every second node to all, above which nodes are added, and below which taken out."""
 
 ON_TORUS, NEAR_TORUS = 1e-12, 1e-6
 """Relative error of the integrals of a state of the grid, and of one that is flowed on."""
 
-MAX_NEWTON, MAX_EVENING, UNEVEN = 12, 4, 1e-4
+MAX_NEWTON, MAX_EVENING, UNEVEN = 12, 4, 1e-5
 """Steps of Newton's method and of the flows that even the angles, and relative spread of the density that is even."""
 
 TOLERANCE, BRACKET = 1e-7, 1e-3
@@ -183,8 +183,8 @@ class Torus:
             raise LostTorusError("flows along each other") from None
         return np.moveaxis(a, (-1, -2), (0, 1)), np.linalg.det(a)
 
-    def _evened(self, y: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return states on the torus y at equal steps of both phases, from states near it; their times and density."""
+    def _evened(self, y: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return states on the torus y at equal steps of both phases, from states near it, and their times."""
         x = self._projected(y, x, NEAR_TORUS)
         a, density = self._times(x)
         for _ in range(MAX_EVENING):
@@ -195,7 +195,9 @@ class Torus:
             a, density = self._times(x)
             if np.ptp(density) <= UNEVEN * abs(density).max():
                 break
-        return x, a, density
+        if not density.min() * density.max() > 0:
+            raise LostTorusError("folded grid")
+        return x, a
 
     def _flowed(self, x: FloatArray, times: FloatArray) -> FloatArray:
         """Return states moved along the flows by small times (flows, n1, n2), by one step of Runge and Kutta."""
@@ -208,21 +210,11 @@ class Torus:
         k3 = slope(x + k2 / 2)
         return x + (k1 + 2 * k2 + 2 * k3 + slope(x + k3)) / 6
 
-    def _mean(self, values: FloatArray, density: FloatArray) -> FloatArray:
-        """Return the means over the torus of values (m, n1, n2) on a grid, shape (m,)."""
-        if not density.min() * density.max() > 0:
-            raise LostTorusError("folded grid")
-        return np.asarray((values * density).mean((1, 2)) / density.mean())
-
-    def _change_by_half(self, x: FloatArray, density: FloatArray, axis: int) -> float:
+    @staticmethod
+    def _change_by_half(x: FloatArray, axis: int) -> float:
         """Return the relative change of the means of M_i^2, K_i^2 and M_i K_i if half the nodes of an axis are used."""
         products = np.concatenate([x * x, x[:3] * x[3:]])
-        step = np.s_[:, :, ::2] if axis else np.s_[:, ::2]
-        whole = self._mean(products, density)
-        try:
-            half = self._mean(products[step], self._times(x[step])[1])
-        except LostTorusError:
-            return np.inf
+        whole, half = (y.mean((1, 2)) for y in (products, products[:, :, ::2] if axis else products[:, ::2]))
         return float(abs(half - whole).max() / abs(whole).max())
 
     def follow(self, y: FloatArray) -> None:
@@ -234,17 +226,17 @@ class Torus:
 
     def _follow(self, y: FloatArray, states: FloatArray) -> None:
         """Move a grid to the torus of the integrals y, and change its nodes until means converge."""
-        x, a, density = self._evened(y, states)
+        x, a = self._evened(y, states)
         while True:
-            changes = np.array([self._change_by_half(x, density, axis) for axis in range(len(a))])
+            changes = np.array([self._change_by_half(x, axis) for axis in range(len(a))])
             if changes.max() <= COARSE:
                 break
             for axis in np.flatnonzero(changes > COARSE).tolist():
                 x = _doubled(x, axis + 1)
             if max(x.shape) > MAX_NODES:
                 raise LostTorusError("long period")
-            x, a, density = self._evened(y, x)
-        self.x, self.a, self.density = x, a, density
+            x, a = self._evened(y, x)
+        self.x, self.a = x, a
         for axis in np.flatnonzero(changes < FINE).tolist():
             x = x[:, ::2] if axis == 0 else x[:, :, ::2]
         self.states, self.angles = x, self._turns()
@@ -253,7 +245,7 @@ class Torus:
         """Return the mean rates of the integrals, shape (r,), for a growth of the field and a drag (3,)."""
         M, K = np.split(self.x, 2)
         push = np.concatenate([-drag[:, None, None] * (M - self.I * K), growth * K])
-        return self._mean((self._gradients(self.x)[0] * push).sum(1), self.density)
+        return np.asarray((self._gradients(self.x)[0] * push).sum(1).mean((1, 2)))
 
     def _turns(self) -> FloatArray:
         """Return the angles about the field (of a free body about M) of both periods, next to those before."""
