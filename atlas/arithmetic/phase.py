@@ -5,7 +5,7 @@ frequency is made from the exact inputs, in turns, as a sum of words, P0 + P1; b
 their rounding errors, and the whole turns are dropped before anything is rounded.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import cos, frexp, inf, ldexp, nextafter, sin
 from typing import Self
 
@@ -99,15 +99,19 @@ class Phases:
         if self.origins is not None:
             first_origin, low = self.origins
             self.starts = -first_origin * MINUS_HEAD, low * QUARTER_TURN - first_origin * MINUS_TAIL
-        self._small = small
+        self._small, self._starts = small, origins
 
     @cached_property
-    def _turns_of_integers(self) -> list[tuple[int, int]]:
-        """Frequencies in turns as whole numbers and the binary digits behind their point, to 2^-SCALAR_BITS."""
+    def _turns_of_integers(self) -> list[tuple[int, int, int]]:
+        """Frequencies in turns as whole numbers and the binary digits behind their point, to 2^-SCALAR_BITS.
+
+        The phases at t = 0 come after them, in units of 2^-SCALAR_BITS.
+        """
         turns = []
-        for half in map(scaled, self._small, self._exponents_of_one()):
+        starts = [turn_of(x) for x in self._starts] if self._starts else [None] * len(self._small)
+        for half, start in zip(map(scaled, self._small, self._exponents_of_one()), starts, strict=True):
             after = max(SCALAR_BITS - magnitude(half), 3) if half != 0 else 3
-            turns.append((units(half, after), after + 1))
+            turns.append((units(half, after), after + 1, units(start, SCALAR_BITS) if start else 0))
         return turns
 
     def _exponents_of_one(self) -> list[int]:
@@ -119,13 +123,8 @@ class Phases:
         The product in turns is exact, and so is its distance from a quarter turn, |y| <= 1/8. The angle 2 pi y is
         rounded once, sine and cosine are within an ulp: cos and sin are within 2 w, w = 2^-53, where `circle` has 8.
         """
-        if not abs(t) <= self.longest:
-            self.check(np.array([t]))
         functions = []
-        p, q = t.as_integer_ratio()
-        for turns, after in self._turns_of_integers:
-            digits = after + q.bit_length() - 1
-            x = turns * p
+        for x, digits in self._phases_of_one(t):
             quarter = (x + (1 << digits - 3)) >> digits - 2
             angle = (x - (quarter << digits - 2)) * TURN_OF_INTEGERS / (1 << digits + SCALAR_BITS)
             c, s = cos(angle) / 2, sin(angle) / 2
@@ -135,6 +134,29 @@ class Phases:
                 c, s = -c, -s
             functions.append((c, s, 0.5 - c if quarter & 3 else sin(angle / 2) ** 2))
         return functions
+
+    def halves_of_one(self, t: float) -> list[float]:
+        """Return half of each phase at one time, less the turns that `rounder` leaves out, in radians, rounded once."""
+        halves = []
+        for (x, digits), is_even in zip(self._phases_of_one(t), self._is_even, strict=True):
+            half = 1 << digits - (1 if is_even else 2)
+            halves.append((((x + half) % (2 * half)) - half) * TURN_OF_INTEGERS / (1 << digits + SCALAR_BITS + 1))
+        return halves
+
+    @cached_property
+    def _is_even(self) -> list[bool]:
+        """Whether whole turns of a phase are left out, not half turns."""
+        return [bool(x) for x in np.broadcast_to(np.ravel(self.rounder) == EVEN, len(self._small))]
+
+    def _phases_of_one(self, t: float) -> Iterator[tuple[int, int]]:
+        """Yield the phases at one time in turns, as whole numbers and the binary digits behind their point."""
+        if not abs(t) <= self.longest:
+            self.check(np.array([t]))
+        p, q = t.as_integer_ratio()
+        for turns, after, start in self._turns_of_integers:
+            known = after + q.bit_length() - 1
+            digits = max(known, SCALAR_BITS) if start else known
+            yield (turns * p << digits - known) + (start << digits - SCALAR_BITS if start else 0), digits
 
     @cached_property
     def radians(self) -> FloatArray:

@@ -92,6 +92,16 @@ def test_every_entry_is_true_up_to_a_million_periods(inputs: Any) -> None:
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
+def test_one_time_is_as_true_as_many(inputs: Any) -> None:
+    """Entries of R at a time asked for by itself are within 6 ulp of 1, and Omega is that of an array to 16 ulp."""
+    motion = GeneralMotion(*inputs)
+    times = long_times(motion, 2)[:12].tolist()
+    assert worst([motion.rotation(t) for t in times], Balls(*inputs), times) <= 6
+    for t, Omega in zip(times, motion.angular_velocity(times), strict=True):
+        assert np.abs(motion.angular_velocity(t) - Omega).max() <= 16 * np.spacing(np.abs(Omega).max())
+
+
+@pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
 def test_every_entry_is_true_at_short_times(inputs: Any) -> None:
     """Entries of R are within 6 ulp of 1 also where a phase is short beside that at t = 0."""
     motion = GeneralMotion(*inputs)

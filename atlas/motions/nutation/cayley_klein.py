@@ -4,6 +4,9 @@ alpha and beta, up to a common real factor, are sums of the functions of time of
 The matrix is linear in the ten products of their four real parts, once the squares of these sum to one.
 """
 
+from math import cos, sin
+from typing import Any
+
 import numpy as np
 
 from atlas.arithmetic.circle import WHOLE
@@ -132,6 +135,26 @@ class Evaluation:
     def products_at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return the ten products at times t + low, (10, m)."""
         return self.products.of_pair(self.components(t, low))
+
+
+def products_of_one(parameters: CayleyKlein, t: float) -> list[float]:
+    """Return the ten products at one time, of a pair `at_one_time`: by floats, as `Evaluation` does by arrays.
+
+    Half the phases are rounded once, as there, and the bound on errors is the same.
+    """
+    half_sum, half_difference, *half = parameters.phases.halves_of_one(t)
+    functions: Any = parameters.functions
+    if isinstance(functions, Hyperbolic):
+        twist_of_sum, twist_of_difference = functions.twist_of_one
+        half_sum, half_difference = half_sum + twist_of_sum * half[0], half_difference + twist_of_difference * half[0]
+    sums = (parameters.values @ functions.of_one(*half)).tolist()
+    sum_turn, turn = (complex(cos(x), sin(x)) for x in (half_sum, half_difference))
+    alpha = complex(sums[0], sums[2]) * sum_turn * turn
+    beta = complex(sums[1], sums[3]) * sum_turn * turn.conjugate()
+    largest = max(abs(alpha), abs(beta))
+    q = alpha.real / largest, beta.real / largest, alpha.imag / largest, beta.imag / largest
+    square = sum(x * x for x in q)
+    return [q[i] * q[j] / square for i, j in PAIRS]
 
 
 class Products:

@@ -32,6 +32,9 @@ FREQUENCY_RADIUS, WEIGHT_RADIUS = 2.0**-120, 2.0**-80
 MIN_WEIGHT = 1e-70
 """Next to a separatrix alpha and beta may both become so small, over the common factor, that their squares vanish."""
 
+MAX_REACH_OF_ONE = 8.0
+"""Largest argument of hyperbolic functions that is rounded to a double: the pair is within some ulp nevertheless."""
+
 KINDS: Mapping[str, Callable[..., Functions]] = {
     "trigonometric": Trigonometric,
     "hyperbolic": Hyperbolic,
@@ -102,6 +105,13 @@ class CayleyKlein:
             least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
             self.faint = bool(least < MIN_WEIGHT or lattice.reach > -np.log(MIN_WEIGHT))
         return True
+
+    @property
+    def at_one_time(self) -> bool:
+        """Whether the pair at one time is known from floats: without `swing`, and not next to a separatrix or on it."""
+        if isinstance(self.functions, Hyperbolic):
+            return self.periodic and not self.swing and self.functions.reach < MAX_REACH_OF_ONE
+        return not self.swing and isinstance(self.functions, Steady | Trigonometric)
 
     @cached_property
     def alternates(self) -> bool:

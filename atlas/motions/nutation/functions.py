@@ -7,6 +7,7 @@ matrix.
 
 from collections.abc import Iterable, Sequence
 from functools import cache
+from math import cos, cosh, sin, tanh
 from typing import TypeAlias
 
 import numpy as np
@@ -37,6 +38,10 @@ class Steady:
     def weights(self, sum_: Sum) -> list[acb]:
         """Return the weight of each row in a sum."""
         return [sum_.even[0]]
+
+    def of_one(self, *_phase: float) -> list[float]:
+        """Return the rows at one time."""
+        return [1.0]
 
     def fill(self, rows: FloatArray, _t: FloatArray) -> None:
         """Fill the rows at times t."""
@@ -78,6 +83,15 @@ class Trigonometric:
         for n in range(1, self.terms):
             np.multiply(pairs[n - 1], factor, out=pairs[n])
 
+    def of_one(self, half: float) -> list[float]:
+        """Return the rows at one time, up to a common factor, from half the phase."""
+        v = 2 * half if self.constant else half
+        sine, cosine = sin(v), cos(v)
+        rows, factor = [sine, cosine], 4 * cosine * cosine - 2
+        for _ in range(1, self.terms):
+            rows += [rows[-2] * factor, rows[-1] * factor]
+        return [*rows, 1.0] if self.constant else rows
+
     @property
     def multiple(self) -> int:
         """Twice v is so many times the angle whose tangent `fill` takes."""
@@ -109,7 +123,8 @@ class Hyperbolic:
             self.peak, self.share = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
             slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
             alpha_twist, beta_twist = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
-            self.twist = np.array([[float(x.mid())] for x in (alpha_twist + beta_twist, alpha_twist - beta_twist)])
+            self.twist_of_one = [float(x.mid()) for x in (alpha_twist + beta_twist, alpha_twist - beta_twist)]
+            self.twist = np.array(self.twist_of_one)[:, None]
         self.line = Line(slope, start)
         self.distant = words(self.reach, 2) if self.periodic and self.reach > MAX_EXPONENT else None
         self.sech = any(sum_.doubled for sum_ in sums)
@@ -175,6 +190,14 @@ class Hyperbolic:
                 down *= SECH_SCALE * np.exp(np.minimum(MAX_EXPONENT - np.abs(x), 0.0))
             n = 2 * self.powers
             np.multiply(rows[:n], down, out=rows[n : 2 * n])
+
+    def of_one(self, half: float) -> list[float]:
+        """Return the rows at one time, from half the phase in the period."""
+        x = self.line.slope * half
+        rows, W = [tanh(x), 1.0], 2 * self.share * cosh(2 * x)
+        for _ in range(1, self.powers):
+            rows += [rows[-2] * W, rows[-1] * W]
+        return rows + [y / cosh(x) for y in rows] if self.sech else rows
 
 
 class Linear:

@@ -16,10 +16,10 @@ from atlas.arithmetic.given import exact_number
 from atlas.arithmetic.inputs import FloatArray, largest, real
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.arithmetic.quaternions import between
-from atlas.arithmetic.rotation import combined, evaluate
+from atlas.arithmetic.rotation import combined, evaluate, target
 from atlas.errors import DomainError
 from atlas.lazy import cached_property
-from atlas.motions.nutation.cayley_klein import Evaluation, entries
+from atlas.motions.nutation.cayley_klein import Evaluation, entries, products_of_one
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import turning_rate
 from atlas.motions.nutation.certified_general import GeneralMotion
@@ -120,13 +120,18 @@ class SingleMotion:
         pair: CayleyKlein | None = None,
     ) -> FloatArray:
         """Return linear combinations of the products of alpha and beta, or of another pair."""
+        times, pair = real(t, "The time"), pair or self.pair
+        if times.size == 1 and pair.at_one_time:
+            out = target(out, times.shape + shape)
+            np.matmul(products_of_one(pair, times.item()), weights, out=out.reshape(-1))
+            return out
 
         def prepare(size: int) -> Any:
             """Return the function that fills a block of times."""
-            evaluation = Evaluation(pair or self.pair, size)
+            evaluation = Evaluation(pair, size)
             return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
 
-        return evaluate(real(t, "The time"), shape, out, prepare)
+        return evaluate(times, shape, out, prepare)
 
 
 MAX_OMEGA3_RATIO, MAX_SLENDER_RATIO = 2.3, 1.45
