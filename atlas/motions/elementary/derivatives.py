@@ -1,6 +1,6 @@
 """Inputs of motions in elementary functions: exact values by name, the motion that they give, and its scalars."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from operator import add
 from typing import Any, ClassVar
@@ -11,13 +11,14 @@ from flint import arb, fmpq
 from atlas.arithmetic.certified_inputs import sin_cos
 from atlas.arithmetic.certified_rotation import AXES, Matrix, turned_back, turns
 from atlas.arithmetic.inputs import FloatArray
-from atlas.arithmetic.numbers import direction, nearest, rational
+from atlas.arithmetic.numbers import direction, length, nearest, rational
 from atlas.arithmetic.words import floats
 from atlas.motions.elementary import formula as elementary
 from atlas.motions.elementary import formula_ball as ball
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import steady
 from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_spheres import tilt_of
 from atlas.motions.nutation.derivatives_inputs import NUTATION, Inputs, of_general, size_of, units
 
 
@@ -34,12 +35,7 @@ class AxisAndRates:
     def tilt(self) -> tuple[Any, ...]:
         """Return cosine and sine of half the tilt of the axis, and of its azimuth."""
         axis = self._axes[0]
-        n1, n2, n3 = (arb(y) for y in direction(axis))
-        across_size = (n1 * n1 + n2 * n2).sqrt() if not axis[0] == axis[1] == 0 else arb(0)
-        C, S = (n2 / across_size, n1 / across_size) if across_size != 0 else (arb(1), arb(0))
-        longer = ((1 + abs(n3)) / 2).sqrt()
-        shorter = across_size / (2 * longer)
-        return (longer, shorter, C, S) if axis[2] >= 0 else (shorter, longer, C, S)
+        return tilt_of(axis, length(*axis))
 
     @property
     def solution(self) -> Any:
@@ -63,11 +59,6 @@ class AxisAndRates:
         return axis if any(x != 0 for x in axis) else AXES[2], AXES[2]
 
 
-def _length(vector: Iterable[fmpq]) -> arb:
-    """Return the length of a vector."""
-    return arb(sum((x * x for x in vector), fmpq(0))).sqrt()
-
-
 TURNS: dict[str, Callable[[AxisAndRates], Any]] = {
     "k": lambda x: x.k,
     "phi": lambda x: x.phi,
@@ -89,9 +80,9 @@ TURNS_AMONG_ALL: dict[str, Callable[[Nutating], Any]] = {
     "period": lambda x: 2 * arb.pi() / abs(NUTATION["precession_rate"](x)),
 }
 BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
-    "gamma": lambda x: _length(map(add, x.field, x.omega)),
-    "precession_rate": lambda x: -_length(x.field),
-    "spin_rate": lambda x: -_length(map(add, x.field, x.omega)),
+    "gamma": lambda x: length(*map(add, x.field, x.omega)),
+    "precession_rate": lambda x: -length(*x.field),
+    "spin_rate": lambda x: -length(*map(add, x.field, x.omega)),
 }
 """Scalars of motions whose neighbours are other motions: mean rates, and functions of these."""
 

@@ -12,7 +12,7 @@ each with one simple zero in a cell of the lattice. For K, of length b, the pole
 P(u) = u^2 - (2-I) c3 u + c5, and f = 0. So Omega keeps its digits however slow the body turns beside its Larmor frame.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from flint import acb, arb, fmpq
@@ -46,15 +46,23 @@ class Sphere:
 
     @cached_property
     def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Cosine and sine of half the polar angle at t = 0, and of the azimuth from the second axis to the first."""
-        x, y, z = self.start
-        if x == 0 and y == 0:
-            return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z >= 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
-        flat = abs(y) if x == 0 else root(x * x + y * y)
-        # of the two halves the one that does not cancel first
-        longer = arb((1 + abs(arb(z) / self.length)) / 2).sqrt()
-        shorter = arb(flat) / (2 * longer * self.length)
-        return (longer, shorter, y / flat, x / flat) if z >= 0 else (shorter, longer, y / flat, x / flat)
+        """Tilt of the vector at t = 0, see `tilt_of`."""
+        return tilt_of(self.start, self.length)
+
+
+def tilt_of(vector: Sequence[Real], length: Real) -> tuple[Real, Real, Real, Real]:
+    """Return cosine and sine of half the polar angle of a vector, and of its azimuth from the second axis to the first.
+
+    `length` is that of the vector.
+    """
+    x, y, z = vector
+    if x == 0 and y == 0:
+        return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z >= 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
+    flat = abs(y) if x == 0 else root(x * x + y * y)
+    # of the two halves the one that does not cancel first
+    longer = arb((1 + abs(arb(z) / length)) / 2).sqrt()
+    shorter = arb(flat) / (2 * longer * length)
+    return (longer, shorter, y / flat, x / flat) if z >= 0 else (shorter, longer, y / flat, x / flat)
 
 
 def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
