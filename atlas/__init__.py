@@ -8,8 +8,8 @@
 Bodies and fields: SymmetricBody, ChargeMoments, Field, LaboratoryFrame. Surfaces of initial data: Quadric, Hyperbola.
 Motions: motion (any body from any start, by the class that fits); ElementaryMotion (the paper's), GeneralMotion (from
 any start), BallMotion, FreeMotion, TopMotion (any symmetric top), EllipticMotion and AsymmetricMotion (three different
-moments), ParticleMotion, Flight. Pictures: figure, plotter, animate. Tables: sweep. Periods round a loop: monodromy. To
-compare with: simulate, check, clebsch. Slow changes: drift. From measurements: fit. Errors:
+moments), ParticleMotion, Flight. Pictures: figure, plotter, animate. Reports: report. Tables: sweep. Periods round a
+loop: monodromy. To compare with: simulate, check, clebsch. Slow changes: drift. From measurements: fit. Errors:
 AtlasError, DomainError, NotCertifiedError.
 
 Names are loaded when they are first used, so that a number costs no drawing library.
@@ -64,6 +64,7 @@ _HOMES = {
     "figure": "atlas.pictures.drawing",
     "plotter": "atlas.pictures.drawing",
     "animate": "atlas.pictures.drawing.animation",
+    "report": "atlas.cli.reporting",
 }
 
 VIEWERS.update((name, partial(import_module, f"atlas.notebook.{name}")) for name in ("show", "pictures", "frames"))

@@ -9,6 +9,7 @@ from atlas.bodies.field import (
 )
 from atlas.checking.check import check
 from atlas.checking.simulate import simulate
+from atlas.cli.reporting import report
 from atlas.errors import (
     AtlasError,
     DomainError,
@@ -69,6 +70,7 @@ __all__ = [
     "monodromy",
     "motion",
     "plotter",
+    "report",
     "simulate",
     "sweep",
 ]

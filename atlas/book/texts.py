@@ -23,7 +23,7 @@ _CITED = re.compile(
 MAX_DEPTH = 10
 """How deeply parts of a text may be nested."""
 _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
-_INSIDE = re.compile(r"\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
+_INSIDE = re.compile(r"(?:\w[\w.+-]*/)?\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
 _COUNTED = {"Section", "Sections", "Part", "Volume", "Figure", "Table"}

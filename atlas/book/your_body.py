@@ -40,6 +40,8 @@ from atlas.places import folder
 
 REPORTED = ("elementary", "general", "asymmetric", "top", "quadric")
 """Families of bodies that have this report."""
+NAME = "your_body"
+"""Name of the report, before the digest of its inputs."""
 RATES = {"elementary": ("k", "phi")}
 """Names of the rates about the field and about the axis; of other families precession_rate and spin_rate."""
 NEEDLE = 0.1
@@ -364,7 +366,7 @@ def digest_of(request: Asked) -> str:
 
 def name_of(request: Asked) -> str:
     """Return the name of the report: the given one, or your_body, and the digest of the inputs."""
-    return f"{request.called or 'your_body'}-{digest_of(request)}"
+    return f"{request.called or NAME}-{digest_of(request)}"
 
 
 def words_of(request: Asked) -> list[str]:

@@ -29,8 +29,8 @@ from atlas.motions.register import FAMILIES, Family
 if TYPE_CHECKING:
     from atlas.book.building.report import Built
 
-Action = Callable[[Any, dict[str, Any]], int]
-"""Function of a request and the options of its command, which returns the exit status."""
+Action = Callable[[Any, dict[str, Any]], Any]
+"""Function of a request and the options of its command; what it returns is that of the command."""
 
 DEVIATIONS = "atlas.cli.page.deviations"
 """Key of the deviations of quantities of inputs in other axes than the page has."""
@@ -56,7 +56,7 @@ def command_of(family: Family, name: str, action: Action, out: str, makes: str) 
         click.option("--note", default="", hidden=True),
     ]
 
-    def run(**options: Any) -> int:
+    def run(**options: Any) -> Any:
         return action(asked(family, options), options)
 
     command = click.command(name, cls=Command, carries=True, help=f"{makes}: {family.says}.", hidden=name in GONE)

@@ -151,7 +151,7 @@ def columns_of(path: Path) -> dict[str, list[float]]:
     return measured_columns(path, OF_POINTS, {})[0]
 
 
-def _cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+def cells_of(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the cells of the heading of a CSV file, and of each row, with the number of its line."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
@@ -182,7 +182,7 @@ def measured_columns(
     A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
     taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
     """
-    heading_cells, lines = _cells(path)
+    heading_cells, lines = cells_of(path)
     names, units = zip(*map(heading, heading_cells), strict=True) if heading_cells else ((), ())
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")

@@ -40,10 +40,19 @@ class ReportCommand(Command):
         super().format_options(ctx, formatter)
 
 
+SEVERAL = {"--each": "each", "--against": "against"}
+"""Options of your_body for several bodies, with the functions that obey them."""
+
+
 def _of_your_body(words: Words) -> click.Command | None:
     """Return the command of the report your_body where that is its name."""
     if "your_body" not in words.loose:
         return None
+    if words.names & set(SEVERAL):
+        from atlas.cli import several_bodies
+
+        command: click.Command = getattr(several_bodies, next(SEVERAL[name] for name in SEVERAL if name in words.names))
+        return command
     from atlas.cli.your_body import command as your_body
 
     return your_body

@@ -1,9 +1,13 @@
 """``atlas report your_body``: the report of a body, a field and a start, given as to `atlas motion`."""
 
+import json
 import tomllib
+from collections.abc import Sequence
 from dataclasses import replace
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,14 +17,23 @@ from atlas.cli.page import ByOptions, build, commands_of
 from atlas.cli.present import status_of
 from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Words
+from atlas.errors import AtlasError, unknown
+from atlas.measured import split
+from atlas.places import folder
+
+if TYPE_CHECKING:
+    from atlas.book.building.report import Built
+    from atlas.book.page import Asked
 
 FORMATS = ("html", "pdf")
 NAME = "your_body"
+ENDING = ".inputs.toml"
+"""How the name of a file of inputs ends."""
 
 
-def make(wanted: Any, options: dict[str, Any]) -> int:
-    """Write the report of a request, its card and its inputs, and print where they are; return the exit status."""
-    from atlas.book.your_body import files_of, name_of, numbers
+def with_errors(wanted: Any, options: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
+    """Return a request with the standard deviations of the numbers of its card, and its options."""
+    from atlas.book.your_body import numbers
 
     family, names = wanted.family, [p.name for p in wanted.family.parameters]
 
@@ -30,11 +43,20 @@ def make(wanted: Any, options: dict[str, Any]) -> int:
     if uncertain(options):
         deviations = UncertainAnswer.of(answered, options | {"decimal": False}).spread.sigma
         wanted = replace(wanted, sigma={place[0]: x for place, x in deviations.items()})
-    name, out = name_of(wanted), options["out"]
-    built = build(name, files_of(wanted), out, options["jobs"], FORMATS)
-    for place in (built.index, built.pdf, out / f"{name}.card.json", out / f"{name}.inputs.toml"):
-        click.echo(place)
-    return status_of(built)
+    return wanted, options
+
+
+def built(wanted: "Asked", out: Path, jobs: int | None) -> "tuple[Built, dict[str, Any]]":
+    """Write the report of a request, its card and its inputs into a folder; return the build and the card."""
+    from atlas.book.your_body import files_of, name_of
+
+    name, files = name_of(wanted), files_of(wanted)
+    return build(name, files, out, jobs, FORMATS), json.loads(files[f"{name}.card.json"])
+
+
+def places_of(built: "Built") -> list[Path]:
+    """Return the places of the files of a report: its first page, its PDF, its card and its inputs."""
+    return [built.index, built.pdf, *(built.pdf.with_name(built.name + end) for end in (".card.json", ENDING))]
 
 
 class YourBody(ByOptions):
@@ -49,7 +71,7 @@ class YourBody(ByOptions):
         args = [word for word in args if word != NAME]
         if "--from" in args:
             at = args.index("--from")
-            args = [*typed_in(args[at + 1 : at + 2]), *args[:at], *args[at + 2 :]]
+            args = [*typed_in("--from", *args[at + 1 : at + 2]), *args[:at], *args[at + 2 :]]
         if not Words(args).names:
             raise click.UsageError(
                 f"{NAME} takes a body, a field and a start, as atlas motion does: --ratio 0.7 --field 1 2 --omega2 0.7."
@@ -57,22 +79,78 @@ class YourBody(ByOptions):
         return super().parse_args(ctx, args)
 
 
-def typed_in(files: list[str]) -> list[str]:
-    """Return the words that a file of inputs holds. Raises click.UsageError for another file."""
+def typed_in(option: str, file: str = "") -> list[str]:
+    """Return the words that a file of inputs holds, one of the gallery by its name alone.
+
+    Raises
+    ------
+    click.UsageError
+        For another file.
+    """
+    gallery = {path.name.removesuffix(ENDING): path for path in (folder("reports") / "bodies").glob(f"*{ENDING}")}
+    if file and not Path(file).suffix and not Path(file).exists() and file not in gallery:
+        raise click.UsageError(f"{option}: {unknown('body', file, gallery, 'in the gallery')}")
     try:
-        return [str(word) for word in tomllib.loads(Path(files[0]).read_text(encoding="utf-8"))["typed"]]
-    except (IndexError, KeyError, OSError, TypeError, ValueError) as error:
+        content = tomllib.loads(gallery.get(file, Path(file)).read_text(encoding="utf-8"))
+        return [str(word) for word in content["typed"]]
+    except (KeyError, OSError, TypeError, ValueError) as error:
         raise click.UsageError(
-            f"--from takes a file NAME.inputs.toml that {NAME} wrote, not {' '.join(files) or 'nothing'!r}."
+            f"{option} takes a file NAME{ENDING} that {NAME} wrote, not {file or 'nothing'!r}."
         ) from error
 
 
-COMMANDS = commands_of(make, "build/report", "Make a report")
+COMMANDS = commands_of(with_errors, "build/report", "Make a report")
 for name in ("ball", "elliptic", "particle"):  # which are refused with the page that they have
     COMMANDS[name].hidden = True
 
+OPTIONS = {option.removeprefix("--"): param for command in COMMANDS.values() for param in command.params
+           for option in param.opts if param.name not in {"out", "jobs", "note"}}  # fmt: skip
+"""Options of a body by their names, which are those of columns and of keywords in Python."""
 
-@click.command(
+
+def words_of(name: str, value: Any, unit: str = "") -> list[str]:
+    """Return an option and its words: of a text, or of one number or several; those without a unit get this one.
+
+    Raises
+    ------
+    AtlasError
+        For a name that is no option, with the nearest one that is.
+    """
+    name = name.removeprefix("--").replace("_", "-")
+    if name not in OPTIONS:
+        raise unknown("option", name, OPTIONS, "of a body")
+    if isinstance(value, str):
+        texts = [value.strip()] if OPTIONS[name].nargs == 1 else value.split()
+    else:
+        texts = [text_of(x) for x in (value if hasattr(value, "__len__") else (value,))]
+    return [f"--{name}", *(text if not unit or split(text) else f"{text}{unit}" for text in texts)]
+
+
+def text_of(number: Any) -> str:
+    """Return a number as it is typed, with its standard deviation if it has one."""
+    if isinstance(number, str | int | Fraction):
+        return str(number)
+    if sigma := getattr(number, "std_dev", 0.0):
+        return f"{Decimal(repr(float(number.nominal_value))):f}\N{PLUS-MINUS SIGN}{float(sigma)!r}"
+    return repr(float(number))
+
+
+def request_of(words: Sequence[str]) -> "tuple[Asked, dict[str, Any]]":
+    """Return the request that the words of a command are, and its options.
+
+    Raises
+    ------
+    AtlasError
+        For words that no body, field and start are, in one sentence.
+    """
+    try:
+        request: tuple[Asked, dict[str, Any]] = YourBody(NAME, commands=COMMANDS).main([*words], standalone_mode=False)
+    except click.ClickException as error:
+        raise AtlasError(error.format_message()) from error
+    return request
+
+
+@click.group(
     NAME,
     cls=YourBody,
     commands=COMMANDS,
@@ -80,6 +158,9 @@ for name in ("ball", "elliptic", "particle"):  # which are refused with the page
         "atlas report your_body --ratio 0.7 --field 1 2 --omega2 0.7",
         "atlas report your_body --inertia 1 3.0836 3.235 --omega 0.02 0 0.1",
         "atlas report your_body --from build/report/your_body-1234abcd.inputs.toml",
+        "atlas report your_body --from toutatis",
+        "atlas report your_body --each bodies.csv --magnetic 0.8T --angle 30deg",
+        "atlas report your_body --from toutatis --against gyroscope",
     ),
 )
 def command() -> None:
@@ -88,5 +169,22 @@ def command() -> None:
     The options are those of `atlas motion`: shapes or moments, field, start, units, uncertainties. It has a card of
     six numbers, also as NAME.card.json, the body, its motion, all its motions, and what is left out, with the reason.
     NAME is your_body with eight characters that stand for the inputs as evaluated. NAME.inputs.toml holds them as
-    typed and as evaluated; --from NAME.inputs.toml builds the same bytes.
+    typed and as evaluated; --from NAME.inputs.toml builds the same bytes, --from toutatis a body of the gallery.
+
+    --each FILE.csv builds a report for each row of a table: its columns are options, as radius [um] or charge [e]; a
+    cell of several numbers has spaces between them, an empty one leaves its option out, and options beside --each hold
+    for all rows. index.html lists the cards and sorts by each of their numbers, index.csv has the same numbers. Rows
+    that fail are listed with the reason, the others are built, and then the exit status is 1.
+
+    --against FILE.inputs.toml puts the cards of two bodies side by side, with their differences; nothing is drawn.
     """
+
+
+@command.result_callback()
+def make(request: "tuple[Asked, dict[str, Any]]") -> int:
+    """Write the report of a request and print where its files are; return the exit status."""
+    wanted, options = request
+    report, _ = built(wanted, options["out"], options["jobs"])
+    for place in places_of(report):
+        click.echo(place)
+    return status_of(report)

@@ -282,3 +282,24 @@ addEventListener("pointerdown", (event) => {
     event.target.closest("a")?.href !== card.dataset.of
   ) hide();
 });
+
+// Rows of a table that sorts, by the column whose head is clicked: by numbers if they are, empty ones last.
+const amount = (cell) =>
+  Number.parseFloat(cell.textContent.replace(/×10/, "e").replaceAll("−", "-").replace(/\(.*?\)/, ""));
+for (const table of document.querySelectorAll("table.sorts")) {
+  for (const [place, head] of [...table.tHead.rows[0].cells].entries()) {
+    const button = element("button", { type: "button" }, ...head.childNodes);
+    head.append(button);
+    button.addEventListener("click", () => {
+      const up = head.ariaSort !== "ascending", rows = [...table.tBodies[0].rows];
+      const order = (one, other) => {
+        const [a, b] = [one, other].map((row) => row.cells[place]), [x, y] = [a, b].map(amount);
+        if (Number.isNaN(x) && Number.isNaN(y)) return a.textContent.localeCompare(b.textContent) * (up ? 1 : -1);
+        return Number.isNaN(x) - Number.isNaN(y) || (up ? x - y : y - x);
+      };
+      for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
+      head.ariaSort = up ? "ascending" : "descending";
+      table.tBodies[0].append(...rows.sort(order));
+    });
+  }
+}

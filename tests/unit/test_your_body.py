@@ -5,9 +5,7 @@ import tomllib
 from dataclasses import replace
 from math import hypot, inf, pi, sqrt
 from pathlib import Path
-from typing import Any
 
-import click
 import pytest
 from lxml import html
 from syrupy.assertion import SnapshotAssertion
@@ -16,8 +14,8 @@ from atlas.book.load import load
 from atlas.book.page import Asked
 from atlas.book.your_body import card, files_of, name_of, sign_of, stands, thing_of, title_of, verdict
 from atlas.cli.app import main
-from atlas.cli.page import commands_of
-from atlas.cli.your_body import YourBody
+from atlas.cli.your_body import request_of as words_to_request
+from atlas.errors import AtlasError
 
 SHELL = (
     "--shape cylindrical-shell --radius 1um --height 0.9um --mass 1.5e-15kg --charge 2e-15C --magnetic 0.8T "
@@ -38,17 +36,7 @@ CASES = {
 
 def request_of(words: str | list[str]) -> Asked:
     """Return the request that the options of a command are."""
-    requests = list[Any]()
-
-    def note(wanted: Any, _: dict[str, Any]) -> int:
-        requests.append(wanted)
-        return 0
-
-    group = YourBody("your_body", commands=commands_of(note, "build/report"))
-    group.main(["your_body", *(words.split() if isinstance(words, str) else words)], standalone_mode=False)
-    (request,) = requests
-    assert isinstance(request, Asked)
-    return request
+    return words_to_request(words.split() if isinstance(words, str) else words)[0]
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -160,7 +148,7 @@ def test_another_file_than_that_of_the_inputs_is_refused(text: str, tmp_path: Pa
     """It is named, in one line."""
     file = tmp_path / "other.toml"
     file.write_text(text, encoding="utf-8")
-    with pytest.raises(click.UsageError, match=r"--from takes a file NAME\.inputs\.toml that your_body wrote"):
+    with pytest.raises(AtlasError, match=r"--from takes a file NAME\.inputs\.toml that your_body wrote"):
         request_of(["--from", str(file)])
 
 

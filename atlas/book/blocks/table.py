@@ -49,6 +49,7 @@ class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
     rows: tuple[tuple[str, ...], ...]
     caption: str
     id: Id | None = None
+    sorts: bool = False
 
 
 class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
@@ -86,7 +87,7 @@ class ColumnView:
 class TableView:
     """A table, of numbers or of words; `name` is that of a computed one, whose rows are single lines.
 
-    `command` makes recorded results.
+    `command` makes recorded results; `sorts` says whether heads of columns sort its rows on a page.
     """
 
     number: int
@@ -97,6 +98,7 @@ class TableView:
     note: int | None
     name: str = ""
     command: str = ""
+    sorts: bool = False
 
     @property
     def tight(self) -> bool:
@@ -135,7 +137,8 @@ def view_listing(block: Listing, composer: Composer) -> TableView:
     for row in block.rows:
         if len(row) != len(block.columns):
             raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
-    return _view(block, composer, Data(tuple(map(Column, block.columns)), block.rows, block.caption))
+    table = _view(block, composer, Data(tuple(map(Column, block.columns)), block.rows, block.caption))
+    return replace(table, sorts=block.sorts)
 
 
 def view_recorded(block: Recorded, composer: Composer) -> TableView:

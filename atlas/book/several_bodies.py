@@ -1,0 +1,143 @@
+"""Cards of several bodies: an index of reports, as a page and as CSV, and two cards side by side."""
+
+import csv
+import io
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from types import SimpleNamespace
+from typing import Any
+
+from atlas.book.digits import Number
+from atlas.book.markdown import written
+from atlas.book.page import Asked, headed
+from atlas.book.your_body import ENTRIES, NAME, card, command_of, name_of, thing_of, title_of, verdict
+from atlas.motions.uncertainty import concise
+
+Card = Mapping[str, Mapping[str, Any]]
+INDEX = "index"
+"""Name of the files of an index."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of a table of bodies: its line, its words as typed, and the report's name, title and card, or the fault."""
+
+    line: int
+    words: Sequence[str]
+    name: str = ""
+    title: str = ""
+    card: Card = field(default_factory=dict)
+    fault: str = ""
+
+
+def value_of(entry: Mapping[str, Any]) -> str:
+    """Return a number of a card in Markdown, with its standard deviation and unit; a dash where there is none."""
+    if entry["value"] is None:
+        return "\N{EN DASH}"
+    digits = concise(entry["value"], entry["sigma"]) if entry["sigma"] else entry["digits"]
+    return " ".join(filter(None, [Number(digits).words(), entry["unit"]]))
+
+
+def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
+    """Return the files of an index by name: its Markdown, which links each report, and its CSV."""
+    made = [row for row in rows if not row.fault]
+    blocks: list[dict[str, Any]] = []
+    if made:
+        blocks.append({
+            "kind": "listing", "id": "bodies", "sorts": True,
+            "columns": ["Line", "Report", *(f"{one.says[0].upper()}{one.says[1:]}, {one.letter}" for one in ENTRIES)],
+            "rows": [[str(row.line), link_to(row), *map(value_of, row.card.values())] for row in made],
+            "caption": f"Cards of the bodies of `{table}`, a line of the file each. A click on the head of a column "
+            "sorts by it.",
+        })  # fmt: skip
+    if failed := [[str(row.line), f"`{' '.join(row.words)}`", as_words(row.fault)] for row in rows if row.fault]:
+        blocks.append({
+            "kind": "listing", "id": "failed", "columns": ["Line", "Options", "Reason"], "rows": failed,
+            "caption": "Lines without a report.",
+        })  # fmt: skip
+    says = f"Bodies of {table}"
+    return {f"{INDEX}.md": page(INDEX, says, blocks, command), f"{INDEX}.csv": table_of(rows)}
+
+
+def link_to(row: Row) -> str:
+    """Return a link to the report of a row."""
+    return f"[{as_words(row.title)}]({row.name}/index.html)"
+
+
+def as_words(text: str) -> str:
+    """Return a text as Markdown without markup."""
+    return re.sub(r"([\\`*_{}\[\]#$<>|@^~])", r"\\\1", text)
+
+
+def page(name: str, title: str, blocks: Sequence[Mapping[str, Any]], command: str) -> str:
+    """Return a report of one page as Markdown, with the command that makes it at its head."""
+    abstract = "Numbers are those of the cards, to their proven digits."
+    pages = [{"slug": "index", "title": "Cards", "blocks": blocks}]
+    report = {"name": name, "title": title, "front_matter": False, "abstract": abstract, "pages": pages}
+    return headed(SimpleNamespace(name=name), written(report), command)
+
+
+def table_of(rows: Iterable[Row]) -> str:
+    """Return the cards as CSV: of each number its value, standard deviation and unit; and the faults."""
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    parts = ("value", "sigma", "unit")
+    heads = [f"{one.key}{'' if part == 'value' else f'_{part}'}" for one in ENTRIES for part in parts]
+    writer.writerow(["line", "name", "title", *heads, "fault"])
+    for row in rows:
+        cells = [row.card[one.key][part] if row.card else None for one in ENTRIES for part in parts]
+        writer.writerow([row.line, row.name, row.title, *cells, row.fault])
+    return file.getvalue()
+
+
+def row_of(line: int, words: Sequence[str], request: Asked, made: Card) -> Row:
+    """Return the row of a report that was built."""
+    return Row(line, words, name_of(request), titled(request, made), made)
+
+
+def titled(request: Asked, made: Card) -> str:
+    """Return the title of the report of a body."""
+    return request.title or title_of(request, made, verdict(request.family, thing_of(request).kernels()))
+
+
+def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
+    """Return the name of the page on two bodies side by side, and its files by name."""
+    cards, names = (card(first), card(second)), (name_of(first), name_of(second))
+    name = f"{names[0]}-against-{names[1].removeprefix(f'{NAME}-')}"
+    titles = map(titled, (first, second), cards)
+    block = {
+        "kind": "listing", "id": "cards", "columns": ["Number", "Letter", "First", "Second", "Difference", "Equation"],
+        "rows": [*_rows(*cards)],
+        "caption": "The two cards, and the second less the first, to the digits that both have.",
+    }  # fmt: skip
+    reasons = [f"{made['says'].capitalize()} of `{name}`: {made['reason']}."
+               for name, one in zip(names, cards, strict=True) for made in one.values() if made["reason"]]  # fmt: skip
+    texts = [f"{place}: {title}. Its report is `{name}`, by `{command_of(request)}`." for place, name, title, request
+             in zip(("First", "Second"), names, titles, (first, second), strict=True)]  # fmt: skip
+    blocks: list[dict[str, Any]] = [{"kind": "prose", "text": "\n\n".join(texts)}, block]
+    blocks += [{"kind": "prose", "text": "\n- ".join(["## What is left out\n", *reasons])}] if reasons else []
+    command = f"{command_of(first)} --against {names[1]}.inputs.toml"
+    return name, {f"{name}.md": page(name, "Two bodies side by side", blocks, command)}
+
+
+def _rows(first: Card, second: Card) -> Iterator[list[str]]:
+    """Yield words, letter, both values, their difference and the equation of each number of two cards."""
+    for a, b in zip(first.values(), second.values(), strict=True):
+        equation = next((f"@{one['equation']}" for one in (a, b) if one["equation"] and one["value"] is not None), "")
+        yield [a["says"], a["letter"], value_of(a), value_of(b), difference(a, b), equation]
+
+
+def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
+    """Return the second number less the first, to the digits that both have; a dash where that means nothing."""
+    if a["value"] is None or b["value"] is None or a["unit"] != b["unit"]:
+        return "\N{EN DASH}"
+    sigma = math.hypot(a["sigma"] or 0.0, b["sigma"] or 0.0)
+    if sigma:
+        return value_of({**a, "value": b["value"] - a["value"], "sigma": sigma})
+    one, other = Decimal(a["digits"]), Decimal(b["digits"])
+    last = max(int(x.as_tuple().exponent) for x in (one, other))
+    less = (other - one).quantize(Decimal(1).scaleb(last))
+    return value_of({**a, "digits": str(less).lower()}) if less else "0"

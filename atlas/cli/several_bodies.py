@@ -1,0 +1,107 @@
+"""``atlas report your_body --each|--against``: a report for each row of a table, and two cards side by side."""
+
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from atlas.cli.options import FILE, jobs_option, out_option
+from atlas.cli.page import build
+from atlas.cli.points import cells_of
+from atlas.cli.present import bar, status_of
+from atlas.cli.your_body import NAME, built, request_of, typed_in, words_of
+from atlas.errors import AtlasError
+from atlas.measured import heading
+
+if TYPE_CHECKING:
+    from atlas.book.several_bodies import Row
+
+PASSED = {"ignore_unknown_options": True}
+"""Settings of a command that passes on the options of a body."""
+
+
+@click.command(NAME, context_settings=PASSED)
+@click.option("--each", "table", type=FILE, required=True)
+@out_option("build/report")
+@jobs_option
+@click.argument("words", nargs=-1, type=click.UNPROCESSED)
+def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> int:
+    """Build a report for each row of a table, and an index of their cards; return 1 if a row failed."""
+    from atlas.book.several_bodies import index_of
+
+    context, shared = click.get_current_context(), [word for word in words if word != NAME]
+    if context.get_parameter_source("out") is not click.core.ParameterSource.COMMANDLINE:
+        out /= table.stem
+    rows, status = [*rows_of(table)], 0
+    made = list["Row"]()
+    with bar(table.name) as tell:
+        for count, (line, own) in enumerate(rows):
+            tell(count, len(rows), f"line {line}")
+            row, ok = _built(line, [*shared, *own], out, jobs)
+            made.append(row)
+            status = status if ok else 1
+        tell(len(rows), len(rows), "index")
+    command = shlex.join(["atlas", "report", NAME, *shared, "--each", str(table)])
+    sources = index_of(made, table.name, command)
+    report = build("index", sources, out, jobs, ("single", "pdf"))
+    for row in made:
+        if row.fault:
+            click.echo(f"atlas: {table}, line {row.line}: {row.fault}", err=True)
+    for place in (report.single, report.pdf, out / "index.csv"):
+        click.echo(place)
+    return max(status, status_of(report))
+
+
+def _built(line: int, words: list[str], out: Path, jobs: int | None) -> "tuple[Row, bool]":
+    """Return the row of a report after it is built, or with its fault, and whether all of it was drawn."""
+    from atlas.book.several_bodies import Row, row_of
+
+    try:
+        request, _ = request_of(words)
+        report, card = built(request, out, jobs)
+    except AtlasError as error:
+        return Row(line, words, fault=" ".join(error.sentences)), False
+    return row_of(line, words, request, card), status_of(report) == 0
+
+
+def rows_of(table: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the line of each row of a table and the words of its options.
+
+    Raises
+    ------
+    AtlasError
+        For a column that is no option.
+    click.UsageError
+        For a table without rows, a column that is there twice, and a row of another length.
+    """
+    heads, lines = cells_of(table)
+    columns = [heading(cell) for cell in heads]
+    for name in (names := [name for name, _ in columns]):
+        words_of(name, "")
+        if names.count(name) > 1:
+            raise click.UsageError(f"{table}: the column {name} is there twice.")
+    if not lines:
+        raise click.UsageError(f"{table} needs a heading such as ratio,radius [um] and at least one row.")
+    for line, cells in lines:
+        if len(cells) != len(columns):
+            raise click.UsageError(f"{table}, line {line}: {len(cells)} cells under a heading of {len(columns)}.")
+        named = zip(columns, cells, strict=True)
+        yield line, [word for (name, unit), cell in named if cell.strip() for word in words_of(name, cell, unit)]
+
+
+@click.command(NAME, context_settings=PASSED)
+@click.option("--against", "other", required=True)
+@out_option("build/report")
+@jobs_option
+@click.argument("words", nargs=-1, type=click.UNPROCESSED)
+def against(other: str, out: Path, jobs: int | None, words: tuple[str, ...]) -> int:
+    """Put the cards of two bodies side by side, as a page and as a PDF."""
+    from atlas.book.several_bodies import against as compared
+
+    name, sources = compared(request_of(words)[0], request_of(typed_in("--against", other))[0])
+    report = build(name, sources, out, jobs, ("single", "pdf"))
+    click.echo(report.single)
+    click.echo(report.pdf)
+    return status_of(report)

@@ -1,0 +1,136 @@
+"""`atlas.report`, reports for each row of a table, and two cards side by side."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+import atlas
+from atlas.book.several_bodies import against, difference
+from atlas.book.your_body import card
+from atlas.cli.app import main
+from atlas.cli.several_bodies import rows_of
+from atlas.cli.your_body import request_of, words_of
+from atlas.errors import AtlasError
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    """Run a command; return its exit status, what it prints and what it says."""
+    with pytest.raises(SystemExit) as end:
+        main(["report", "your_body", *words])
+    said = capsys.readouterr()
+    return int(str(end.value.code)), said.out, said.err
+
+
+def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None:
+    """A unit in a cell goes before that of the head, an empty cell leaves the option out, spaces part numbers."""
+    (file := tmp_path / "bodies.csv").write_text(
+        "shape,radius [um],height,magnetic [mT],omega\ndisk,1.20(5),,1 2,1 2 3\nsolid-cylinder,900nm,1e-6,3 -4,\n"
+    )
+    assert [*rows_of(file)] == [
+        (2, "--shape disk --radius 1.20(5)um --magnetic 1mT 2mT --omega 1 2 3".split()),
+        (3, "--shape solid-cylinder --radius 900nm --height 1e-6 --magnetic 3mT -4mT".split()),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("", "needs a heading such as"),
+        ("ratio,field\n", "needs a heading such as"),
+        ("ratoi,field\n0.7,1 2\n", "no option 'ratoi' of a body (did you mean 'ratio'?)"),
+        ("ratio,ratio\n0.7,0.8\n", "the column ratio is there twice"),
+        ("ratio,field\n0.7\n", "line 2: 1 cells under a heading of 2"),
+    ],
+)
+def test_a_table_that_is_none_is_refused_in_a_line(
+    text: str, fault: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Status 2, nothing built."""
+    (file := tmp_path / "bodies.csv").write_text(text)
+    status, _, said = run(capsys, "--each", str(file), "--out", str(tmp_path / "out"))
+    assert (status, said.count("\n")) == (2, 1)
+    assert fault in said
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.slow
+def test_rows_that_fail_are_listed_and_the_others_built(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Equal bodies have one folder; the index has a row for each line, its CSV the numbers of the cards."""
+    (file := tmp_path / "bodies.csv").write_text("ratio,title\n0.7,$[*a_b\n3,\n0.70,\n")
+    status, out, said = run(capsys, "--each", str(file), "--field", "1", "2", "--omega2", "0.7", "--out", str(tmp_path))
+    index, _, table = map(Path, out.split())
+    rows = [*csv.DictReader(table.read_text().splitlines())]
+    assert status == 1
+    assert "line 3: " in said
+    assert [row["line"] for row in rows] == ["2", "3", "4"]
+    assert rows[0]["name"] == rows[2]["name"] != ""
+    assert rows[1]["name"] == "" != rows[1]["fault"]
+    made = json.loads((tmp_path / f"{rows[0]['name']}.card.json").read_text())
+    assert float(rows[0]["turn"]) == made["turn"]["value"]
+    page = index.read_text()
+    assert page.count(f'href="{rows[0]["name"]}/index.html"') == 2
+    assert (tmp_path / rows[0]["name"] / "index.html").is_file()
+    assert 'class="words sorts"' in page
+    assert "$[*a_b</a>" in page
+
+
+def test_differences_have_the_digits_that_both_numbers_have() -> None:
+    """No digit of a difference is beyond those of its terms; sigmas add in quadrature; other units have none."""
+    one = {"value": 1.25, "digits": "1.250", "sigma": None, "unit": "s"}
+    assert difference(one, one | {"value": 1.5, "digits": "1.50000"}) == "0.250 s"
+    assert difference(one, one) == "0"
+    assert difference(one, one | {"unit": "time"}) == difference(one, one | {"value": None}) == "\N{EN DASH}"
+    uncertain = one | {"sigma": 0.03}
+    assert difference(uncertain, uncertain | {"value": 1.5, "sigma": 0.04}) == "0.250(50) s"
+
+
+def test_two_bodies_stand_side_by_side() -> None:
+    """Each number of both cards has a row with its values, and what one of them lacks has its reason."""
+    pair = [
+        request_of(words.split())[0] for words in ("--ratio 0.7 --field 1 2 --omega2 0.7", "--ratio 0.7 --field 2 0")
+    ]
+    name, files = against(*pair)
+    text = files[f"{name}.md"]
+    assert all(one["letter"].replace("\\", "\\\\") in text or one["letter"] in text for one in card(pair[0]).values())
+    assert "4.014179846 time" in text
+    assert "no start was given" in text
+
+
+def test_keywords_are_the_options_of_the_command() -> None:
+    """Numbers in Python are typed with all their digits, with their standard deviation if they have one."""
+
+    class Uncertain(float):
+        nominal_value, std_dev = 2e-7, 1e-9
+
+    assert words_of("omega", (0.1, 1, -2e-30)) == ["--omega", "0.1", "1", "-2e-30"]
+    assert words_of("radius", "1.2um") == ["--radius", "1.2um"]
+    assert words_of("charge_to_mass", Uncertain()) == ["--charge-to-mass", "0.0000002±1e-09"]
+    with pytest.raises(AtlasError, match="did you mean 'omega2'"):
+        words_of("omega_2", 0.7)
+
+
+@pytest.mark.slow
+def test_python_makes_the_files_of_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The same names and bytes, and the card as a table in a notebook."""
+    body = atlas.SymmetricBody(1.0, 0.7)
+    report = atlas.report("your_body", body=body, field=(1, 2), omega2=0.7, out=tmp_path / "one")
+    words = "--inertia 1.0 0.7 --field 1 2 --omega2 0.7"
+    status, out, _ = run(capsys, *words.split(), "--out", str(tmp_path / "two"))
+    assert status == 0
+    for file, other in zip(report.files, map(Path, out.split()), strict=True):
+        assert file.name == other.name
+        assert file.read_bytes() == other.read_bytes()
+    assert report.card["turn"]["value"] == pytest.approx(4.014179846)
+    assert "4.014179846 time" in report._repr_html_()
+
+
+def test_python_builds_reports_with_inputs(tmp_path: Path) -> None:
+    """A file of one's own with the inputs that it declares; an unknown one is refused."""
+    head = '+++\nname = "mine"\ntitle = "Mine"\n[inputs.ratio]\nkind = "number"\ndefault = 1.5\n+++\n'
+    (file := tmp_path / "mine.md").write_text(f"{head}\n# One\n\nI is <$ ratio $>.\n")
+    report = atlas.report(file, ratio=0.7, out=tmp_path)
+    assert "I is 0.7" in report.files[0].read_text()
+    with pytest.raises(AtlasError, match="there is no input 'ratoi'"):
+        atlas.report(file, ratoi=0.7, out=tmp_path)
