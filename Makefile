@@ -43,6 +43,7 @@ STAMP   := build/report/atlas.pdfbuild/report/trial.pdfbuild/report/atlas/index.
 
 $(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
 	@$(ATLAS) report atlas trial guide >/dev/null
+	@$(ATLAS) report your_body --from toutatis >/dev/null
 	@echo 'gl=$(ATLAS_GL)' >$@
 
 figures: setup

@@ -14,6 +14,9 @@ from atlas.libraries import of_sweeps
 if TYPE_CHECKING:
     from atlas.book.building.report import Built
 
+set_option = click.option(
+    "--set", "settings", multiple=True, metavar="NAME=VALUE [...]", help="Inputs that the report declares."
+)
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 
 
@@ -75,7 +78,7 @@ def _of_your_body(words: Words) -> click.Command | None:
     ),
 )
 @click.argument("names", nargs=-1, metavar="[NAME|FILE.md|FILE.toml]...")
-@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE [...]", help="Inputs that the report declares.")
+@set_option
 @click.option("--inputs", "listed", type=click.Choice(["json"]), help="List the inputs; nothing is built.")
 @out_option("build/report")
 @click.option(
@@ -119,7 +122,7 @@ def command(
     if listed:
         dump({name: list(records(find(name))) for name in names})
         return 0
-    inputs, status = dict(pair(text, "NAME=VALUE") for text in settings), 0
+    inputs, status = _inputs(settings), 0
     for name in names or ("atlas",):
         with bar(Path(name).stem) as tell:
             built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs, inputs=inputs)
@@ -130,6 +133,11 @@ def command(
             _explain(built)
         status = max(status, status_of(built))
     return status
+
+
+def _inputs(settings: tuple[str, ...]) -> dict[str, str]:
+    """Return the texts of --set by name. Raises click.UsageError for another word."""
+    return dict(pair(text, "NAME=VALUE") for text in settings)
 
 
 def _explain(built: "Built") -> None:
@@ -143,13 +151,14 @@ def _explain(built: "Built") -> None:
 
 
 @click.command(
-    "data", cls=Command, epilog=examples("atlas data short_solenoid", "atlas data my_paper.md --out paper/data")
+    "data", cls=Command, epilog=examples("atlas data short_solenoid", "atlas data my_paper.md --set ratio=0.7")
 )
 @name_argument
+@set_option
 @out_option("build/data")
 @style_option
 @jobs_option
-def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
+def data(name: str, settings: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> None:
     """Write the tables of a report, and the points that its figures draw, as CSV and, with pyarrow, as Parquet.
 
     NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. The file
@@ -166,18 +175,17 @@ def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
         parquet = False
         click.echo(f"atlas: CSV alone: {error}", err=True)
     with bar(f"data of {Path(name).stem}") as tell:
-        place = build_data(name, out, tell, jobs=jobs, parquet=parquet, style=style)
+        place = build_data(name, out, tell, jobs=jobs, parquet=parquet, style=style, inputs=_inputs(settings))
     click.echo(place)
 
 
-@click.command(
-    "tex", cls=Command, epilog=examples("atlas tex short_solenoid", "atlas tex my_paper.md --out manuscript")
-)
+@click.command("tex", cls=Command, epilog=examples("atlas tex short_solenoid", "atlas tex my_paper.md --set ratio=0.7"))
 @name_argument
+@set_option
 @out_option("build/tex")
 @style_option
 @jobs_option
-def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
+def tex(name: str, settings: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> None:
     r"""Write a report as LaTeX: numbers by key, tables, figures, references, and a paper in REVTeX.
 
     NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. In a
@@ -191,5 +199,5 @@ def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     from atlas.book.building.composed import build_tex
 
     with bar(f"{Path(name).stem} as LaTeX") as tell:
-        place = build_tex(name, out, tell, jobs=jobs, style=style)
+        place = build_tex(name, out, tell, jobs=jobs, style=style, inputs=_inputs(settings))
     click.echo(place)

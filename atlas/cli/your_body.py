@@ -105,6 +105,7 @@ for name in ("ball", "elliptic", "particle"):  # which are refused with the page
 
 OPTIONS = {option.removeprefix("--"): param for command in COMMANDS.values() for param in command.params
            for option in param.opts if param.name not in {"out", "jobs", "note"}}  # fmt: skip
+OPTIONS["from"] = click.Option(["--from"])
 """Options of a body by their names, which are those of columns and of keywords in Python."""
 
 

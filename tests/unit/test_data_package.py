@@ -199,7 +199,7 @@ def test_heads_become_names() -> None:
 
 def test_what_is_not_proven_is_said_beside_its_column(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A column with one number that is not proven has another, which tells them apart; the rest has none."""
-    document, _ = composed(data.parents[1] / "small.toml", data.parent, lambda _: ("csv.gz",), lambda *_: None, 1)
+    document, *_ = composed(data.parents[1] / "small.toml", data.parent, lambda _: ("csv.gz",), lambda *_: None, 1)
     (table, *_) = [one for one in document.listed("table") if one.id == "tab-samples"]
     (time, first, *rest), last = table.rows
     rows = (time, replace(first, proven=False), *rest), last

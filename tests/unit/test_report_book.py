@@ -246,7 +246,7 @@ def test_a_report_has_its_style_wherever_it_is_drawn(tmp_path: Path) -> None:
 
     def drawn(style: str | None = None) -> bytes:
         file = tmp_path / "short.toml"
-        _, figures = composed(file, tmp_path, lambda _: ("pdf",), lambda *_: None, 1, style=style)
+        _, figures, _ = composed(file, tmp_path, lambda _: ("pdf",), lambda *_: None, 1, style=style)
         return bytes(next(iter(figures.values())).contents["pdf"])
 
     plain, typed = drawn(), drawn(str(tmp_path / "wide.mplstyle"))

@@ -171,3 +171,19 @@ def test_texts_of_inputs_are_no_templates() -> None:
     """A value with tags stays as it was typed."""
     wild: dict[str, Any] = {"x": "<$ 7 * 7 $>"}
     assert expanded(wild, {"title": "<$ x $>"}, "<$ x $>")[:2] == ({"title": "<$ 7 * 7 $>"}, "<$ 7 * 7 $>")
+
+
+@pytest.mark.parametrize("kind", ["data", "tex"])
+def test_data_and_latex_have_the_inputs_of_a_report(kind: str, paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Their folder bears the name that the report itself has with these inputs; a wrong one is refused alike."""
+    out, words = paper.parent / "out", [kind, str(paper), "--set", "ratio=3/2", "height=1200nm"]
+    with pytest.raises(SystemExit) as end:
+        main([*words, "--out", str(out)])
+    place = Path(capsys.readouterr().out.strip())
+    assert end.value.code == 0
+    assert place.parent.name == name_of(paper, evaluated(paper, {"ratio": "3/2", "height": "1200nm"}))
+    assert any("1.2" in file.read_text() for file in place.parent.rglob("*.*") if file.suffix in {".csv", ".tex"})
+    with pytest.raises(SystemExit) as end:
+        main([kind, str(paper), "--set", "hieght=1um", "--out", str(out)])
+    assert end.value.code == 2
+    assert "did you mean 'height'" in capsys.readouterr().err

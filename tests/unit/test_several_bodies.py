@@ -2,17 +2,19 @@
 
 import csv
 import json
+import tomllib
 from pathlib import Path
 
 import pytest
 
 import atlas
-from atlas.book.several_bodies import against, difference
+from atlas.book.several_bodies import against, as_words, difference, value_of
 from atlas.book.your_body import card
 from atlas.cli.app import main
 from atlas.cli.several_bodies import rows_of
 from atlas.cli.your_body import request_of, words_of
 from atlas.errors import AtlasError
+from atlas.places import folder
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
@@ -134,3 +136,30 @@ def test_python_builds_reports_with_inputs(tmp_path: Path) -> None:
     assert "I is 0.7" in report.files[0].read_text()
     with pytest.raises(AtlasError, match="there is no input 'ratoi'"):
         atlas.report(file, ratoi=0.7, out=tmp_path)
+
+
+BODIES = folder("reports") / "bodies"
+
+
+@pytest.mark.parametrize("name", [row[0] for row in csv.reader((BODIES / "gallery.csv").read_text().splitlines()[1:])])
+def test_the_guide_has_the_card_of_each_body_of_the_gallery(name: str) -> None:
+    """Its numbers are computed from the file of inputs, which names a source and what was assumed."""
+    made = card(request_of(["--from", name])[0])
+    row = [value_of(made[key]) for key in ("ratio", "tilt", "turn", "spin", "nutation")]
+    guide = (folder("reports") / "guide.md").read_text("utf-8")
+    assert ", ".join(f'"{cell}"' for cell in (f"`{name}`", *row)) in guide
+    record = tomllib.loads((BODIES / f"{name}.inputs.toml").read_text("utf-8"))
+    assert all(as_words(record[key]) in guide.replace("\\\\", "\\") for key in ("source", "cited", "assumed"))
+
+
+def test_toutatis_turns_with_the_periods_that_were_cited() -> None:
+    """7.35 days of precession and 5.41 days about its long axis, in seconds."""
+    made = card(request_of(["--from", "toutatis"])[0])
+    assert made["turn"]["value"] == pytest.approx(7.35 * 86400, rel=1e-6)
+    assert made["nutation"]["value"] == pytest.approx(5.41 * 86400, rel=1e-6)
+
+
+def test_an_unknown_body_of_the_gallery_is_refused() -> None:
+    """The nearest name is offered."""
+    with pytest.raises(AtlasError, match="did you mean 'toutatis'"):
+        request_of(["--from", "toutatus"])

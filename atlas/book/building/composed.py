@@ -1,8 +1,9 @@
 """A report composed with its figures drawn in some format: its data, and the same as LaTeX, without a page."""
 
 import gzip
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from atlas.book.building import figures
@@ -10,6 +11,7 @@ from atlas.book.building.cache import Cache
 from atlas.book.building.figures import FigureBuild
 from atlas.book.building.publish import replace
 from atlas.book.files import find
+from atlas.book.inputs import evaluated, name_of
 from atlas.errors import AtlasError
 from atlas.places import cache_folder
 from atlas.sources import Sources
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from atlas.book.document import Document
 
 Progress = Callable[[int, int, str], None]
+NO_INPUTS: Mapping[str, str] = MappingProxyType({})
 
 
 def composed(
@@ -29,8 +32,11 @@ def composed(
     jobs: int | None,
     targets: tuple[str, ...] = (),
     style: str | None = None,
-) -> "tuple[Document, dict[str, FigureBuild]]":
-    """Return a report, its tables computed, and its figures by the stems of their pictures, drawn in these formats.
+    inputs: Mapping[str, str] = NO_INPUTS,
+) -> "tuple[Document, dict[str, FigureBuild], Path]":
+    """Return a report, its tables computed, its figures by the stems of their pictures, and its place in `out`.
+
+    The figures are drawn in the formats of `kinds`; `inputs` are texts by name.
 
     `style`, or that of the report, is a style sheet of Matplotlib, a file or a name.
 
@@ -44,7 +50,8 @@ def composed(
     from atlas.book.pictures import pictures
 
     file = find(str(name))
-    report = load(file)
+    values = evaluated(file, inputs)
+    report = load(file, values)
     check_style(style := style or report.style or None)
     cache, pictures_by_key = Cache(cache_folder(out)), pictures(report)
     builds = {
@@ -58,7 +65,7 @@ def composed(
         if build.failure:
             raise AtlasError(f"the figure {build.name} failed: {build.failure}")
     document = document_of(report, file, pictures_by_key, builds)
-    return document, {picture.stem: build for build, picture in builds.items()}
+    return document, {picture.stem: build for build, picture in builds.items()}, out / name_of(file, values)
 
 
 OUT = Path("build/data")
@@ -72,6 +79,7 @@ def build_data(
     jobs: int | None = None,
     parquet: bool = True,
     style: str | None = None,
+    inputs: Mapping[str, str] = NO_INPUTS,
 ) -> Path:
     """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
 
@@ -83,8 +91,7 @@ def build_data(
     """
     from atlas.book.data_package import DESCRIPTION, package
 
-    place = out / find(str(name)).stem
-    document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs, style=style)
+    document, figures, place = composed(name, out, lambda _: ("csv.gz",), progress, jobs, style=style, inputs=inputs)
     views: list[FigureView] = document.listed("figure")
     stems = {view.id: view.pictures[0].stem for view in views}
     tables = {
@@ -108,6 +115,7 @@ def build_tex(
     *,
     jobs: int | None = None,
     style: str | None = None,
+    inputs: Mapping[str, str] = NO_INPUTS,
 ) -> Path:
     """Write a report as LaTeX into `out`/NAME, and return the place of the paper.
 
@@ -117,10 +125,10 @@ def build_tex(
     """
     from atlas.book.latex import PAPER, sources
 
-    place = out / find(str(name)).stem
-    document, figures = composed(
-        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS, style
-    )
+    document, figures, place = composed(
+        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS, style,
+        inputs,
+    )  # fmt: skip
     document.set(
         "latex", "typst"
     )  # what print cannot read is refused here, too: no \input, no \write reaches the paper
