@@ -49,6 +49,16 @@ def explained(reasons: Sequence[Sequence[str]]) -> Printout:
     return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
 
 
+def explain_build(built: Any) -> None:
+    """Show why each part of a report was made or taken from the cache, and the costs of the figures."""
+    show(explained(built.reasons))
+    if built.costs is not None:
+        from atlas.book.building.figures import HEADING, rows_of_costs
+
+        note = "A figure from the cache shows its cost when it was drawn."
+        show(Printout("costs of the figures", heading=HEADING, rows=rows_of_costs(built.costs), notes=[note]))
+
+
 def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
     """Draw the result into the file that was asked for, if any, and print its path."""
     if file is None:

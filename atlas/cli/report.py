@@ -1,18 +1,14 @@
 """``atlas report|data|tex``: a report as HTML pages and a PDF, as data to cite, as LaTeX."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from atlas.cli.options import examples, jobs_option, out_option, pair, style_option
-from atlas.cli.present import Printout, bar, dump, explained, show, status_of
+from atlas.cli.present import bar, dump, explain_build, status_of
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
-
-if TYPE_CHECKING:
-    from atlas.book.building.report import Built
 
 set_option = click.option(
     "--set", "settings", multiple=True, metavar="NAME=VALUE [...]", help="Inputs that the report declares."
@@ -130,7 +126,7 @@ def command(
             if form in (formats or FORMATS):
                 click.echo(file)
         if explain:
-            _explain(built)
+            explain_build(built)
         status = max(status, status_of(built))
     return status
 
@@ -138,16 +134,6 @@ def command(
 def _inputs(settings: tuple[str, ...]) -> dict[str, str]:
     """Return the texts of --set by name. Raises click.UsageError for another word."""
     return dict(pair(text, "NAME=VALUE") for text in settings)
-
-
-def _explain(built: "Built") -> None:
-    """Show why each part was made or taken from the cache, and the costs of the figures."""
-    show(explained(built.reasons))
-    if built.costs is not None:
-        from atlas.book.building.figures import HEADING, rows_of_costs
-
-        note = "A figure from the cache shows its cost when it was drawn."
-        show(Printout("costs of the figures", heading=HEADING, rows=rows_of_costs(built.costs), notes=[note]))
 
 
 @click.command(

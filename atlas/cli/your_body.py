@@ -14,7 +14,7 @@ import click
 from atlas.cli.family import values_of
 from atlas.cli.options import examples
 from atlas.cli.page import ByOptions, build, commands_of
-from atlas.cli.present import status_of
+from atlas.cli.present import explain_build, status_of
 from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Words
 from atlas.errors import AtlasError, unknown
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("html", "pdf")
 NAME = "your_body"
+EXPLAIN = "--explain"
 ENDING = ".inputs.toml"
 """How the name of a file of inputs ends."""
 
@@ -68,7 +69,8 @@ class YourBody(ByOptions):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the name of the report away, and the words of --from FILE for the file."""
-        args = [word for word in args if word != NAME]
+        ctx.meta[EXPLAIN] = EXPLAIN in args
+        args = [word for word in args if word not in {NAME, EXPLAIN}]
         if "--from" in args:
             at = args.index("--from")
             args = [*typed_in("--from", *args[at + 1 : at + 2]), *args[:at], *args[at + 2 :]]
@@ -171,6 +173,7 @@ def command() -> None:
     six numbers, also as NAME.card.json, the body, its motion, all its motions, and what is left out, with the reason.
     NAME is your_body with eight characters that stand for the inputs as evaluated. NAME.inputs.toml holds them as
     typed and as evaluated; --from NAME.inputs.toml builds the same bytes, --from toutatis a body of the gallery.
+    --explain says for each figure why it was drawn or taken from the cache, and which of its inputs changed.
 
     --each FILE.csv builds a report for each row of a table: its columns are options, as radius [um] or charge [e]; a
     cell of several numbers has spaces between them, an empty one leaves its option out, and options beside --each hold
@@ -188,4 +191,6 @@ def make(request: "tuple[Asked, dict[str, Any]]") -> int:
     report, _ = built(wanted, options["out"], options["jobs"])
     for place in places_of(report):
         click.echo(place)
+    if click.get_current_context().meta[EXPLAIN]:
+        explain_build(report)
     return status_of(report)

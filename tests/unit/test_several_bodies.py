@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import tomllib
 from pathlib import Path
 
@@ -163,3 +164,19 @@ def test_an_unknown_body_of_the_gallery_is_refused() -> None:
     """The nearest name is offered."""
     with pytest.raises(AtlasError, match="did you mean 'toutatis'"):
         request_of(["--from", "toutatus"])
+
+
+@pytest.mark.slow
+def test_another_start_draws_what_it_changes_and_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Surfaces of the body in its field are taken from the cache; the figures of the motion name omega2."""
+    words = ["--ratio", "0.7", "--field", "1", "2", "--explain", "--out", str(tmp_path / "build" / "report")]
+    run(capsys, *words, "--omega2", "0.7")
+    _, out, _ = run(capsys, *words, "--omega2", "0.8")
+    reasons = {
+        match[1]: (match[2], match[3])
+        for match in re.finditer(r"^ *figure +(\w+)\(.*\) +(drawn|taken): (.*?) *$", out, re.MULTILINE)
+    }
+    assert reasons["motion"] == reasons["motion_sphere"] == ("drawn", "changed inputs: omega2")
+    assert all(
+        reasons[name][0] == "taken" for name in ("quadric", "hyperbola", "frequencies", "stability", "motion_map")
+    )

@@ -116,12 +116,26 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
         figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}
         figure.take(cache)
         if figure.missing():
-            before = cache.load(figure.name)
-            changed = [name for name, value in figure.parts.items() if before.get(name) != value]
-            figure.why = f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
-            figure.why = figure.why if before else "it was never drawn here"
+            figure.why = _why(figure, cache)
         cache.save(figure.name, figure.parts)
+    for figure in figures:
+        cache.save(f"inputs of {figure.stem}", _inputs(figure))
     sources.save()
+
+
+def _why(figure: FigureBuild, cache: Cache) -> str:
+    """Return why a figure must be drawn: what has changed since it was last drawn, with these inputs or others."""
+    if before := cache.load(figure.name):
+        changed = [name for name, value in figure.parts.items() if before.get(name) != value]
+        return f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
+    others, inputs = cache.load(f"inputs of {figure.stem}"), _inputs(figure)
+    changed = [name for name in {**others, **inputs} if others.get(name) != inputs.get(name)]
+    return f"changed inputs: {', '.join(changed)}" if others and changed else "it was never drawn here"
+
+
+def _inputs(figure: FigureBuild) -> dict[str, str]:
+    """Return a digest of each input of a figure by its name."""
+    return {name: digest(value) for name, value in figure.parameters.items()} | {"target": digest(figure.targets)}
 
 
 def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Progress) -> None:
