@@ -212,7 +212,8 @@ def of_moments(moments: Any, axes: FloatArray) -> Body:
     """Return the body of principal moments along axes. Raises DomainError for moments that no body has."""
     principal_moments = [real(x, "A moment of inertia") for x in moments]
     common_shape(*(x.shape for x in principal_moments))
-    rows, exact = joined_columns(principal_moments), None
+    rows = joined_columns(principal_moments)
+    exact: Any = None
     if rows.ndim == 1 and any(isinstance(x, Given) for x in moments):
         rational = exactly(*moments)
         for third in [i for i in range(3) if rational[i - 2] == rational[i - 1]][:1]:
