@@ -119,7 +119,7 @@ class Document:
 
         def link(name: str, place: str) -> Link:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
-            if here := self.place(name):
+            if here := self.place(name, printed=target == "typst"):
                 file, anchor, words = here
                 return Link(words, file if target == "html" else "", anchor, says)
             link_beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
@@ -150,11 +150,22 @@ class Document:
         counted = name.startswith(("fig:", "tab:"))
         return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
 
-    def place(self, name: str) -> tuple[str, str, str] | None:
-        """Return the page, the anchor and the words of a name in this report: in its ledger, else where it is shown."""
-        if name in self.ledger:
-            return f"{self.ledger[name]}.html", f"ledger-{slug(name)}", self.number(name)
-        return self.targets.get(name)
+    @property
+    def printed(self) -> list[PageView]:
+        """The pages of the PDF: those with a ledger, which turns and folds, are in the HTML alone."""
+        return [page for page in self.pages if page.slug not in self.ledger.values()]
+
+    def place(self, name: str, *, printed: bool = False) -> tuple[str, str, str] | None:
+        """Return the page, the anchor and the words of a name in this report: in its ledger, else where it is shown.
+
+        In print there is no anchor for what stands in the HTML alone.
+        """
+        here = self.targets.get(name)
+        if name in self.ledger and not (printed and here):
+            here = f"{self.ledger[name]}.html", f"ledger-{slug(name)}", self.number(name)
+        if here and printed and here[0] not in {page.file for page in self.printed}:
+            return "", "", here[2]
+        return here
 
     def entry(self, name: str) -> str:
         """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""

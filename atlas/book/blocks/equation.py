@@ -23,7 +23,7 @@ class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
 class EquationView:
     """An equation with its name and number; only the first display of a name is the one that links lead to.
 
-    `ledger` is the page, without its suffix, with its entry in the ledger; `within` says that it is in this report.
+    `ledger` is the page, without its suffix, with its entry in the ledger.
     """
 
     name: str
@@ -32,7 +32,6 @@ class EquationView:
     scale: float
     anchor: bool
     ledger: str = ""
-    within: bool = False
 
     @property
     def slug(self) -> str:
@@ -47,8 +46,8 @@ def view(block: Equation, composer: Composer) -> EquationView:
     is_first = composer.target(name, f"eq-{slug(name)}", number)
     if name in EQUATIONS:
         composer.use(name, f"eq-{slug(name)}" if is_first else f"page-{composer.slug}", "display")
-    within, text = name in composer.ledger, composer.text(f"$${tex.strip()}$$")
-    return EquationView(name, number, text, block.scale, is_first, composer.document.entry(name), within)
+    text = composer.text(f"$${tex.strip()}$$")
+    return EquationView(name, number, text, block.scale, is_first, composer.document.entry(name))
 
 
 def _entry(name: str) -> tuple[str, str]:
