@@ -109,7 +109,7 @@ def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], boo
 
 
 def _mapped(value: Any, change: Callable[[Real], Any]) -> Any:
-    """Return a nested structure with every certified number changed."""
+    """Return a nested dictionary, list or tuple with `change` applied to each ball or rational in it."""
     if isinstance(value, arb | fmpq):
         return change(value)
     if isinstance(value, dict):

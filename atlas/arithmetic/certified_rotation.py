@@ -34,10 +34,10 @@ def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
     ]
 
 
-def turns(t: Any, first: tuple[Sequence[Real], Real], second: tuple[Sequence[Real], Real]) -> Matrix:
+def turns(t: Any, outer: tuple[Sequence[Real], Real], inner: tuple[Sequence[Real], Real]) -> Matrix:
     """Return the product of two turns at time t, each about an axis at a rate."""
-    (s, c), (S, C) = sin_cos(first[1] * t), sin_cos(second[1] * t)
-    return product(turn(first[0], c, s), turn(second[0], C, S))
+    (s, c), (S, C) = sin_cos(outer[1] * t), sin_cos(inner[1] * t)
+    return product(turn(outer[0], c, s), turn(inner[0], C, S))
 
 
 def product(matrix: Matrix, factor: Matrix) -> Matrix:

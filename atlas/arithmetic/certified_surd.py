@@ -40,29 +40,29 @@ class Surd:
         """Return a number as one of this field."""
         return x if isinstance(x, Surd) else Surd(fmpq(x), fmpq(0), self.N)
 
-    def __add__(self, other: "Surd | fmpq | int") -> "Surd":
-        x = self.of(other)
+    def __add__(self, addend: "Surd | fmpq | int") -> "Surd":
+        x = self.of(addend)
         return Surd(self.a + x.a, self.b + x.b, self.N)
 
     def __neg__(self) -> "Surd":
         return Surd(-self.a, -self.b, self.N)
 
-    def __sub__(self, other: "Surd | fmpq | int") -> "Surd":
-        return self + (-self.of(other))
+    def __sub__(self, subtrahend: "Surd | fmpq | int") -> "Surd":
+        return self + (-self.of(subtrahend))
 
-    def __mul__(self, other: "Surd | fmpq | int") -> "Surd":
-        x = self.of(other)
+    def __mul__(self, factor: "Surd | fmpq | int") -> "Surd":
+        x = self.of(factor)
         return Surd(self.a * x.a + self.b * x.b * self.N, self.a * x.b + self.b * x.a, self.N)
 
-    def __truediv__(self, other: "Surd | fmpq | int") -> "Surd":
-        x = self.of(other)
+    def __truediv__(self, divisor: "Surd | fmpq | int") -> "Surd":
+        x = self.of(divisor)
         norm = x.a * x.a - x.b * x.b * self.N
         return self * Surd(x.a / norm, -x.b / norm, self.N)
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def __rsub__(self, other: "Surd | fmpq | int") -> "Surd":
-        return self.of(other) - self
+    def __rsub__(self, minuend: "Surd | fmpq | int") -> "Surd":
+        return self.of(minuend) - self
 
     @property
     def sign(self) -> int:

@@ -67,66 +67,66 @@ class DoubleDouble:
         words = (x if x is None or np.ndim(x) == 0 else x[index] for x in (self.hi, self.lo, self.rel))
         return DoubleDouble(*words)
 
-    def __add__(self, other: "DoubleDouble") -> "DoubleDouble":
+    def __add__(self, addend: "DoubleDouble") -> "DoubleDouble":
         """Return the sum; exact inputs cancel without loss, and the error of inexact ones is in `rel`."""
-        s = self.hi + other.hi
+        s = self.hi + addend.hi
         t = s - self.hi
-        e = (self.hi - (s - t)) + (other.hi - t)
-        if self.lo is None and other.lo is None:
-            return DoubleDouble(s, e, self._sum_error(other, s, 0.0))
-        if self.lo is None or other.lo is None:
+        e = (self.hi - (s - t)) + (addend.hi - t)
+        if self.lo is None and addend.lo is None:
+            return DoubleDouble(s, e, self._sum_error(addend, s, 0.0))
+        if self.lo is None or addend.lo is None:
             return DoubleDouble(
-                *_normal(s, e + (other.lo if self.lo is None else self.lo)), self._sum_error(other, s, SUM)
+                *_normal(s, e + (addend.lo if self.lo is None else self.lo)), self._sum_error(addend, s, SUM)
             )
-        f = self.lo + other.lo
+        f = self.lo + addend.lo
         t = f - self.lo
-        g = (self.lo - (f - t)) + (other.lo - t)
+        g = (self.lo - (f - t)) + (addend.lo - t)
         s, e = _normal(s, e + f)
         s, e = _normal(s, e + g)
-        return DoubleDouble(s, e, self._sum_error(other, s, SUM))
+        return DoubleDouble(s, e, self._sum_error(addend, s, SUM))
 
     def __neg__(self) -> "DoubleDouble":
         return DoubleDouble(-self.hi, None if self.lo is None else -self.lo, self.rel)
 
-    def __sub__(self, other: "DoubleDouble") -> "DoubleDouble":
-        return self + -other
+    def __sub__(self, subtrahend: "DoubleDouble") -> "DoubleDouble":
+        return self + -subtrahend
 
     @property
     def is_one(self) -> bool:
         """Whether this is the number one for all rows, as the first moment of inertia often is."""
         return self.lo is None and np.ndim(self.hi) == 0 and bool(self.hi == 1.0)
 
-    def __mul__(self, other: "DoubleDouble") -> "DoubleDouble":
-        if self.is_one or other.is_one:
-            return other if self.is_one else self
-        p, e = _product(self, other)
-        rel = self.rel + other.rel
-        if self.lo is None and other.lo is None:
+    def __mul__(self, factor: "DoubleDouble") -> "DoubleDouble":
+        if self.is_one or factor.is_one:
+            return factor if self.is_one else self
+        p, e = _product(self, factor)
+        rel = self.rel + factor.rel
+        if self.lo is None and factor.lo is None:
             return DoubleDouble(p, e, rel)
         if self.lo is not None:
-            e += self.lo * other.hi
-        if other.lo is not None:
-            e += self.hi * other.lo
-        return DoubleDouble(*_normal(p, e), rel + self.rel * other.rel + PRODUCT)
+            e += self.lo * factor.hi
+        if factor.lo is not None:
+            e += self.hi * factor.lo
+        return DoubleDouble(*_normal(p, e), rel + self.rel * factor.rel + PRODUCT)
 
     def __rmul__(self, factor: int) -> "DoubleDouble":
         return DoubleDouble(np.float64(factor)) * self
 
-    def __truediv__(self, other: "DoubleDouble | int") -> "DoubleDouble":
-        other = DoubleDouble(np.float64(other)) if isinstance(other, int) else other
-        if other.is_one:
+    def __truediv__(self, divisor: "DoubleDouble | int") -> "DoubleDouble":
+        divisor = DoubleDouble(np.float64(divisor)) if isinstance(divisor, int) else divisor
+        if divisor.is_one:
             return self
-        q = self.hi / other.hi
-        p, e = _product(DoubleDouble(q), other)
+        q = self.hi / divisor.hi
+        p, e = _product(DoubleDouble(q), divisor)
         remainder = (self.hi - p) - e
         if self.lo is not None:
             remainder += self.lo
-        if other.lo is not None:
-            remainder -= q * other.lo
-        rel = self.rel + 2 * other.rel * (1 + self.rel) + QUOTIENT
-        if np.ndim(other.rel):
-            rel = np.where(other.rel < 0.5, rel, np.inf)
-        return DoubleDouble(*_normal(q, remainder / other.hi), rel)
+        if divisor.lo is not None:
+            remainder -= q * divisor.lo
+        rel = self.rel + 2 * divisor.rel * (1 + self.rel) + QUOTIENT
+        if np.ndim(divisor.rel):
+            rel = np.where(divisor.rel < 0.5, rel, np.inf)
+        return DoubleDouble(*_normal(q, remainder / divisor.hi), rel)
 
     def __abs__(self) -> "DoubleDouble":
         return DoubleDouble(abs(self.hi), None if self.lo is None else self.lo * np.copysign(1.0, self.hi), self.rel)
@@ -146,9 +146,9 @@ class DoubleDouble:
         unit = 2.0**exponent
         return DoubleDouble(self.hi * unit, None if self.lo is None else self.lo * unit, self.rel)
 
-    def select(self, positive: "DoubleDouble", other: "DoubleDouble") -> "DoubleDouble":
+    def select(self, positive: "DoubleDouble", alternative: "DoubleDouble") -> "DoubleDouble":
         """Return `positive` where this number is, `other` elsewhere."""
-        selected = chosen(self.hi > 0, positive, other)
+        selected = chosen(self.hi > 0, positive, alternative)
         if np.ndim(self.rel):
             selected.rel = np.where(self.rel < 0.5, selected.rel, np.inf)
         return selected
@@ -168,11 +168,11 @@ class DoubleDouble:
         low, error = self.low, 2 * self.rel * abs(self.hi)
         return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
 
-    def _sum_error(self, other: "DoubleDouble", total: Any, rounding: float) -> Any:
+    def _sum_error(self, addend: "DoubleDouble", total: Any, rounding: float) -> Any:
         """Return the relative error of a sum: the errors of the terms, in parts of the sum, and its rounding."""
-        if isinstance(self.rel, float) and isinstance(other.rel, float) and not (self.rel or other.rel):
+        if isinstance(self.rel, float) and isinstance(addend.rel, float) and not (self.rel or addend.rel):
             return rounding
-        error = self.rel * abs(self.hi) + other.rel * abs(other.hi)
+        error = self.rel * abs(self.hi) + addend.rel * abs(addend.hi)
         # a sum that is zero by cancellation of inexact terms may be anything: inf, which no product with zero hides
         return np.where(error == 0, 0.0, error / abs(total)) + rounding
 
@@ -180,32 +180,32 @@ class DoubleDouble:
 ONE = DoubleDouble(np.float64(1.0))
 
 
-def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+def chosen(mask: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
     scalar = not (np.ndim(x.rel) or np.ndim(y.rel))
-    hi, low = np.where(where, x.hi, y.hi), np.where(where, x.low, y.low)
-    return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(where, x.rel, y.rel))
+    hi, low = np.where(mask, x.hi, y.hi), np.where(mask, x.low, y.low)
+    return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(mask, x.rel, y.rel))
 
 
 def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return of two forms of a number the one with the smaller bound."""
+    """Return x or y, two forms of one number, element by element whichever has the smaller bound."""
     return chosen(y.rel < x.rel, y, x)
 
 
 def stacked(*rows: DoubleDouble) -> DoubleDouble:
-    """Return several arrays of numbers as one, (n, m)."""
+    """Return n rows of numbers, broadcast to one shape (m,), as one array (n, m)."""
     shape = np.broadcast_shapes(*(np.shape(x.hi) for x in rows))
     words = zip(*((x.hi, x.low, x.rel) for x in rows), strict=True)
     return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in word]) for word in words))
 
 
 def constant(value: float, like: DoubleDouble) -> DoubleDouble:
-    """Return an array of one exact number."""
+    """Return one exact number in each place of an array of the shape of `like`."""
     return DoubleDouble(np.full_like(like.hi, value))
 
 
 def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
-    """Return numbers times 1 or -1."""
+    """Return x times `sign`, an array of 1 and -1; the bound stays."""
     return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
 
 

@@ -124,7 +124,7 @@ def broadcast(x: Any, shape: Index) -> Any:
 
 
 def part(x: Any, rows: Any) -> Any:
-    """Return some of the numbers of an array in one row, by a slice or by their places."""
+    """Return the numbers of a flattened array at `rows`, a slice or an array of indices; as `Given` if x is."""
     if not isinstance(x, Given):
         return x.reshape(-1)[rows]
     places, shape = np.arange(x.hi.size)[rows], x.shape
@@ -137,7 +137,7 @@ def part(x: Any, rows: Any) -> Any:
 
 
 def low_word(x: Any) -> Any:
-    """Return the low parts of an input: 0.0 for plain doubles."""
+    """Return the low words of exact numbers, an array of their shape; 0.0 for plain doubles."""
     return x.lo if isinstance(x, Given) else 0.0
 
 

@@ -156,7 +156,7 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
         for i in range(0, count, PRODUCT_MATRICES):
             np.matmul(functions[:, i : i + PRODUCT_MATRICES].T, turning.entries, out=rows[i : i + PRODUCT_MATRICES])
         return
-    tables = fine_tables(turning, step, [back for back, needed in ((False, cut < count), (True, cut > 0)) if needed])
+    tables = fine_tables(turning, step, [back for back, exists in ((False, cut < count), (True, cut > 0)) if exists])
     before = -(-cut // FINE_TIMES)
 
     def fill(low: int, high: int) -> None:
@@ -207,18 +207,20 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
     return tables
 
 
-def product(functions: FloatArray, table: FloatArray, rows: FloatArray, first: int) -> None:
+def product(functions: FloatArray, table: FloatArray, rows: FloatArray, start_row: int) -> None:
     """Write functions (r, m) times table (r, 9 FINE_TIMES) to rows (count, 9) from the first on, no others."""
     m = functions.shape[1]
-    if first < 0:
-        np.matmul(functions[:, :1].T, table[:, -9 * first :], out=rows[: first + FINE_TIMES].reshape(1, -1))
-        functions, first, m = functions[:, 1:], first + FINE_TIMES, m - 1
-    groups = min(m, (len(rows) - first) // FINE_TIMES)
+    if start_row < 0:
+        np.matmul(functions[:, :1].T, table[:, -9 * start_row :], out=rows[: start_row + FINE_TIMES].reshape(1, -1))
+        functions, start_row, m = functions[:, 1:], start_row + FINE_TIMES, m - 1
+    groups = min(m, (len(rows) - start_row) // FINE_TIMES)
     for i in range(0, groups, PRODUCT_MATRICES // FINE_TIMES):
         j = min(i + PRODUCT_MATRICES // FINE_TIMES, groups)
         np.matmul(
-            functions[:, i:j].T, table, out=rows[first + FINE_TIMES * i : first + FINE_TIMES * j].reshape(j - i, -1)
+            functions[:, i:j].T,
+            table,
+            out=rows[start_row + FINE_TIMES * i : start_row + FINE_TIMES * j].reshape(j - i, -1),
         )
     if groups < m:
-        remainder = rows[first + FINE_TIMES * groups :].reshape(1, -1)
+        remainder = rows[start_row + FINE_TIMES * groups :].reshape(1, -1)
         np.matmul(functions[:, groups:].T, table[:, : remainder.shape[1]], out=remainder)

@@ -57,8 +57,8 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
 
 def _not_real(value: Any, name: str) -> AtlasError:
     """Return the error for an input that is not made of real numbers."""
-    carried = " Motions, bodies, fields and surfaces carry a standard deviation." * is_uncertain(value)
-    return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.{carried}")
+    hint = " Motions, bodies, fields and surfaces carry a standard deviation." * is_uncertain(value)
+    return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.{hint}")
 
 
 def number(value: Any, name: str, unit: str = "") -> float:
@@ -113,7 +113,7 @@ def matrix(value: Any, name: str) -> FloatArray:
     return array
 
 
-def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
+def components(value: Any, names: Sequence[str], subject: str, unit: str = "") -> list[Any]:
     """Return the components of a vector in that unit, each a finite number or array, by name for the errors.
 
     A `Field` gives B2 and B3, as exact as they are, and refuses where B1 is not zero; so do Fractions. A square
@@ -127,13 +127,13 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
         entries = []
     if len(entries) != len(names):
         raise AtlasError(
-            f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
+            f"{subject} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
             f"{_OF_FIELD if tuple(names) == ('B2', 'B3') else ''}"
         )
     rows = np.ndim(value) > 1 if hasattr(value, "ndim") else isinstance(value, list) and _listed(entries)
     if rows and all(len(entry) == len(entries) for entry in entries):
         raise AtlasError(
-            f"{what} may have its components ({', '.join(names)}) in the rows or in the columns of a square array: "
+            f"{subject} may have its components ({', '.join(names)}) in the rows or in the columns of a square array: "
             "give a tuple of them, such as tuple(rows.T)."
         )
     return [numbers(x, name, unit) for x, name in zip(entries, names, strict=True)]

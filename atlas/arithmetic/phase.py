@@ -191,7 +191,7 @@ class Phases:
         self.halves = np.array([head, P0 - head])[:, None]
 
     def _within(self, reach: float) -> None:
-        """Keep the longest time."""
+        """Keep the longest time of the phases as `reach`, and as `longest`, at most the largest double."""
         self.reach, self.longest = reach, min(reach, float(np.finfo(float).max))
 
     def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
@@ -365,7 +365,7 @@ def _exponents(halves: Sequence[Number]) -> list[int]:
 
 
 def room(frequencies: int, times: int) -> FloatArray:
-    """Return memory to evaluate so many phases at so many times in, see `Phases.angles`."""
+    """Return scratch memory, uninitialised, (8, frequencies, times), the `work` of `Phases.angles`."""
     keep()
     return np.empty((8, frequencies, times))
 
@@ -386,7 +386,7 @@ def _reach(fastest: Number) -> float:
 
 
 def _head(x: Number) -> tuple[float, float, float]:
-    """Cut a number into a double of 26 digits and the rest; and the number."""
+    """Return three doubles: the leading 26 binary digits of x, the rest of x, and x itself, rounded."""
     value = nearest(x)
     size = frexp(value)[1]
     head = ldexp(round(ldexp(value, 26 - size)), size - 26)

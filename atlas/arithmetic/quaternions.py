@@ -38,9 +38,9 @@ def product(p: FloatArray, q: FloatArray) -> FloatArray:
     ], -1)  # fmt: skip
 
 
-def between(left: FloatArray, right: FloatArray) -> FloatArray:
+def between(R_p: FloatArray, R_r: FloatArray) -> FloatArray:
     """Return the matrix (4, 4) that takes a row q to p q r, p and r the quaternions of two rotation matrices."""
-    return product(product(of_matrix(left), np.eye(4)), of_matrix(right))
+    return product(product(of_matrix(R_p), np.eye(4)), of_matrix(R_r))
 
 
 class Attitude(NamedTuple):

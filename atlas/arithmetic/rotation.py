@@ -99,13 +99,13 @@ def extended(axis: Axis) -> NDArray[np.longdouble]:
     return np.array([dyad, IDENTITY - dyad, n_cross, dyad])
 
 
-def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
+def resolution(matrices: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
     """Return L_r and Q_r of the generators, both (9, 3, 3); or (11, 3, 3) if the third row is wanted to its own size.
 
     The third column, small when k t is, comes from sin and 1 - cos and keeps its digits. So does then the third row, at
     the price of two functions more: that is the third column of the transposed matrix.
     """
-    projector, complement, n_cross, dyad = parts
+    projector, complement, n_cross, dyad = matrices
     upper = E if third_row else IDENTITY
     C, aC = upper @ projector, upper @ complement + (IDENTITY - upper)
     pairs = [(IDENTITY, E33), (C, E), (n_cross, E33), (C, J), (dyad, E33), (aC, E), (n_cross, E), (aC, J), (n_cross, J)]
@@ -272,13 +272,13 @@ def evaluate(
     rows = out.reshape(times.size, prod(shape))
     flat: Any = times.reshape(-1) if times.flags.c_contiguous else times.flat
 
-    def part(low: int, high: int) -> None:
+    def fill_blocks(low: int, high: int) -> None:
         fill = prepare(min(high - low, BLOCK))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
             fill(flat[i:j], rows[i:j])
 
-    shared(part, times.size, BLOCK)
+    shared(fill_blocks, times.size, BLOCK)
     return out
 
 

@@ -235,7 +235,7 @@ def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
 
 
 def _frequencies(constants: Constants, *inputs: Any) -> Sequence[Any]:
-    """Return k and phi."""
+    """Return the frequencies (k, phi), numbers of the kind of `inputs`, by the formula of the constants."""
     return constants(*inputs)[1:]
 
 
