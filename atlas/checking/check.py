@@ -88,7 +88,7 @@ class Check:
         none = f"{self._title}: nothing to compare with, so no column is graded"
         lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
         if self.drifts:
-            lines += ["what should not change", table(*self.drift_table(), left=True)]
+            lines += ["what should not change", table(*self.drift_table(), align_left=True)]
         lines += map(printable, (*self.conventions, *self.notes))
         return "\n".join(lines)
 

@@ -10,7 +10,7 @@ import sympy
 from tests_support import stale
 
 from atlas.book.building.cache import Cache
-from atlas.trial.ledger import EQUATIONS, topic
+from atlas.trial.ledger import EQUATIONS, equation, topic
 from atlas.trial.proofs import recorded, run, verify
 from atlas.trial.proofs.decide import decide
 from atlas.trial.proofs.identity import positive, vanishes
@@ -74,14 +74,14 @@ def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
             number=entry.number,
             section=entry.section,
             kind=entry.kind,
-            follows=case.follows,
+            follows=entry.follows,
             printed=lines[0],
             corrected=lines[1],
             corrected_tex=case.corrected_tex,
-            grade=case.grade,
-            slip=case.slip,
-            note=case.note,
-            false=case.false.says if case.false else "",
+            grade=equation(entry.slip or name).grade,
+            slip=entry.slip,
+            note=entry.note,
+            false=entry.false,
             false_line=case.false_part.line if case.false else "",
         )
 
@@ -154,8 +154,8 @@ def test_a_trial_that_cannot_fail_is_found_out() -> None:
 def test_a_false_sentence_that_changes_nothing_is_refused() -> None:
     """It must change what stands in the claim, or say it of something else."""
     with pytest.raises(ValueError, match="not there"):
-        _ = replace(trial("text-beta"), false=Falsehood("Nothing.", "B3/(I*B4)", "B3")).false_part
-    for false in (None, Falsehood("Nothing.")):
+        _ = replace(trial("text-beta"), false=Falsehood("B3/(I*B4)", "B3")).false_part
+    for false in (None, Falsehood()):
         with pytest.raises(ValueError, match="no false sentence"):
             _ = replace(trial("text-beta"), false=false).false_part
 

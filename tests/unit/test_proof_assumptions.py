@@ -9,7 +9,7 @@ from changes import changes
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.proofs import recorded
 from atlas.trial.proofs import trial as trials
-from atlas.trial.proofs.assumed import formulas, held
+from atlas.trial.proofs.assumed import compare, formulas
 from atlas.trial.proofs.run import trial
 
 ANY = (r"\text{const}", r"\omega_0 = 0", "I_1 = I_2 = I_3")
@@ -76,17 +76,17 @@ def test_a_definition_that_is_changed_does_not_hold(name: str) -> None:
     for clause, formula in pairs:
         if "=" not in formula or any(mark in formula for mark in ANY):
             continue
-        if held([clause], case.signs, models, case.apart).kept:
+        if compare([clause], case.signs, models, case.excluded).satisfied:
             for other, what in changes(formula, most=3, seed=name):
-                again = held([f"${other}$"], case.signs, models, case.apart)
-                assert again.broken or not again.kept, (formula, what)
+                again = compare([f"${other}$"], case.signs, models, case.excluded)
+                assert again.broken or not again.satisfied, (formula, what)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if DOMAIN.search(str(entry.assumptions))])
 def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each domain that is read, turned round, leaves the entry undecided, but where the claim is true there, too."""
-    entry, left = EQUATIONS[name], trial(name).assumed.left
+    entry, left = EQUATIONS[name], trial(name).assumed.unread
     clauses = [clause for words in entry.assumptions for clause, formula in formulas(words) if formula]
     for clause in clauses:
         if clause in left or not DOMAIN.search(clause) or (name, clause) in TRUE_OUTSIDE:
@@ -101,7 +101,7 @@ def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.Monkey
 def test_what_is_not_read_is_on_record() -> None:
     """Clauses of an entry that are not held against its model stand in its record, and no others do."""
     for name, entry in EQUATIONS.items():
-        left = trial(name).assumed.left
+        left = trial(name).assumed.unread
         assert recorded.load()[name].not_read == "; ".join(left)
         assert set(left) <= {clause for words in entry.assumptions for clause, _ in formulas(words)}
     assert r"$1 < I \le 2$" not in recorded.load()["(55)"].not_read
@@ -124,7 +124,7 @@ def test_each_theorem_with_a_domain_has_a_false_domain_beside() -> None:
         clauses = [clause for words in entry.assumptions for clause, formula in formulas(words) if formula]
         matter = [clause for clause in clauses if DOMAIN.search(clause) and (name, clause) not in TRUE_OUTSIDE]
         if entry.kind == "theorem" and not entry.outside:
-            assert set(matter) <= {*trial(name).assumed.left}, name
+            assert set(matter) <= {*trial(name).assumed.unread}, name
 
 
 def test_a_false_domain_that_changes_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,7 @@ LETTERS = {
 
 def _both(line: str, **ranges: tuple[int, ...]) -> list[tuple[object, object]]:
     return [
-        pair for found in Reader(LETTERS, ranges).relations(line) for pair in zip(found.left, found.right, strict=True)
+        pair for found in Reader(LETTERS, ranges).relations(line) for pair in zip(found.lhs, found.rhs, strict=True)
     ]
 
 

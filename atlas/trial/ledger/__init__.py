@@ -2,7 +2,8 @@ r"""The ledger: the equations of the paper, the claims that it makes in words, a
 
 The paper: A. A. Deriglazov, *Rotation matrix of a charged symmetrical body: one-parameter family of solutions in
 elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file of TOML holds one topic, in the paper's
-order: a table for each entry. `atlas.trial.proofs` decides whether an entry is true.
+order: a table for each entry, with the words of its trial: premises, slip, corrected TeX, and a false sentence beside
+it. `atlas.trial.proofs` decides whether an entry is true.
 
 The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` or closes the environment takes a number
 unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
@@ -76,7 +77,7 @@ def find(word: str) -> tuple[Equation, ...]:
     entries = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
     if not entries and number.isdecimal():
         target = min(float(number), max(_NUMBERS))  # of any number of digits
-        nearest = min(_NUMBERS, key=lambda known: abs(known - target))
+        nearest = min(_NUMBERS, key=lambda candidate: abs(candidate - target))
         raise AtlasError(f"there is no equation ({number}) in the ledger; the nearest is ({nearest}).")
     if not entries:
         raise unknown("equation", word, [*EQUATIONS, *_ALIASES], "in the ledger")

@@ -15,6 +15,6 @@ def cited(text: str) -> list[str]:
     return list(dict.fromkeys(name for name in _CITED.findall(text) if name))
 
 
-def marked(text: str, known: Container[str]) -> str:
+def marked(text: str, names: Container[str]) -> str:
     """Put the sign of a citation before each known name that a caption cites: a name behind @ is a link in a report."""
-    return _CITED.sub(lambda match: f"@{match[1]}" if match[1] in known else match[0], text)
+    return _CITED.sub(lambda match: f"@{match[1]}" if match[1] in names else match[0], text)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 Kind = Literal["definition", "derivation step", "claim", "theorem"]
+Grade = Literal["", "sign of the charge", "gap in the argument", "missing case", "misprint", "wording"]
 Section = Literal["II", "III", "IV", "V", "VII", "Atlas"]
 
 ASSUMPTIONS = {
@@ -21,7 +22,7 @@ def slug(name: str) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Equation:
-    r"""An equation: its name, its formula and its assumptions.
+    r"""An equation: its name, its formula and its assumptions, and the words of its trial.
 
     name         the number that it has in print, "(72)"; one without, such as a claim made in words, has a name
                  `text-...` of our own, a theorem that the paper doesn't have `theorem-...`: the key in its file
@@ -32,6 +33,13 @@ class Equation:
                  table `assumptions` there
     outside      one clause of the assumptions and a false domain, in which nothing may be proved; or empty
     quote        the words of the paper that make the claim, where the paper has no formula
+    follows      premises of its proof, in a few words
+    grade        kind of slip, if the entry needs an erratum: it is refuted, or true but incomplete
+    slip         entry under which the slip is counted, if it is the same one; its grade then is this one's, too
+    corrected_tex  the true form where there is a slip, in which `\boxed` marks the changes
+    note         meaning of the verdict, where a word is needed
+    false        a false sentence near the entry, which the trial must refute; a claim in words must have one,
+                 unless the claim is refuted
     kind         definition, derivation step (follows from earlier equations), claim (a result), theorem (ours);
                  where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
                  claim
@@ -46,6 +54,12 @@ class Equation:
     assumptions: tuple[str, ...] = ()
     outside: tuple[str, ...] = ()
     quote: str = ""
+    follows: str = ""
+    grade: Grade = ""
+    slip: str = ""
+    corrected_tex: str = ""
+    note: str = ""
+    false: str = ""
     kind: Kind
     section: Section
 

@@ -32,12 +32,14 @@ def printable(text: str) -> str:
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
-def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, left: bool = False) -> str:
+def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, align_left: bool = False) -> str:
     """Return a table as lines of text, its cells to the right or to the left of their columns."""
     widths = [max(map(len, column)) for column in zip(heading, *rows, strict=True)]
     lines = [
         " "
-        + "   ".join(cell.ljust(width) if left else cell.rjust(width) for cell, width in zip(row, widths, strict=True))
+        + "   ".join(
+            cell.ljust(width) if align_left else cell.rjust(width) for cell, width in zip(row, widths, strict=True)
+        )
         for row in (heading, *rows)
     ]
     rule = " " + "\N{BOX DRAWINGS LIGHT HORIZONTAL}" * (max(map(len, lines)) - 1)

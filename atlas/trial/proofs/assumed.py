@@ -28,14 +28,16 @@ _CLAUSE = re.compile(r"\$([^$]+)\$(?: (differs? from|is) (0|\d|\$[^$]+\$))?(?: \
 
 @dataclass(frozen=True)
 class Read:
-    """Assumptions of an entry: true in the models, false there, not read; and (model, symbol, value) of special cases.
+    """Clauses of an entry's assumptions by how they compare with its models.
 
+    satisfied and broken are relations in plain letters, true and false in the models; unread are clauses as worded;
+    special are triples (number of the model, symbol, value).
     A special case gives a number to a symbol that is free in the model, so that the claim must have a value there.
     """
 
-    kept: tuple[str, ...]
+    satisfied: tuple[str, ...]
     broken: tuple[str, ...]
-    left: tuple[str, ...]
+    unread: tuple[str, ...]
     special: tuple[tuple[int, Any, Any], ...] = ()
 
 
@@ -51,31 +53,33 @@ def formulas(words: str) -> Iterator[tuple[str, str]]:
             yield clause, match[1]
 
 
-def held(assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[Model], apart: Sequence[str]) -> Read:
+def compare(
+    assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[Model], excluded: Sequence[str]
+) -> Read:
     """Hold models against assumptions, but for the clauses `apart`, whose letters mean something else."""
-    kept, broken, left = list[str](), list[str](), list[str]()
+    satisfied, broken, unread = list[str](), list[str](), list[str]()
     special = list[tuple[int, Any, Any]]()
     domains: dict[int, list[tuple[str, Any, Any]]] = {}
     for clause, formula in (pair for words in assumptions for pair in formulas(words)):
-        read = "" if clause in apart else formula
-        relations = [(n, each) for n, model in enumerate(models) for each in _relations(read, signs, model)]
+        read = "" if clause in excluded else formula
+        relations = [(n, relation) for n, model in enumerate(models) for relation in _relations(read, signs, model)]
         if not relations:
-            left.append(clause)
+            unread.append(clause)
         for number, relation in relations:
             bindings = resolved(models[number].bindings)
             if _says_nothing(relation):
-                left.append(clause)
+                unread.append(clause)
             elif relation.sign == "=" and _gives_number(relation, bindings):
-                kept.append(relation.text)
-                special.append((number, relation.left[0], relation.right[0]))
+                satisfied.append(relation.text)
+                special.append((number, relation.lhs[0], relation.rhs[0]))
             elif relation.sign in {"=", "!="}:
-                (kept if _vanish(relation, bindings) == (relation.sign == "=") else broken).append(relation.text)
+                (satisfied if _vanish(relation, bindings) == (relation.sign == "=") else broken).append(relation.text)
             else:
                 domains.setdefault(number, []).extend(_sides(relation, models[number]))
     for text, distance in _nearest(domains, models).items():
-        (kept if distance < NEAR else broken).append(text)
-    kept, broken, left = (list(dict.fromkeys(texts)) for texts in (kept, broken, left))
-    return Read(tuple(kept), tuple(broken), tuple(left), tuple(special))
+        (satisfied if distance < NEAR else broken).append(text)
+    satisfied, broken, unread = (list(dict.fromkeys(texts)) for texts in (satisfied, broken, unread))
+    return Read(tuple(satisfied), tuple(broken), tuple(unread), tuple(special))
 
 
 def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence[Model]) -> dict[str, float]:
@@ -122,21 +126,21 @@ def _says_nothing(relation: Relation) -> bool:
 
 def _gives_number(relation: Relation, bindings: Mapping[Any, Any]) -> bool:
     """Whether an equation gives a number to its one letter, which is a free symbol of the model."""
-    symbol, value = relation.left[0], sympy.sympify(relation.right[0])
+    symbol, value = relation.lhs[0], sympy.sympify(relation.rhs[0])
     is_free = isinstance(symbol, sympy.Symbol) and symbol not in bindings
-    return is_free and len(relation.letters) == len(relation.left) == 1 and bool(value.is_number)
+    return is_free and len(relation.letters) == len(relation.lhs) == 1 and bool(value.is_number)
 
 
 def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
     """Whether both sides of a relation are identical in free parameters."""
-    pairs = zip(relation.left, relation.right, strict=True)
+    pairs = zip(relation.lhs, relation.rhs, strict=True)
     return all(vanishes(sympy.sympify(a) - sympy.sympify(b), bindings) for a, b in pairs)
 
 
 def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
     """Yield text, a difference that must be positive, and the size of its terms, in free parameters."""
     bindings, sense = resolved(model.bindings), 1 if relation.sign in {">", ">="} else -1
-    for a, b in zip(map(sympy.sympify, relation.left), map(sympy.sympify, relation.right), strict=True):
+    for a, b in zip(map(sympy.sympify, relation.lhs), map(sympy.sympify, relation.rhs), strict=True):
         yield relation.text, (sense * (a - b)).xreplace(bindings), (1 + abs(a) + abs(b)).xreplace(bindings)
 
 

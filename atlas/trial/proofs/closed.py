@@ -22,19 +22,13 @@ def closed_model() -> Model:
 TRIALS = {
     "theorem-closed": Trial(
         model=closed_model,
-        follows="@(72) and @(79)",
         signs={r"\varrho\ne\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}": ""},
         defines=("k",),
         solves="I*(b + k)*((1 - I)*hB3 - I*r) = -I*b*(1 - I)*hB3",
         arrows={1: "I*(b + k)*(phi/k - r) = ((1 - I)*hB3 - I*r)*k + (2*(1 - I)*hB3 - I*r)*b"},
-        note="The first equation is linear in $k$: one root, none where the coefficient of $k$ is 0. By the last one "
-        r"$b + k$ is not 0 if $I$ differs from 1; $k$ is 0 for the second $\varrho$ that is left out.",
-        false=Falsehood("The sense of precession is the other one", "k = -b*", "k = b*"),
+        false=Falsehood("k = -b*", "k = b*"),
     ),
     "theorem-closed-free": Trial(
-        model=closed_model,
-        signs={r"\phi_B": "phi", r"\phi": "free"},
-        follows="@(72), @(79) and @(87)",
-        false=Falsehood("The field does not change the proper rotation", "(2*b + k)/(b + k)", "1"),
+        model=closed_model, signs={r"\phi_B": "phi", r"\phi": "free"}, false=Falsehood("(2*b + k)/(b + k)", "1")
     ),
 }

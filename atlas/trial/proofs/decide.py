@@ -165,7 +165,7 @@ def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> di
 
 
 def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> str:
-    """Say which letters of a line have no meaning in the model, and which statements stand twice; empty if none."""
+    """Return as text the letters without a meaning in the model, or that a statement stands twice; "" if none."""
     vocabulary = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.bindings}
     vocabulary |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
     strange = {name for tree in trees for name in letters_of(tree)} - vocabulary
@@ -215,7 +215,7 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
     if not relations:
         return "nothing in it is checked"
     named = {name for relation in relations for name in relation.letters}
-    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    values = [side for relation in relations for side in (*relation.lhs, *relation.rhs)]
     all_reached = reached(values, [*model.bindings, *model.flow.items()])
     named |= {str(symbol) for symbol, _ in model.bindings if symbol in all_reached}
     for tree in reversed(parse(line)):  # a letter may be used in the definition of another one
@@ -241,7 +241,7 @@ def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> se
 
 def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
     """Return the free parameters on which the relations and the letters with these names depend."""
-    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    values = [side for relation in relations for side in (*relation.lhs, *relation.rhs)]
     values += [
         model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
     ]
@@ -301,7 +301,7 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
     for assignment in points(parameters(relations, model, names), model):
         values = completed(assignment, model)
         for number, relation in enumerate(relations):
-            for entry in range(len(relation.left)):
+            for entry in range(len(relation.lhs)):
                 broken = breaks(relation, entry, values)
                 valued[number] |= broken is not None
                 if broken:
@@ -309,16 +309,16 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
                         values = simplest(relation, entry, assignment, model)
                     return _describe(relation, entry, model, names, values)
     for number, relation in enumerate(relations):
-        if not valued[number] and relation.left:
-            ones = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in assignment}
-            described = _describe(relation, 0, model, names, completed(ones, model))
+        if not valued[number] and relation.lhs:
+            simple_point = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in assignment}
+            described = _describe(relation, 0, model, names, completed(simple_point, model))
             return {**described, "left": "no value: 0/0", "right": "no value: 0/0"}
     return {}
 
 
 def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
     """Say whether one component of a relation is broken at a point; None if it has no value there."""
-    difference = sympy.sympify(relation.left[entry]).xreplace(values) - sympy.sympify(relation.right[entry]).xreplace(
+    difference = sympy.sympify(relation.lhs[entry]).xreplace(values) - sympy.sympify(relation.rhs[entry]).xreplace(
         values
     )
     return _violated(relation.sign, difference)
@@ -355,8 +355,8 @@ def _describe(
             texts[name] = _show(value, values)
     unnamed = set(model.letters) - set(COMMON) - set(texts)
     texts |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in unnamed}
-    sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.left, relation.right)]
-    component = f" (component {entry + 1})" if len(relation.left) > 1 else ""
+    sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.lhs, relation.rhs)]
+    component = f" (component {entry + 1})" if len(relation.lhs) > 1 else ""
     return {**texts, "relation": relation.text + component, "left": sides[0], "right": sides[1]}
 
 
@@ -377,8 +377,8 @@ def _prove(relation: Relation, model: Model) -> str:
     """Prove a relation and return how; empty if it can't."""
     how = "identity"
     bindings = resolved(model.bindings)
-    for left, right in zip(relation.left, relation.right, strict=True):
-        difference = sympy.sympify(left) - sympy.sympify(right)
+    for lhs, rhs in zip(relation.lhs, relation.rhs, strict=True):
+        difference = sympy.sympify(lhs) - sympy.sympify(rhs)
         if relation.sign == "=":
             how = "polynomial identity" if vanishes(difference, bindings) else ""
         else:

@@ -9,7 +9,7 @@ from atlas.trial.proofs.notation import sides
 from atlas.trial.proofs.quadric import SIGNS as QUADRIC_SIGNS
 from atlas.trial.proofs.quadric import I, constant_omega3, omega1, omega2, omega3
 from atlas.trial.proofs.tex import UnreadableError
-from atlas.trial.proofs.trial import Falsehood, Part, Trial, mended, read
+from atlas.trial.proofs.trial import Falsehood, Part, Trial, read
 
 b, I2 = sympy.symbols("b I2", positive=True)
 B2, B3 = sympy.symbols("B2 B3", positive=True)
@@ -63,20 +63,20 @@ def _model(
 
 
 def velocity_model() -> Model:
-    """K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for this K."""
+    """Return the model with K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for this K."""
     letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
     return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
 
 
 def row_model() -> Model:
-    """Model A row of any turning matrix: dR/dt = R hat(Omega)."""
+    """Return the model of a row of any turning matrix: dR/dt = R hat(Omega)."""
     Omega, row = vector("Omega"), vector("gamma")
     rate = (row.T * hat(Omega)).T
     return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})
 
 
 def integral_model() -> Model:
-    """Any row that obeys (75) with Omega of (73); c by (76) at that state."""
+    """Return the model of any row that obeys (75) with Omega of (73); c by (76) at that state."""
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
     letters = {"Omega": SPIN, "gamma": gamma}
     letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
@@ -84,7 +84,7 @@ def integral_model() -> Model:
 
 
 def ratio_model() -> Model:
-    """B = (2c/mu) B', and its unit vector."""
+    """Return the model with B = (2c/mu) B', and its unit vector."""
     mu, light = sympy.symbols("mu light", positive=True)
     letters = {"Bl2": 2 * light / mu * b * hB2, "Bl3": 2 * light / mu * b * hB3}
     return _model(letters, [*FIELD])
@@ -120,7 +120,7 @@ def solution_model() -> Model:
 
 
 def matrix_model() -> Model:
-    """Omega of (73), the field B', and the moments of the body."""
+    """Return the model with Omega of (73), the field B', and the moments of the body."""
     letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
     letters |= {
         "rod": rodrigues,
@@ -142,14 +142,14 @@ def steady_momentum_model() -> list[Model]:
 
 
 def resting_row_model() -> Model:
-    """Model A row of the matrix of a body at rest."""
+    """Return the model of a row of the matrix of a body at rest."""
     basis = row_model()
     remainder = dict.fromkeys(basis.letters["Omega"], sympy.Integer(0))
     return Model({f"dgamma{n}": basis.letters[f"dgamma{n}"].xreplace(remainder) for n in (1, 2, 3)})
 
 
 def frequencies_model() -> Model:
-    """Phi of (72) with omega2 = k_B hat B2."""
+    """Return the model of Phi of (72) with omega2 = k_B hat B2."""
     kB = sympy.Symbol("kB", real=True)
     I3 = sympy.Symbol("I3", positive=True)
     letters = {"phiB": omega3 - B3 / B2 * omega2, "kB": kB, "b": b, "I3": I3}
@@ -168,7 +168,7 @@ def free_model() -> Model:
 
 
 def free_frequency_model() -> list[Model]:
-    """Model launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
+    """Return the models of a body launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
     speed, hB2 = sympy.symbols("speed hB2", positive=True)
     cases = []
     for sign in (1, -1):
@@ -180,7 +180,6 @@ def free_frequency_model() -> list[Model]:
 
 POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 MOTION = f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
-_AT_REST = r"At $\omega_2 = 0$ it reads $0/0$: the body is at rest, and @(84) says so."
 
 
 def hidden_model() -> Model:
@@ -217,211 +216,94 @@ def _rows(line: str) -> str:
     letters, values = zip(*((sides(row)[0], sides(row)[1:]) for row in line.split("; ")), strict=True)
     if letters != ("c", "amp", "k0") * 3:
         raise UnreadableError("here must stand three rows of the constants c, b, k0")
-    first = [value[0] for value in values]
-    rows = [f"row({', '.join(first[3 * n : 3 * n + 3])}) = {[int(n == m) for m in range(3)]}" for n in range(3)]
+    constants = [value[0] for value in values]
+    rows = [f"row({', '.join(constants[3 * n : 3 * n + 3])}) = {[int(n == m) for m in range(3)]}" for n in range(3)]
     return "; ".join(rows + [" = ".join(value) for value in values if len(value) > 1])
 
 
 TRIALS = {
     "(73)": Trial(
         model=velocity_model,
-        follows=r"@(34), @(35) by substitution, with $\mathbf{K}$ of @(62), $\omega_3$ of @(71), $\phi$ of @(72)",
         defines=("Omega",),
         solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K)",
     ),
-    "text-body-precession": Trial(
-        model=matrix_model,
-        follows="@(73)",
-        note=r"Clockwise for $\phi > 0$.",
-        false=Falsehood(r"It precesses counter-clockwise for $\phi > 0$", "-phi*cross", "phi*cross"),
-    ),
-    "(74)": Trial(model=row_model, signs={r"\dot{\boldsymbol{\gamma}}": "dgamma"}, follows="@(12) for one row"),
-    "(75)": Trial(
-        model=row_model,
-        signs={rf"\dot\gamma_{n}": f"dgamma{n}" for n in (1, 2, 3)},
-        follows="@(74) in components",
-    ),
-    "(76)": Trial(
-        model=integral_model,
-        defines=("c",),
-        solves="d(c) = 0",
-        follows=r"@(75) with $\boldsymbol{\Omega}$ of @(73)",
-    ),
-    "(77)": Trial(model=ratio_model, signs={"B_2": "Bl2", "B_3": "Bl3"}, follows="@(32)"),
-    "text-row-constants": Trial(
-        model=rows_model,
-        follows="@(76) at $t = 0$ for the rows of $R(0) = 1$",
-        false=Falsehood(r"The constant of the second row is the spin $\omega_3$", "c2 = omega2", "c2 = omega3"),
-    ),
+    "text-body-precession": Trial(model=matrix_model, false=Falsehood("-phi*cross", "phi*cross")),
+    "(74)": Trial(model=row_model, signs={r"\dot{\boldsymbol{\gamma}}": "dgamma"}),
+    "(75)": Trial(model=row_model, signs={rf"\dot\gamma_{n}": f"dgamma{n}" for n in (1, 2, 3)}),
+    "(76)": Trial(model=integral_model, defines=("c",), solves="d(c) = 0"),
+    "(77)": Trial(model=ratio_model, signs={"B_2": "Bl2", "B_3": "Bl3"}),
+    "text-row-constants": Trial(model=rows_model, false=Falsehood("c2 = omega2", "c2 = omega3")),
     "(78)": Trial(
         model=integral_model,
-        follows="@(75) and @(76)",
-        grade="missing case",
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
         corrected_signs={r"\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0": ""},
-        corrected_tex=r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
-        r"\gamma_3)+\Omega_2\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
-        r"\gamma_3)-\Omega_1\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad"
-        r"\omega_2=0} \end{aligned}",
-        note=_AT_REST,
     ),
-    "(79)": Trial(model=integral_model, follows="@(75), @(76) and @(78)"),
-    "(80)": Trial(
-        model=solution_model,
-        signs={"b": "amp"},
-        follows="@(79) by substitution, with two constants",
-        solves=read("(79)", SIGNS),
-        slip="(78)",
-        corrected_solves="",
-        corrected_tex=r"\boxed{k^2}\gamma_3(t)=bk^2\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
-        note=_AT_REST,
-    ),
+    "(79)": Trial(model=integral_model),
+    "(80)": Trial(model=solution_model, signs={"b": "amp"}, solves=read("(79)", SIGNS), corrected_solves=""),
     "(81)": Trial(
         model=solution_model,
         signs={"b": "amp"},
-        follows=r"@(75) by substitution, with $\gamma_3$ of @(80)",
         defines=("gamma1", "gamma2"),
         solves=read("(75)", SIGNS),
-        slip="(78)",
         corrected_defines=(),
         corrected_solves="",
-        corrected_tex=r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt"
-        r"+k_0)-c\hat{B}_3^2]\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}"
-        r"\gamma_2&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi t+\boxed{\omega_2}"
-        r"\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t \end{aligned}",
-        note=_AT_REST,
     ),
-    "(82)": Trial(
-        model=solution_model,
-        signs={"b": "amp"},
-        follows="@(80) and @(81) at $t = 0$",
-        slip="(78)",
-        corrected_tex=r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3"
-        r"\omega_2}{\hat{B}_2}"
-        r"\cos k_0-c\hat{B}_3^2,\quad\boxed{\omega_2}\gamma_3(0)=\omega_2b\cos k_0+c\hat{B}_2\hat{B}_3",
-        note=_AT_REST,
-    ),
+    "(82)": Trial(model=solution_model, signs={"b": "amp"}),
     "(83)": Trial(
         model=solution_model,
         signs={"b": "amp"},
-        follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
-        "with these constants",
-        slip="(78)",
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
         corrected_signs={r"\text{if}\quad\omega_2\ne0": ""},
         form=_rows,
-        corrected_tex=mended("(83)", {"1-\\hat{B}_3^2=": ""}, r"\qquad\boxed{\text{if}\quad\omega_2\ne0}"),
-        note=r"At $\omega_2 = 0$ all three constants $c$ are 0, and @(80) and @(81) do not reach the second and the "
-        "third row: the body is at rest, and @(84) says so.",
     ),
-    "(84)": Trial(
-        model=matrix_model,
-        signs={"": "R"},
-        follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
-        defines=("R",),
-        solves=MOTION,
-    ),
+    "(84)": Trial(model=matrix_model, signs={"": "R"}, defines=("R",), solves=MOTION),
     "text-hidden": Trial(
         model=hidden_model,
         signs={r"\lvert\mathbf{B}\rvert": "Bl", "B_2": "Bl2"},
-        follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
-        false=Falsehood(r"$k$ is $\omega_2$ times $\hat{B}_2$", "omega2*Bl/Bl2", "omega2*Bl2/Bl"),
+        false=Falsehood("omega2*Bl/Bl2", "omega2*Bl2/Bl"),
     ),
-    "(85)": Trial(model=matrix_model, follows="@(84)", defines=("R",), solves=POISSON),
+    "(85)": Trial(model=matrix_model, defines=("R",), solves=POISSON),
     "text-precession": Trial(
         model=matrix_model,
         also=("Q = rod(e3,cos(phi*t),sin(phi*t))",),
         signs={r"[\hat{\mathbf{B}},\cdot\,]": "hat(hat_B)"},
-        follows="Rodrigues' formula",
-        false=Falsehood(
-            r"The second factor turns by $-\phi t$", "rod(e3,cos(phi*t),sin(phi*t))", "rod(e3,cos(phi*t),-sin(phi*t))"
-        ),
+        false=Falsehood("rod(e3,cos(phi*t),sin(phi*t))", "rod(e3,cos(phi*t),-sin(phi*t))"),
     ),
     "text-axis-precesses": Trial(
-        model=matrix_model,
-        signs={r"\mathbf{R}_3": "(R*e3)"},
-        follows="@(84)",
-        false=Falsehood(r"The third inertia axis precesses about $\mathbf{e}_3$", "k*cross(hat_B", "k*cross(e3"),
+        model=matrix_model, signs={r"\mathbf{R}_3": "(R*e3)"}, false=Falsehood("k*cross(hat_B", "k*cross(e3")
     ),
     "text-ball-limit": Trial(
         model=lambda: _model({}, [*ON_HYPERBOLA, PHI, (I, sympy.Integer(1)), *FIELD]),
         signs={r"I_2=I_3\implies": ""},
-        follows="@(71), @(72) with $I = 1$",
-        false=Falsehood("There is no proper rotation, whatever the moments", model=velocity_model),
+        false=Falsehood(model=velocity_model),
     ),
-    "(86)": Trial(model=frequencies_model, follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$"),
+    "(86)": Trial(model=frequencies_model),
     "text-free-general": Trial(
-        model=free_body_model,
-        signs={r"\mathbf{R}_3": "a"},
-        follows=r"$\dot{\mathbf{a}} = [\boldsymbol{\omega}, \mathbf{a}]$ for the third axis $\mathbf{a}$,"
-        r" $\mathbf{m}$ constant, $\boldsymbol{\omega}= \mathbf{m}/I_2+(1/I_3-1/I_2)(\mathbf{a},\mathbf{m})\mathbf{a}$",
-        false=Falsehood(r"The axis turns with the frequency $|\mathbf{m}|/I_3$", "1/I2*cross", "1/I3*cross"),
+        model=free_body_model, signs={r"\mathbf{R}_3": "a"}, false=Falsehood("1/I2*cross", "1/I3*cross")
     ),
-    "(87)": Trial(
-        model=free_model,
-        follows="the free Euler and Poisson equations by substitution",
-        defines=("phi",),
-        solves=f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
-    ),
+    "(87)": Trial(model=free_model, defines=("phi",), solves=f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega)"),
     "text-affirmation-free": Trial(
         model=free_model,
         signs={r"\mathbf{m}": "J*at0(Omega)", r"\mathbf{B}": "Bp", "B_2": "B2", "B_3": "B3"},
-        follows="the launch of the free body",
-        false=Falsehood(
-            r"The free body is launched with an angular velocity along $\mathbf{B}$",
-            "I2*omega2*B3/(I3*B2)]",
-            "omega2*B3/B2]",
-        ),
+        false=Falsehood("I2*omega2*B3/(I3*B2)]", "omega2*B3/B2]"),
     ),
     "text-free-frequency": Trial(
         model=lambda: free_frequency_model()[0],
         signs={r"\lvert\mathbf{m}\rvert": "size", "k_B": "kB"},
-        follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for positive $\omega_2$",
         corrected_model=free_frequency_model,
-        false=Falsehood(r"It holds for negative $\omega_2$ as it stands", "abs(k)", "k"),
-        corrected_tex=r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}="
-        "k_B",
-        grade="missing case",
-        note=r"For $\omega_2 < 0$ the length $|\mathbf{m}|$ loses the sign; @(87) holds with $k = \omega_2/\hat{B}_2$.",
+        false=Falsehood("abs(k)", "k"),
     ),
     "text-free-proper": Trial(
-        model=free_proper_model,
-        follows=r"@text-free-general: $\Omega_3$ less the share of the precession",
-        false=Falsehood(
-            "A body longer than a ball turns back about its axis", "= (I2 - I3)/(I2*I3)*m3", "= (I3 - I2)/(I2*I3)*m3"
-        ),
+        model=free_proper_model, false=Falsehood("= (I2 - I3)/(I2*I3)*m3", "= (I3 - I2)/(I2*I3)*m3")
     ),
     "text-momentum-moves": Trial(
         model=matrix_model,
         signs={r"\dot{\mathbf{m}}\ne0": "dot(dm, dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2"},
-        follows=r"@(17): the length of $d\mathbf{m}/dt$",
-        grade="missing case",
         corrected_also=(Part(line="dm = 0", model=steady_momentum_model),),
         corrected_signs={r"\text{if}\quad I\ne1,\ \omega_2\ne0": ""},
-        corrected_tex=mended("text-momentum-moves", {}, r"\quad\boxed{\text{if}\quad I\ne1,\ \omega_2\ne0}"),
-        note="For a ball, whose elementary motion is a steady turn about the field, and at rest it is conserved.",
-        false=Falsehood("The angular momentum is conserved", "(I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2", "0"),
+        false=Falsehood("(I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2", "0"),
     ),
-    "text-constant-omega3": Trial(
-        model=matrix_model,
-        signs={r"\Omega_3": "Omega[3]"},
-        follows="@(73)",
-        corrected_tex=mended("text-constant-omega3", {r"\omega_2": r"\omega_3"}),
-        grade="misprint",
-        note="A wrong index.",
-    ),
-    "(88)": Trial(
-        model=matrix_model,
-        signs={r"\mathbf{B}": "Bp"},
-        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$ by substitution",
-    ),
-    "text-momentum-plane": Trial(
-        model=matrix_model,
-        signs={r"\mathbf{B}": "Bp"},
-        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$",
-        corrected_tex=mended("text-momentum-plane", {"(t)": r"(t)\boxed{-\mathbf{m}(0)}"}),
-        grade="wording",
-        note=r"The projection is constant, not zero: only the tip of $\mathbf{m}$ stays in a plane orthogonal to "
-        r"$\mathbf{B}$.",
-    ),
+    "text-constant-omega3": Trial(model=matrix_model, signs={r"\Omega_3": "Omega[3]"}),
+    "(88)": Trial(model=matrix_model, signs={r"\mathbf{B}": "Bp"}),
+    "text-momentum-plane": Trial(model=matrix_model, signs={r"\mathbf{B}": "Bp"}),
 }

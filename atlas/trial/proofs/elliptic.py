@@ -105,17 +105,17 @@ def system_model() -> Model:
 
 def unidentified_model() -> Model:
     """Model any field K that turns as the angular momentum s K of a free body with the moments J_i."""
-    moments = first, second, third = sympy.symbols("J1:4", positive=True)
+    moments = J1, J2, J3 = sympy.symbols("J1:4", positive=True)
     names = ("s", "alpha", "beta", "gamma")
     letters = {name: sympy.Symbol(name, real=True) for name in names} | {"K": K, "J": sympy.diag(*moments), "one": ONE}
-    letters["A"] = sympy.diag(first * (second + third), second * (first + third), third * (first + second))
+    letters["A"] = sympy.diag(J1 * (J2 + J3), J2 * (J1 + J3), J3 * (J1 + J2))
     return Model(letters, flow=dict(zip(K, cross(K, letters["s"] * letters["J"].inv() * K), strict=True)))
 
 
 def bodies_model(sign: int = 1) -> Model:
     """Model I_i = J_i (J_j + J_k + s), each J_i the sum of two moments of mass, with an s of one sign."""
-    (first, second, third), s = sympy.symbols("g1:4", positive=True), sympy.Symbol("s", positive=True)
-    moments = second + third, first + third, first + second
+    (g1, g2, g3), s = sympy.symbols("g1:4", positive=True), sympy.Symbol("s", positive=True)
+    moments = g2 + g3, g1 + g3, g1 + g2
     basis = sum(moments)
     return Model({f"I{n}": J * (basis - J + sign * s * basis) for n, J in enumerate(moments, 1)})
 
@@ -144,8 +144,8 @@ def _component(i: int, j: int, k: int) -> str:
     """Return the line of component i of theorem-identifiable, whose first one has i, j, k = 1, 2, 3."""
     share, half = f"x{i}/I{i}*(I{j} - I{k})", f"(y{i} - x{i})"
     field = f"({share} - y{j} + y{k} + {half})*K{j}*Omega{k} + ({share} - y{j} + y{k} - {half})*K{k}*Omega{j}"
-    left = "(X*d(Omega) - cross(X*Omega,Omega) + cross((tr(Y)*one - 2*Y)*K,Omega))"
-    return f"{left}[{i}] = ({share} - x{j} + x{k})*Omega{j}*Omega{k} + {field}"
+    equation = "(X*d(Omega) - cross(X*Omega,Omega) + cross((tr(Y)*one - 2*Y)*K,Omega))"
+    return f"{equation}[{i}] = ({share} - x{j} + x{k})*Omega{j}*Omega{k} + {field}"
 
 
 _SPLITTING = read("theorem-splitting", SIGNS | {r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"})
@@ -154,7 +154,6 @@ _C = sides(_SPLITTING.split("; ")[3])[1]
 TRIALS = {
     "theorem-elliptic": Trial(
         model=elliptic_model,
-        follows=r"@(16) and @(35), for any $v$",
         signs={
             "x": "x",
             r"v^2=P": "P",
@@ -164,13 +163,10 @@ TRIALS = {
         defines=("Omega", "E", "P"),
         solves="d(K) = cross(K,Omega); J*d(Omega) - cross(J*Omega,Omega) + 2*cross(g*K,Omega)"
         " = (1 - v^2/P)*cross(J*K,K)",
-        note=r"The remainder of @(16) vanishes for $v^2=P$, and from a start there is but one solution. For another "
-        r"$v$ it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
-        false=Falsehood("The moments add, with no $z$", "z + D/I[1]", "D/I[1]"),
+        false=Falsehood("z + D/I[1]", "D/I[1]"),
     ),
     "theorem-free-body": Trial(
         model=free_model,
-        follows="@(16) and @(35) by substitution",
         defines=("Omega", "I1", "I2", "I3"),
         solves="d(K) = cross(K,Omega); diag(I1,I2,I3)*d(Omega) = cross(diag(I1,I2,I3)*Omega,Omega)"
         " - cross(((I1 + I2 + I3)*one - 2*diag(I1,I2,I3))*K,Omega)",
@@ -179,20 +175,10 @@ TRIALS = {
                 line="I1 > 0; I2 > 0; I3 > 0; I2 + I3 - I1 > 0; I1 + I3 - I2 > 0; I1 + I2 - I3 > 0", model=bodies_model
             ),
         ),
-        note=r"For $s>0$ the $I_i$ are moments of a body, as the $J_i$ are. For $s<0$ they have one sign if "
-        r"$-\min(J_j+J_k)<s$, where a body needs $\lvert s\rvert(J_j+J_k-J_i)\le2J_jJ_k$ for each $i$, and if "
-        r"$s<-\max(J_j+J_k)$, where $\ge$ is. An elliptic motion whose $E_i-1$ have one sign has the constants "
-        "$1/(E_i-1)$ of a free body, which need not be moments of one.",
-        false=Falsehood(
-            "For every $s$ they are moments of a body",
-            "I2 + I3 - I1 > 0",
-            "I2 + I3 - I1 > 0",
-            lambda: bodies_model(-1),
-        ),
+        false=Falsehood("I2 + I3 - I1 > 0", "I2 + I3 - I1 > 0", lambda: bodies_model(-1)),
     ),
     "theorem-identifiable": Trial(
         model=system_model,
-        follows="@(16) and @(35) by substitution",
         signs=_SYSTEM | {"N": "N[]"},
         defines=("N",),
         also=(
@@ -202,32 +188,17 @@ TRIALS = {
             "-(I2 - I3)*I2 - I1*I2 = -I2*(I1 + I2 - I3)",
             "(I2 - I3)*I3 - I1*I3 = -I3*(I1 + I3 - I2)",
         ),
-        note=r"The other components follow by permutation, the first of the further lines. If for each $i$ the "
-        r"functions $\Omega_j\Omega_k$, $K_j\Omega_k$, $K_k\Omega_j$ of time are independent, all brackets vanish: "
-        "$y_i=x_i$ and $x_1(I_2-I_3)=I_1(x_2-x_3)$ with its permutations. The last lines are minors of this system "
-        "for the $x_i$; two of the sums $I_j+I_k-I_i$ are never zero together, so that its rank is two, and $x_i=I_i$ "
-        r"but for a factor. Proved is this, and that the motions of @theorem-unidentified are exceptions. That plane "
-        "motions with $K_3=0$, spins and motions without a field are the only others is computed, on random motions, "
-        "and not proved.",
-        false=Falsehood(
-            "The moments drop out of the coefficient of $\\Omega_2\\Omega_3$", "- x[2] + x[3]", "- I2 + I3"
-        ),
+        false=Falsehood("- x[2] + x[3]", "- I2 + I3"),
     ),
     "theorem-unidentified": Trial(
         model=unidentified_model,
-        follows="@(16) and @(35) by substitution",
         signs=_SYSTEM,
         defines=("Omega", "X", "Y"),
-        note=r"A body asks $Y=\varrho X$: then $\beta=\varrho\alpha$ and $\gamma=\alpha s/\varrho$, so that the "
-        r"moments are $A+(s/\varrho)J$ in the field $\varrho\mathbf{K}$, one for each $\varrho$, as in "
-        "@theorem-free-body. The elliptic motions, and with $J_1=J_2$ the elementary ones, are of this form "
-        "with numbers $J_i$ of any sign.",
-        false=Falsehood("The field's moments have a number of their own", "beta*A + alpha*s*J", "beta*A + gamma*s*J"),
+        false=Falsehood("beta*A + alpha*s*J", "beta*A + gamma*s*J"),
     ),
     "theorem-splitting": Trial(
         model=root_model,
-        apart=("$x_iM_i=-vK_i$",),
-        follows="$H$ and $F$, and the characteristic polynomial of the linear flow",
+        excluded=("$x_iM_i=-vK_i$",),
         signs={r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"},
         defines=("C",),
         elsewhere={2: linear_model, 3: linear_model},
@@ -245,28 +216,10 @@ TRIALS = {
                 model=integrals_model,
             ),
         ),
-        note="The sum of squares is conserved, whatever the motion, because $H$, $F$ and the Casimirs are. If all "
-        "$x_i>0$, on the unbounded oval, it is small only near the motions with $x_iM_i=-vK_i$, so that neighbours "
-        r"stay near the curves that $\mathbf{K}$ draws on them. The motion itself is stable where it is all of its "
-        r"curve: not for $z=0$, where $\mathbf{K}$ stands still at a place of a whole curve, and not where "
-        r"$\mathbf{K}$ is on a separatrix or at its middle axis. On the bounded oval "
-        "let $x_1>0>x_2,x_3$: there $P'^2-2PP''$ has positive terms only, and $C=4b^2P+s(P'^2-2PP'')>0$ wherever "
-        r"$s=-(\mathbf{M},\mathbf{K})/v>0$. For $C>0$ the squares are of one sign across the curve of the motion: if "
-        r"$F$ and the Casimirs do not change, the last line but one says for a small change $(\mathbf{m},\mathbf{k})$ "
-        r"that $y_i=x_im_i+vk_i$ is across a vector $\mathbf{n}$, and the last one that $\sum x_in_i^2=C$. On the "
-        r"plane across $\mathbf{n}$ the form $\sum y_i^2/x_i$ has the discriminant $\sum x_in_i^2/P$, but for a "
-        "square, and so is definite if $C>0$, and has both signs if $C<0$, where the flow of $DH+zF/2$ has a saddle. "
-        "Not proved is that neighbours leave *in time* at those single places of an unstable stretch "
-        "where the rate in time is zero.",
-        false=Falsehood(
-            "The flow of $DH+zF/2$ has no eigenvalue but 0, so that stability is never decided by it",
-            "lam^4*(lam^2 + C)",
-            "lam^6",
-        ),
+        false=Falsehood("lam^4*(lam^2 + C)", "lam^6"),
     ),
     "theorem-critical": Trial(
         model=multipliers_model,
-        follows="$H$ and $F$, differentiated",
         signs={
             r"\frac{\partial G}{\partial M_i}": "partial(G, M)[i]",
             r"\frac{\partial G}{\partial K_i}": "partial(G, K)[i]",
@@ -278,19 +231,10 @@ TRIALS = {
             "partial(F/2 + v*dot(M,K) + w/2*dot(K,K), K)[i] = (w - D/I[i])*K[i] + v*M[i]",
             "D*I[1] + 2*D^2/I[1]^2 - e2*D/I[1] = (D/I[1] - D/I[2])*(D/I[1] - D/I[3])",
         ),
-        note="Where $dG=0$, $x_i$ times the second rate less $v$ times the first is $(x_iy_i-v^2)K_i=0$. Two "
-        r"components of $\mathbf{K}$ that are not 0 have different $x_i$, so that $w=z^2+ze_2$ and $v^2=P$, by the "
-        "last relation. If no $x_i$ is 0, the motion is that of @theorem-elliptic. If $x_k=0$, then $v=0$ and "
-        "$M_i=M_j=0$, and $y_k=(x_i-x_k)(x_j-x_k)$, the last of the further lines, is not 0; so $K_k=0$ and "
-        r"$(\mathbf{M},\mathbf{K})=0$. With one component $K_i$ that is not 0, an $M_j$ that is not 0 asks "
-        r"$v=x_j=0$, then $M_i=0$, and $(\mathbf{M},\mathbf{K})=0$ again: else it is a spin. Without $dH$ the "
-        r"first of the further lines leave $\mathbf{M}=-v\mathbf{K}$ with one component. This argument in words "
-        "joins the lines; only these are tried.",
-        false=Falsehood("The multiplier of $\\mathbf{K}^2$ is free on the family", "(w - z^2 - z*e2)", "w"),
+        false=Falsehood("(w - z^2 - z*e2)", "w"),
     ),
     "theorem-bifurcation": Trial(
         model=critical_model,
-        follows=r"$v^2=P$, of which $dv/dz=P'/2v$ is used; $G=2DH$",
         signs={
             "b^2": "b^2",
             "2DH": "G",
@@ -305,20 +249,7 @@ TRIALS = {
                 model=lambda: root_model(elliptic=True),
             ),
         ),
-        note="The second line is that an elliptic motion has these $F$ and $H$. The curve turns back in a cusp where "
-        "$C=0$, and is convex, as $H$ over $F$, where $C>0$.",
-        false=Falsehood("The slope does not depend on the place on the curve", " = -z/(2*D)", " = -e2/(2*D)"),
+        false=Falsehood(" = -z/(2*D)", " = -e2/(2*D)"),
     ),
-    "theorem-edge": Trial(
-        model=edge_model,
-        follows=r"$H$ and $F$",
-        note=r"For $I_3$ the largest moment the right side is not negative, and it is 0 for $\mathbf{M}=(0,0,M_3)$, "
-        r"$\mathbf{K}=(K_1,K_2,0)$, which is as $(\mathbf{M},\mathbf{K})=0$ asks: the body swings or turns about its "
-        r"third axis, which stays across the field, as a plane pendulum.",
-        false=Falsehood(
-            "The bound is the energy of the spin about the axis of the largest moment along the field",
-            "(I1 + I2)*K^2",
-            "I3*K^2",
-        ),
-    ),
+    "theorem-edge": Trial(model=edge_model, false=Falsehood("(I1 + I2)*K^2", "I3*K^2")),
 }

@@ -102,16 +102,16 @@ def sigma_model() -> Model:
     vocabulary = {zminus: (logarithm, Z, sympy.I * Y), z0: (zt, W, w0)}
     factors: dict[Value, Value] = {}
 
-    def zeta(at: Value) -> Value:
+    def zeta(argument: Value) -> Value:
         """Return zeta of a place, or of t and a place."""
-        if at.coeff(t) == -1:
-            return -zeta(-at)
-        place = next((symbol for symbol in vocabulary if at.has(symbol)), t)
+        if argument.coeff(t) == -1:
+            return -zeta(-argument)
+        place = next((symbol for symbol in vocabulary if argument.has(symbol)), t)
         value, height, rate = vocabulary[place]
-        sign = at.coeff(place)
-        if sign**2 != 1 or at not in {sign * place, t + sign * place}:
-            raise ValueError(f"the addition theorem does not give zeta of {at}")
-        if not at.has(t):
+        sign = argument.coeff(place)
+        if sign**2 != 1 or argument not in {sign * place, t + sign * place}:
+            raise ValueError(f"the addition theorem does not give zeta of {argument}")
+        if not argument.has(t):
             return sign * value
         return sympy.Symbol("zeta_t", real=True) + sign * value + (P1 - sign * rate) / (P - height) / 2
 
@@ -127,58 +127,39 @@ def sigma_model() -> Model:
     letters["g3"] = sympy.Matrix([[a[0], a[1], a[2]], [a[1], a[2], a[3]], [a[2], a[3], a[4]]]).det(method="berkowitz")
     letters["lam_minus"] = (c3 - M3 - b + (p + M3) / (1 + e)) / 2
     letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - e)) / 2
-    for at in (t - zminus, t - z0, t + z0):
-        sigma(at)
-    rates = {symbol: zeta(at) * symbol for at, symbol in factors.items()}
+    for argument in (t - zminus, t - z0, t + z0):
+        sigma(argument)
+    rates = {symbol: zeta(argument) * symbol for argument, symbol in factors.items()}
     return Model(letters, flow={P: P1, t: sympy.Integer(1), **rates})
 
 
 TRIALS = {
     "theorem-top": Trial(
-        apart=(r"$p = (\mathbf{M}, \mathbf{K})/b$",),
+        excluded=(r"$p = (\mathbf{M}, \mathbf{K})/b$",),
         model=top_model,
-        follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
         defines=("q",),
         also=("d(M3) = 0; d(p) = 0; d(H) = 0; M3 = I*c3",),
-        false=Falsehood("The potential is linear, as that of the heavy top", "(I - 1)*b^2*nu^2", "(I - 1)*b^2*nu"),
+        false=Falsehood("(I - 1)*b^2*nu^2", "(I - 1)*b^2*nu"),
     ),
-    "theorem-top-quartic": Trial(
-        model=letters_model,
-        follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$",
-        defines=("E", "c5"),
-        false=Falsehood("The two quartics are equal", "= b^2*q(", "= q("),
-    ),
+    "theorem-top-quartic": Trial(model=letters_model, defines=("E", "c5"), false=Falsehood("= b^2*q(", "= q(")),
     "theorem-weierstrass": Trial(
         model=weierstrass_model,
-        follows="$P' = P_1$ with $P_1^2 = 4 P^3 - g_2 P - g_3$, the equation of Weierstrass",
         defines=("u", "g2", "g3"),
         solves="(d(u)/P1)^2*(4*P^3 - g2*P - g3) = Q(u)",
-        false=Falsehood("The function of Weierstrass is shifted the other way", "(P - ddQ(e)/24)", "(P + ddQ(e)/24)"),
+        false=Falsehood("(P - ddQ(e)/24)", "(P + ddQ(e)/24)"),
     ),
-    "theorem-lame": Trial(
-        model=curve_model,
-        follows="@theorem-cayley-klein in Larmor's frame, and @theorem-top",
-        note=r"The potentials have no pole where $\nu = -1$ or 1. So $\xi$ and $\eta$ are regular there, and their "
-        "zeros are simple.",
-        false=Falsehood("Both parameters obey the same equation", "3/4*A*nu^2 + 1/2*A*nu", "3/4*A*nu^2 - 1/2*A*nu"),
-    ),
+    "theorem-lame": Trial(model=curve_model, false=Falsehood("3/4*A*nu^2 + 1/2*A*nu", "3/4*A*nu^2 - 1/2*A*nu")),
     "theorem-residues": Trial(
         model=residue_model,
         signs={r"\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}": "residue", r"\dot\nu": "w"},
-        follows="@theorem-top, and @theorem-cayley-klein in Larmor's frame",
         defines=("w",),
-        note=r"The logarithmic rate of $\xi$ is $[\dot\nu + i(p - M_3\nu)]/(2\dot\nu(t - z))$ there, but for finite "
-        r"terms; at $\nu = 1$ that of $\eta$ is so with the opposite sign of $M_3$.",
-        false=Falsehood(r"The rate of $\nu$ is real there", "= -(p + sign*M3)^2", "= (p + sign*M3)^2"),
+        false=Falsehood("= -(p + sign*M3)^2", "= (p + sign*M3)^2"),
     ),
     "theorem-sigma": Trial(
         model=sigma_model,
-        follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
         defines=("xi",),
         solves="d(xi)/xi = 1/2*d(x)/(1 + x) + i/2*((p - M3*x)/(1 + x) + c3 - b)",
         also=("-Y^2 = 4*Z^3 - g2*Z - g3",),
-        note="The addition theorem is taken from the textbooks. Tried for "
-        r"$\xi$; $\eta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
-        false=Falsehood("The zero lies on the opposite half period", "sigma(t - z_minus)", "sigma(t + z0)"),
+        false=Falsehood("sigma(t - z_minus)", "sigma(t + z0)"),
     ),
 }

@@ -24,7 +24,7 @@ from atlas.trial.proofs.quadric import (
 )
 from atlas.trial.proofs.quadric import SIGNS as QUADRIC_SIGNS
 from atlas.trial.proofs.quadric import p as tangent
-from atlas.trial.proofs.trial import Part, Trial, mended, read
+from atlas.trial.proofs.trial import Part, Trial, read
 
 Omega1, Omega2, K1, K2 = sympy.symbols("Omega1 Omega2 K1 K2", real=True)
 SIGNS = (
@@ -42,7 +42,7 @@ def _rates() -> tuple[Value, Value]:
 
 
 def constant_model() -> Model:
-    """Omega3 = omega3, so that K3 = B3 by (40)."""
+    """Return the model with Omega3 = omega3, so that K3 = B3 by (40)."""
     dOmega, dK = _rates()
     letters = {"dOmega": dOmega, "dK": dK}
     letters |= {"K3": (omega3 + B3) - omega3, "Omega": sympy.Matrix([Omega1, Omega2, omega3])}
@@ -65,7 +65,7 @@ def proportional_model() -> Model:
 
 
 def circle_model() -> Model:
-    """Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in (61)."""
+    """Return the model with Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in (61)."""
     cosine, sine = turn(p)
     bindings = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
     bindings += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
@@ -73,7 +73,7 @@ def circle_model() -> Model:
 
 
 def precession_model() -> Model:
-    """Rates with K of (62): from the Euler equations, and from the rates of K."""
+    """Return the model of rates with K of (62): from the Euler equations, and from the rates of K."""
     factor = omega2 * B2 / (omega1**2 + omega2**2)
     swap = {K1: factor * Omega1, K2: factor * Omega2}
     euler, field = (rates.xreplace(swap) for rates in _rates())
@@ -91,14 +91,14 @@ def agreement_model() -> Model:
 
 
 def motion_model() -> tuple[Model, Model]:
-    """Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then (66), resolved or, for I = 1, at omega2 = -B2."""
+    """Model Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then (66), resolved or, for I = 1, at omega2 = -B2."""
     zero = (omega1, sympy.Integer(0))
     ball = [zero, (omega2, -B2), (I, sympy.Integer(1))]
     return Model(LETTERS, [(omega3, constant_omega3()), zero]), Model(LETTERS, ball)
 
 
 def both_conditions_model() -> tuple[Model, Model]:
-    """All solutions of (65) and (66): their difference is a multiple of omega1^2 omega3."""
+    """Return the models of all solutions of (65) and (66): their difference is a multiple of omega1^2 omega3."""
     square = omega1**2 + omega2**2
     difference = I * B2**2 * omega3 - I * B2**2 * omega2**2 * omega3 / square
     certain(sympy.cancel(difference - I * B2**2 * omega3 * omega1**2 / square) == 0)
@@ -130,14 +130,13 @@ def degenerate_model() -> list[Model]:
 
 
 def frequency_model() -> Model:
-    """Phi' of (63) at omega1 = 0, on the hyperbola."""
+    """Return the model with Phi' of (63) at omega1 = 0, on the hyperbola."""
     phi = precession_model().letters["phip"].subs(I3, I * I2)
     bindings = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
     return Model({**LETTERS, "phi": phi}, bindings)
 
 
 _EQUATION_67, _EQUATION_71 = read("(67)", SIGNS), read("(71)", SIGNS)
-_REST = r"At $\omega_1 = \omega_2 = 0$ it reads $0/0$. Of these launches only rest has a constant $\Omega_3$."
 
 
 TRIALS = {
@@ -145,96 +144,36 @@ TRIALS = {
         model=constant_model,
         also=("d(omega3) = 0",),
         signs={r"\omega_3=\text{const}": "omega3", r"\Omega_3": "Omega3"},
-        follows=r"the ansatz: $\Omega_3$ is the constant $\omega_3$",
         definition=True,
     ),
-    "(59)": Trial(
-        model=constant_model,
-        signs={r"\Omega_1K_2-\Omega_2K_1=0": "dOmega3 = Omega1*K2 - Omega2*K1"},
-        follows=r"@(34) with $\Omega_3 = \omega_3$",
-    ),
-    "(60)": Trial(model=constant_model, follows=r"@(35) and @(40) with $\Omega_3 = \omega_3$"),
-    "(61)": Trial(model=proportional_model, form=conserved, follows="@(59) and @(60)"),
-    "(62)": Trial(
-        model=circle_model,
-        follows="@(61) and the last equation of @(59)",
-        slip="(78)",
-        corrected_tex=r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+"
-        r"\omega_2^2)}K_2=\omega_2B'_2\Omega_2",
-        note=_REST,
-    ),
-    "(63)": Trial(
-        model=precession_model,
-        follows="@(59) and @(62)",
-        defines=("phip",),
-        slip="(78)",
-        corrected_defines=(),
-        corrected_tex=r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\boxed{(\omega_1^2+"
-        r"\omega_2^2)}\phi'=[(1-I)\omega_3+(2-I)B'_3](\omega_1^2+\omega_2^2)-IB'_2\omega_2"
-        r"\omega_3",
-        note=_REST,
-    ),
+    "(59)": Trial(model=constant_model, signs={r"\Omega_1K_2-\Omega_2K_1=0": "dOmega3 = Omega1*K2 - Omega2*K1"}),
+    "(60)": Trial(model=constant_model),
+    "(61)": Trial(model=proportional_model, form=conserved),
+    "(62)": Trial(model=circle_model),
+    "(63)": Trial(model=precession_model, defines=("phip",), corrected_defines=()),
     "(64)": Trial(
         model=precession_model,
         signs={r"\dot\Omega_1": "nu1", r"\dot\Omega_2": "nu2"},
-        follows=r"@(60) and @(62); $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
         defines=("phi",),
-        slip="(78)",
         corrected_defines=(),
-        corrected_tex=r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\boxed{B'_2\omega_2}\phi=B'_2"
-        r"\omega_2\omega_3-B'_3(\omega_1^2+\omega_2^2)",
-        note=r"At $\omega_2 = 0$ it has no value. Of these launches only rest has a constant $\Omega_3$.",
     ),
-    "(65)": Trial(
-        model=agreement_model,
-        follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
-        slip="(78)",
-        corrected_tex=r"[B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2]\boxed{(\omega_1^2+"
-        r"\omega_2^2)}-I{B'_2}^2\omega_2^2\omega_3=0",
-        note=_REST,
-    ),
-    "(66)": Trial(model=condition_model, follows="@(50)"),
-    "(67)": Trial(
-        model=motion_model,
-        follows="@(66) and the last equation of @(59) at $t = 0$",
-        note=r"That $\omega_1 = 0$ follows from the last equation of @(59); @(65) and @(66) do not suffice, see "
-        "@text-combining.",
-    ),
+    "(65)": Trial(model=agreement_model),
+    "(66)": Trial(model=condition_model),
+    "(67)": Trial(model=motion_model),
     "text-combining": Trial(
         model=both_conditions_model,
         signs={r"\text{(65), (66)}\implies": ""},
-        follows=r"every $\boldsymbol{\omega}$ that obeys @(65) and @(66)",
         corrected_signs={
             r"\omega_1=0\quad\text{or}\quad\omega_3=0,\ \omega_1^2+\omega_2^2+(2-I)B'_2\omega_2=0": (
                 "omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0"
             )
         },
-        corrected_tex=mended(
-            "text-combining", {}, r"\quad\boxed{\text{or}\quad\omega_3=0,\ \omega_1^2+\omega_2^2+(2-I)B'_2\omega_2=0}"
-        ),
-        grade="gap in the argument",
-        note=r"The circle $\omega_3 = 0$, $\omega_1^2 + \omega_2^2 + (2-I) B'_2 \omega_2 = 0$ obeys both conditions "
-        "too. The motions are on the hyperbola all the same, by the last equation of @(59) at $t = 0$.",
     ),
-    "(68)": Trial(
-        model=lambda: canonical_model("above", plane=True),
-        follows=r"@(55) with $\omega_1 = 0$",
-        defines=AXES,
-    ),
-    "(69)": Trial(
-        model=lambda: canonical_model("below", plane=True),
-        follows=r"@(57) with $\omega_1 = 0$",
-        defines=AXES,
-    ),
-    "(70)": Trial(
-        model=degenerate_model,
-        follows=r"@(56) with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
-        defines=("a2", "a3"),
-        note="The letters $a_2$ and $a_3$ have another meaning here than in @(54): the roots of the former.",
-    ),
+    "(68)": Trial(model=lambda: canonical_model("above", plane=True), defines=AXES),
+    "(69)": Trial(model=lambda: canonical_model("below", plane=True), defines=AXES),
+    "(70)": Trial(model=degenerate_model, defines=("a2", "a3")),
     "(71)": Trial(
         model=lambda: motion_model()[0],
-        follows=r"@(67) for $\omega_2$ different from $-B'_2$",
         corrected_also=(
             Part(line=f"omega2 = -B2; I = 1; {_EQUATION_67}", model=lambda: motion_model()[1]),
             Part(
@@ -249,13 +188,6 @@ TRIALS = {
             ),
         ),
         corrected_signs={r"\text{or}\quad\omega_2=-B'_2,\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I=1": ""},
-        corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}\quad"
-        r"\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in\mathbb{R}"
-        r"\quad\text{if}\quad I=1} \end{aligned}",
-        slip="(52)",
-        note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "
-        "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "
-        "is missing. The letter condition of the lines is the left side of @(50).",
     ),
-    "(72)": Trial(model=frequency_model, follows="@(63) on the hyperbola @(71)"),
+    "(72)": Trial(model=frequency_model),
 }

@@ -11,10 +11,9 @@ from typing import Any
 
 import sympy
 
-from atlas.trial.ledger import EQUATIONS
 from atlas.trial.proofs.model import Model, Value, cross, dot, matrix, partial, vector
 from atlas.trial.proofs.notation import equations
-from atlas.trial.proofs.trial import Falsehood, Part, Trial, mended
+from atlas.trial.proofs.trial import Falsehood, Part, Trial
 
 ALL, FRAME, REST = (1, 2, 3, 4, 5, 6), (2, 3, 4), (5, 6)
 RANGES = {"N": ALL, "A": FRAME, "B": FRAME, "alpha": REST, "beta": REST}
@@ -51,10 +50,10 @@ y = {N: vector(f"y{N}_") for N in ALL}
 dy = {N: vector(f"v{N}_") for N in ALL}
 lam = {(A, C): sympy.Symbol(f"lam{min(A, C)}{max(A, C)}", real=True) for A in FRAME for C in FRAME}
 lam |= {(A, N): sympy.Symbol(f"lam{A}{N}", real=True) for A in FRAME for N in REST}
-held = {key: sympy.Symbol(f"a{min(key)}{max(key)}", real=True) for key in lam}
+distances = {key: sympy.Symbol(f"a{min(key)}{max(key)}", real=True) for key in lam}
 E, Bf = vector("E"), vector("B")
 mu, c = sympy.symbols("mu c", positive=True)
-COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
+COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": distances}
 
 
 def potential_energy(*, equal: bool = True) -> Value:
@@ -69,7 +68,7 @@ def potential_energy(*, equal: bool = True) -> Value:
 def free_action() -> Value:
     """Kinetic energy, and each constraint with its multiplier."""
     kinetic = sum(m[N] * dot(dy[N], dy[N]) for N in ALL) / 2
-    inner = {key: dot(y[key[0]] - y[1], y[key[1]] - y[1]) - held[key] for key in lam}
+    inner = {key: dot(y[key[0]] - y[1], y[key[1]] - y[1]) - distances[key] for key in lam}
     return kinetic + sum(lam[key] * inner[key] for key in lam) / 2
 
 
@@ -86,12 +85,12 @@ def forces(*, equal: bool = True) -> dict[int, Value]:
 
 
 def action_model() -> Model:
-    """Letters of the action."""
+    """Return the model of the letters of the action."""
     return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES)
 
 
 def potential_model() -> Model:
-    """Letters of the potential energy."""
+    """Return the model of the letters of the potential energy."""
     A0 = {N: dot(y[N], E) for N in ALL}
     A = {N: cross(Bf, y[N]) / 2 for N in ALL}
     e = {N: mu * m[N] for N in ALL}
@@ -117,7 +116,7 @@ def relative_model(*, equal: bool = True) -> Model:
     """
     mass = sum(m.values())
     y0, v0 = vector("y0_"), vector("v0_")
-    x, dx = _about(y), _about(dy)
+    x, dx = _about_centre(y), _about_centre(dy)
     swap = {old: new for N in ALL for old, new in zip([*y[N], *dy[N]], [*(y0 + x[N]), *(v0 + dx[N])], strict=True)}
     relative_forces = {N: force.xreplace(swap) for N, force in forces(equal=equal).items()}
     basis = sum(relative_forces.values(), sympy.zeros(3, 1))
@@ -130,7 +129,7 @@ def relative_model(*, equal: bool = True) -> Model:
     return Model({**COMMON, **letters}, ranges=RANGES)
 
 
-def _about(places: dict[int, Value]) -> dict[int, Value]:
+def _about_centre(places: dict[int, Value]) -> dict[int, Value]:
     """Return places about the centre of mass: those of all particles but the last are free."""
     remainder = -sum((m[N] * places[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
     return {**places, ALL[-1]: remainder}
@@ -203,64 +202,33 @@ def _equivalent(line: str) -> str:
 
 
 TRIALS = {
-    "(1)": Trial(
-        signs={r"S=\int dt": "L ="},
-        model=action_model,
-        follows="kinetic energy of six particles, and each constraint with its multiplier",
-        definition=True,
-    ),
+    "(1)": Trial(signs={r"S=\int dt": "L ="}, model=action_model, definition=True),
     "text-constraints": Trial(
         also=("2*partial(L,lam[A,beta]) = dot(y[A] - y[1], y[beta] - y[1]) - a[A,beta]",),
         model=action_model,
         form=_equivalent,
         arrows={1: ""},
-        follows="the action @(1) for six particles, differentiated",
-        false=Falsehood(
-            "The constraints fix how far the further particles are from particle 1",
-            "dot(y[A] - y[1], y[beta] - y[1])",
-            "dot(y[beta] - y[1], y[beta] - y[1])",
-        ),
+        false=Falsehood("dot(y[A] - y[1], y[beta] - y[1])", "dot(y[beta] - y[1], y[beta] - y[1])"),
     ),
     "(2)": Trial(
         signs={r"A_0(\mathbf{y}_N)": "A0[N]", r"\mathbf{A}(\mathbf{y}_N)": "A[N]"},
         model=potential_model,
-        follows="the sum of @(103) over the particles, with the potentials @(102)",
         definition=True,
     ),
-    "(3)": Trial(model=particles_model, follows="the variation of the action @(1), @(2) for six particles"),
-    "(4)": Trial(model=particles_model, follows="the sum of @(3) over six particles"),
-    "text-translation": Trial(
-        model=free_model,
-        follows="@(3) summed over six particles, at two states with the same centre of mass",
-        false=Falsehood(
-            "The flight does not depend on the rotation, whatever the charges of the particles",
-            model=lambda: free_model(equal=False),
-        ),
-    ),
+    "(3)": Trial(model=particles_model),
+    "(4)": Trial(model=particles_model),
+    "text-translation": Trial(model=free_model, false=Falsehood(model=lambda: free_model(equal=False))),
     "text-rigid": Trial(
         signs={
             r"R^TR=\mathbf{1}": "T(R)*R - one = T(inverse)*(T(X)*X - T(X0)*X0)*inverse",
             r"\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0\implies": "",
         },
         model=rigid_model,
-        follows="the constraints keep the products $X^T X$ of the frame, so that $R = X X_0^{-1}$ is orthogonal",
-        grade="missing case",
         corrected_also=(
             Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)", model=spatial_model),
             Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0) + height^2", model=plane_model),
         ),
-        corrected_tex=(
-            r"\boxed{\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0}\implies"
-            + EQUATIONS["text-rigid"].tex
-        ),
-        note="Three fixed products with an independent frame fix every further particle in it. Particles 1 to 4 must "
-        "not lie in one plane, as they do in the loop of Section IV: there @(1) leaves every further particle free to "
-        "rise out of the plane, by any height. One particle beside the plane, however light, mends it.",
-        false=Falsehood(
-            "The matrix that carries the frame along is orthogonal, constraints or not",
-            "T(R)*R - one = T(inverse)*(T(X)*X - T(X0)*X0)*inverse",
-            "T(R)*R = one",
-        ),
+        false=Falsehood("T(R)*R - one = T(inverse)*(T(X)*X - T(X0)*X0)*inverse", "T(R)*R = one"),
     ),
     "(5)": Trial(
         signs={
@@ -276,19 +244,9 @@ TRIALS = {
             },
         },
         model=relative_model,
-        follows="@(3) less $m_N$ times @(4), for six particles",
-        corrected_tex=mended(
-            "(5)",
-            {r"\mathbf{E}": "E^i", r"\mathbf{B}]": r"\mathbf{B}]\boxed{{}^i}"},
-            r",\\ &\boxed{\lambda^i=-\mu E^i}",
-        ),
-        grade="wording",
-        note=r"The letter $\lambda^i$ is defined nowhere. As the multiplier that keeps the sum of $m_N \mathbf{x}_N$ "
-        r"zero it is $-\mu \mathbf{E}^i$, and then the printed form is right: the two terms cancel, and the "
-        "electric field is gone already here. The vectors of the last two terms lack the index that the others have.",
     ),
     "(6)": Trial(
-        apart=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$",),
+        excluded=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$",),
         signs={
             "E": "E[]",
             r"\ddot R_{ik}g_{kj}": "ddRg[i,j]",
@@ -298,26 +256,9 @@ TRIALS = {
         },
         corrected_signs={"x": "moved[]"},
         model=rotation_model,
-        follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
-        "summed; the electric force kept",
-        corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j(0)}\Bigr)"
-        r"-A_{ia}g_{aj}",
-        grade="misprint",
-        note="The second term lacks its index $j$, and its places are those at $t = 0$. It vanishes "
-        "about the centre of mass, so nothing later suffers.",
     ),
-    "(7)": Trial(
-        signs={"B": "Bf[]"},
-        model=rotation_model,
-        follows=r"the magnetic force on six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$",
-        definition=True,
-    ),
-    "(8)": Trial(
-        signs={"x": "moved[]"},
-        model=rotation_model,
-        follows="the matrix that multiplies the second derivative of $R$ in @(6)",
-        definition=True,
-    ),
+    "(7)": Trial(signs={"B": "Bf[]"}, model=rotation_model, definition=True),
+    "(8)": Trial(signs={"x": "moved[]"}, model=rotation_model, definition=True),
     "(9)": Trial(
         signs={
             r"\lambda_{jk}": "lamM[j,k]",
@@ -332,35 +273,12 @@ TRIALS = {
             },
         },
         model=rotation_model,
-        follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
-        corrected_tex=mended("(9)", {"-2x_1^{j}": r"\boxed{+}2x_1^{j}"}),
-        grade="misprint",
-        note=r"The last sign is wrong: the products of $\mathbf{x}_1$ with itself add.",
     ),
     "text-multipliers-symmetric": Trial(
         signs={r"\lambda": "lamM[]"},
         model=rotation_model,
-        follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
-        false=Falsehood(
-            "With the magnetic force added the matrix is symmetric as well",
-            "lamM[j, k] = lamM[k, j]",
-            "lamM[j, k] + (T(R)*A*g)[j, k] = lamM[k, j] + (T(R)*A*g)[k, j]",
-        ),
+        false=Falsehood("lamM[j, k] = lamM[k, j]", "lamM[j, k] + (T(R)*A*g)[j, k] = lamM[k, j] + (T(R)*A*g)[k, j]"),
     ),
-    "text-electric-field": Trial(
-        model=free_model,
-        follows="@(3) less @(4) for six particles, in two electric fields",
-        false=Falsehood(
-            "The electric field does not affect the rotation, whatever the charges of the particles",
-            model=lambda: free_model(equal=False),
-        ),
-    ),
-    "text-rotation-apart": Trial(
-        model=free_model,
-        follows="@(3) less @(4) for six particles, at two states that differ by a shift and a velocity",
-        false=Falsehood(
-            "The rotation does not depend on the flight, whatever the charges of the particles",
-            model=lambda: free_model(equal=False),
-        ),
-    ),
+    "text-electric-field": Trial(model=free_model, false=Falsehood(model=lambda: free_model(equal=False))),
+    "text-rotation-apart": Trial(model=free_model, false=Falsehood(model=lambda: free_model(equal=False))),
 }

@@ -27,9 +27,9 @@ _SIGNS = {ast.Eq: "=", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">",
 class NoMeaningError(ValueError):
     """A line that has no meaning: its indices do not balance, or a vector stands where a number should."""
 
-    def __init__(self, reason: str, left: str = "", right: str = "") -> None:
+    def __init__(self, reason: str, lhs: str = "", rhs: str = "") -> None:
         super().__init__(reason)
-        self.example = {"reason": reason} | ({"left": left, "right": right} if left else {})
+        self.example = {"reason": reason} | ({"left": lhs, "right": rhs} if lhs else {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +39,8 @@ class Relation:
     text: str
     letters: tuple[str, ...]
     sign: str
-    left: tuple[Value, ...]
-    right: tuple[Value, ...]
+    lhs: tuple[Value, ...]
+    rhs: tuple[Value, ...]
 
 
 def parse(line: str) -> list[ast.Compare]:
@@ -128,10 +128,10 @@ class Reader:
                     raise NoMeaningError(
                         f"the indices of {ast.unparse(tree.left)} and {ast.unparse(side)} do not balance"
                     )
-            for left, operator, right in zip(sides, tree.ops, sides[1:], strict=False):
+            for lhs, operator, rhs in zip(sides, tree.ops, sides[1:], strict=False):
                 sign = _SIGNS[type(operator)]
-                tree_here = ast.Compare(left, [operator], [right])
-                values = [(self.value(left, bound), self.value(right, bound)) for bound in self._all(free_indices)]
+                tree_here = ast.Compare(lhs, [operator], [rhs])
+                values = [(self.value(lhs, bound), self.value(rhs, bound)) for bound in self._assignments(free_indices)]
                 pairs = [pair for value in values for pair in _entries(*value)]
                 relations.append(
                     Relation(
@@ -147,10 +147,10 @@ class Reader:
     def free_indices(self, node: ast.expr) -> set[str]:
         """Return the free indices of a formula, particles apart; NoMeaningError if terms of a sum differ."""
         if is_sum(node):
-            left, right = self.free_indices(node.left), self.free_indices(node.right)
-            if left != right and not is_zero(node.left) and not is_zero(node.right):
+            lhs, rhs = self.free_indices(node.left), self.free_indices(node.right)
+            if lhs != rhs and not is_zero(node.left) and not is_zero(node.right):
                 raise self._imbalance(node.left, node.right)
-            return left
+            return lhs
         if isinstance(node, ast.UnaryOp):
             return self.free_indices(node.operand)
         operands = [factor for factor, _ in factors(node)]
@@ -181,8 +181,8 @@ class Reader:
                 self._fixed[key] = self.value(node, {})
             return self._fixed[key]
         if is_sum(node):
-            left, right = self.value(node.left, bound), self.value(node.right, bound)
-            return left + right if isinstance(node.op, ast.Add) else left - right
+            lhs, rhs = self.value(node.left, bound), self.value(node.right, bound)
+            return lhs + rhs if isinstance(node.op, ast.Add) else lhs - rhs
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             return -self.value(node.operand, bound)
         operands = list(factors(node))
@@ -195,7 +195,7 @@ class Reader:
         holders = {name: [factor for factor, _ in operands if name in names(factor)] for name in indices}
         return {name for name, group in holders.items() if len(group) > 1 or not is_sum(group[0])}
 
-    def _all(self, indices: list[str]) -> Iterator[dict[str, int]]:
+    def _assignments(self, indices: list[str]) -> Iterator[dict[str, int]]:
         for choice in product(*(self.ranges.get(name, (1, 2, 3)) for name in indices)):
             yield dict(zip(indices, choice, strict=True))
 
@@ -208,7 +208,7 @@ class Reader:
             return
         (factor, divides), remainder = operands[0], operands[1:]
         new = sorted(names(factor) & sums)
-        for choice in self._all(new):
+        for choice in self._assignments(new):
             here = {**bound, **choice}
             value = self._factor(factor, here)
             if new and value == 0 and not divides:
@@ -269,15 +269,15 @@ def is_zero(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value == 0
 
 
-def _entries(left: Value, right: Value) -> list[tuple[Value, Value]]:
+def _entries(lhs: Value, rhs: Value) -> list[tuple[Value, Value]]:
     """Pair two values entry by entry; the number 0 stands for a zero matrix of any shape."""
-    matrices = [isinstance(side, sympy.MatrixBase) for side in (left, right)]
+    matrices = [isinstance(side, sympy.MatrixBase) for side in (lhs, rhs)]
     if not any(matrices):
-        return [(left, right)]
-    if not matrices[1] and right == 0:
-        right = left * 0
-    if not matrices[0] and left == 0:
-        left = right * 0
-    if not isinstance(left, sympy.MatrixBase) or not isinstance(right, sympy.MatrixBase) or left.shape != right.shape:
+        return [(lhs, rhs)]
+    if not matrices[1] and rhs == 0:
+        rhs = lhs * 0
+    if not matrices[0] and lhs == 0:
+        lhs = rhs * 0
+    if not isinstance(lhs, sympy.MatrixBase) or not isinstance(rhs, sympy.MatrixBase) or lhs.shape != rhs.shape:
         raise NoMeaningError("one side has more components than the other")
-    return list(zip(left, right, strict=True))
+    return list(zip(lhs, rhs, strict=True))

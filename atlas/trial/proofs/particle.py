@@ -6,7 +6,7 @@ from dataclasses import replace
 import sympy
 
 from atlas.trial.proofs.model import Model, Value, cross, dot, partial, turn, vector
-from atlas.trial.proofs.trial import Falsehood, Trial, evaluated, mended
+from atlas.trial.proofs.trial import Falsehood, Trial, evaluated
 
 SIGNS = {
     r"\mathbf{B}": "Bf",
@@ -80,7 +80,7 @@ def velocity_model() -> Model:
 
 
 def fall_model() -> Model:
-    """B = 0."""
+    """Return the model with B = 0."""
     C, y0 = vector("C"), vector("yo")
     letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
@@ -99,7 +99,7 @@ def _split() -> dict[str, Value]:
 
 
 def split_model() -> Model:
-    """(90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
+    """Model (90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
     components = _split()
     flow = dict(zip(components["y"], components["dypar"] + components["dyperp"], strict=True))
     start = {t: sympy.Integer(0), components["y"][2]: components["ypar0"][2]}
@@ -107,21 +107,21 @@ def split_model() -> Model:
 
 
 def parallel_model() -> Model:
-    """Constants of the motion along B."""
+    """Return the model of constants of the motion along B."""
     letters = _split()
     del letters["ypar"]
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
 def fall_along_model() -> Model:
-    """(93)."""
+    """Return the model of the fall (93) along B."""
     components = _split()
     ypar = components["ypar0"] + components["Cpar"] * t + mu * PARALLEL * t**2 / 2
     return Model({**components, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
 def helix_model() -> Model:
-    """E = 0: the part across B, from its centre, and the part along B."""
+    """Return the model with E = 0: the part across B, from its centre, and the part along B."""
     place, rise = vector("y"), sympy.Symbol("C3", real=True)
     speed_across = sympy.diag(1, 1, 0) * place
     flow = dict(zip(place, mu / c * cross(speed_across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
@@ -129,7 +129,7 @@ def helix_model() -> Model:
 
 
 def along_field_model() -> list[Model]:
-    """B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
+    """Return the models with B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
     C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
     cases = []
     for mu in (strength, -strength):
@@ -153,7 +153,7 @@ def shifted_model() -> Model:
 
 
 def charges_model(choice: str = "any") -> list[Model]:
-    """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
+    """Return the models with B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
 
     choice: C_perp, any vector across B, or the choice of the text for (99) or for (100).
     """
@@ -199,7 +199,7 @@ def _general(model: Model, **letters: Value) -> Value:
 
 
 def start_model() -> list[Model]:
-    """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
+    """Return the models of (98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
     return [
         replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
         for model in signed_model("origin")
@@ -208,11 +208,6 @@ def start_model() -> list[Model]:
 
 _TURNING = "at0(d({})[2]) = -omega*a*sin(omega0)"
 _SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
-SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
-_SENSE = (
-    r"Said for any charge, it holds for $\mu > 0$ only; with $\omega = \mu |\mathbf{B}|/c$, of the sign of the "
-    "charge, it holds for both."
-)
 
 
 def trajectory_model(*, signed: bool = True) -> list[Model]:
@@ -230,7 +225,7 @@ def later_model() -> list[Model]:
     """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
 
     def place(model: Model) -> Callable[..., Value]:
-        return lambda at, constant, angle: _general(model, t=at, Cperp=constant, omega0=angle)
+        return lambda time, constant, angle: _general(model, t=time, Cperp=constant, omega0=angle)
 
     return [replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model()]
 
@@ -250,174 +245,73 @@ TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
 """Equation for the place of a charged particle, (89)."""
 
 TRIALS = {
-    "(89)": Trial(signs=_LAGRANGIAN, model=lagrangian_model, follows="the variation of the Lagrangian @(104)"),
+    "(89)": Trial(signs=_LAGRANGIAN, model=lagrangian_model),
     "(90)": Trial(
-        model=velocity_model,
-        follows="its rate is @(89)",
-        defines=("dy",),
-        solves="d(dy) = mu*E + mu/c*cross(dy,Bf); at0(dy) - mu/c*cross(y,Bf) = C",
+        model=velocity_model, defines=("dy",), solves="d(dy) = mu*E + mu/c*cross(dy,Bf); at0(dy) - mu/c*cross(y,Bf) = C"
     ),
     "text-no-magnetic-field": Trial(
         model=fall_model,
-        follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
         solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
-        false=Falsehood(r"The particle falls with the acceleration $2\mu\mathbf{E}$", "1/2*mu*E*t^2", "mu*E*t^2"),
+        false=Falsehood("1/2*mu*E*t^2", "mu*E*t^2"),
     ),
     "text-along-field": Trial(
-        solves="d2(y) = mu*E",
-        corrected_solves="",
-        signs={r"\ddot{\mathbf{y}}": "d2(y)"},
-        model=along_field_model,
-        follows="@text-no-magnetic-field, for either sign of the charge",
-        corrected_tex=r"\ddot{\mathbf{y}}=\boxed{\mu\mathbf{E}}",
-        slip="(97)",
-        note=r"A negative charge is accelerated against $\mathbf{E}$.",
+        solves="d2(y) = mu*E", corrected_solves="", signs={r"\ddot{\mathbf{y}}": "d2(y)"}, model=along_field_model
     ),
     "text-helix": Trial(
-        also=("d2(y2) = -(mu*b/c)^2*y2",),
-        model=helix_model,
-        follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
-        false=Falsehood("It turns with Larmor's frequency", "-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2"),
+        also=("d2(y2) = -(mu*b/c)^2*y2",), model=helix_model, false=Falsehood("-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2")
     ),
-    "(91)": Trial(model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
-    "(92)": Trial(model=split_model, follows=r"@(90) projected across $\mathbf{B}$"),
-    "(93)": Trial(
-        model=parallel_model,
-        follows="@(91) by substitution",
-        defines=("ypar",),
-        solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0",
-    ),
-    "text-parallel-acceleration": Trial(
-        solves="d2(ypar) = mu*Epar",
-        model=fall_along_model,
-        follows="@(93)",
-        corrected_tex=mended("text-parallel-acceleration", {r"\bot": r"\boxed{\Vert}"}),
-        grade="misprint",
-        note=r"The wrong part of $\mathbf{E}$.",
-    ),
+    "(91)": Trial(model=split_model),
+    "(92)": Trial(model=split_model),
+    "(93)": Trial(model=parallel_model, defines=("ypar",), solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0"),
+    "text-parallel-acceleration": Trial(solves="d2(ypar) = mu*Epar", model=fall_along_model),
     "text-double-product": Trial(
         model=lambda: Model({"Eperp": cross(B, vector("w")), "Bf": B}),
-        follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
-        false=Falsehood("The identity holds for any vector", model=lambda: Model({"Eperp": vector("w"), "Bf": B})),
+        false=Falsehood(model=lambda: Model({"Eperp": vector("w"), "Bf": B})),
     ),
-    "(94)": Trial(model=split_model, follows="@(92)"),
-    "(95)": Trial(
-        model=shifted_model,
-        follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
-    ),
-    "(96)": Trial(model=shifted_model, follows="@(92) for the twice shifted variable"),
+    "(94)": Trial(model=split_model),
+    "(95)": Trial(model=shifted_model),
+    "(96)": Trial(model=shifted_model),
     "(97)": Trial(
-        model=charges_model,
-        follows="@(96) by substitution, for either sign of the charge",
-        defines=("y2", "omega"),
-        solves="d(y2) = -mu/c*cross(Bf,y2); " + _TURNING.format("y2"),
-        corrected_tex=mended("(97)", {r"\frac{\lvert \mu\mathbf{B}\rvert}{c}": r"\frac{\mu\lvert\mathbf{B}\rvert}{c}"}),
-        grade="sign of the charge",
-        note=f"{_SENSE} A negative charge turns the other way.",
+        model=charges_model, defines=("y2", "omega"), solves="d(y2) = -mu/c*cross(Bf,y2); " + _TURNING.format("y2")
     ),
-    "text-drift-direction": Trial(
-        model=charges_model,
-        follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
-        false=Falsehood(
-            r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{E}_\bot$", "norm(Bf)*e1", "norm(Bf)*e2"
-        ),
-    ),
+    "text-drift-direction": Trial(model=charges_model, false=Falsehood("norm(Bf)*e1", "norm(Bf)*e2")),
     "(98)": Trial(
         model=charges_model,
-        follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=f"{_SOLVES}; {_TURNING.format('yperp')}",
         corrected_model=signed_model,
-        corrected_tex=mended("(98)", {}, SIGNED),
-        slip="(97)",
-        note=_SENSE,
     ),
     "text-time-shift": Trial(
         signs={r"\mathbf{y}_{\bot}": "place()", r"\mathbf{C}'_{\bot}": "Clater"},
         defines=("Clater",),
         model=later_model,
-        follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
-        r"\mathbf{E}_\bot \omega_0/\omega$",
-        note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
-        false=Falsehood(r"$\mathbf{C}_\bot$ does not change", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
+        false=Falsehood("Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
     ),
-    "text-first-two-terms": Trial(
-        arrows={1: None},
-        defines=("Cperp",),
-        model=lambda: signed_model("origin"),
-        follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
-        corrected_tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
-        r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}",
-        grade="wording",
-        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @(99) has it.",
-    ),
-    "text-initial-position": Trial(
-        model=start_model,
-        follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
-        false=Falsehood(r"The particle starts at $a\mathbf{e}_1$", "a*e2", "a*e1"),
-    ),
+    "text-first-two-terms": Trial(arrows={1: None}, defines=("Cperp",), model=lambda: signed_model("origin")),
+    "text-initial-position": Trial(model=start_model, false=Falsehood("a*e2", "a*e1")),
     "(99)": Trial(
         model=lambda: charges_model("origin"),
-        follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
         corrected_model=lambda: signed_model("origin"),
-        corrected_tex=mended("(99)", {}, SIGNED),
-        slip="(97)",
-        note=_SENSE,
     ),
-    "text-drift": Trial(
-        model=drift_model,
-        follows=r"@(89) solved for the velocity that does not change, for either sign of the charge, $\omega$ of @(97)",
-        corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
-        slip="(97)",
-        note=r"The drift doesn't depend on the charge; with the positive $\omega$ of @(97) a negative one would drift "
-        "backwards.",
-    ),
-    "text-trochoid-constant": Trial(
-        model=lambda: signed_model("trochoid"),
-        follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
-        corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
-        slip="(100)",
-        note=r"An acceleration is taken from a velocity. The choice meant is $\mathbf{C}_\bot = 0$: the acceleration "
-        r"over $\omega$ is the drift, and nothing is left.",
-    ),
+    "text-drift": Trial(model=drift_model),
+    "text-trochoid-constant": Trial(model=lambda: signed_model("trochoid")),
     "(100)": Trial(
         model=lambda: charges_model("trochoid"),
-        follows="@(98) with the constant chosen there",
         defines=("x", "y"),
         solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
         corrected_model=lambda: signed_model("trochoid"),
-        corrected_tex=mended("(100)", {r"\omega}+a": r"\omega^{\boxed{2}}}+a"}, SIGNED),
-        grade="misprint",
-        note=r"The shift of $y$ must be a length, $\mu |\mathbf{E}_\bot|/\omega^2$, as $\mathbf{C}_\bot$ must be a "
-        r"velocity; and, as in @(97), $\omega$ takes the sign of the charge.",
     ),
-    "text-trochoid": Trial(
-        model=rolling_model,
-        follows="@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
-        "turns by one radian",
-        false=Falsehood("The circle rolls along the line through its middle", "y = r + a*cos", "y = a*cos"),
-    ),
+    "text-trochoid": Trial(model=rolling_model, false=Falsehood("y = r + a*cos", "y = a*cos")),
     "(101)": Trial(
         model=lambda: trajectory_model(signed=False),
-        follows="@(89) by substitution, the parts of @(93) and @(99), for either sign of the charge",
         defines=("y",),
         solves=TRAJECTORY,
         corrected_model=trajectory_model,
-        corrected_tex=mended("(101)", {}, SIGNED),
-        slip="(97)",
-        note="The sum is right; @(99), which it sends to, holds for a positive charge.",
     ),
-    "(102)": Trial(
-        signs={r"\mathbf{A}(\mathbf{y})": "A", r"A_0(\mathbf{y})": "A0"},
-        model=lagrangian_model,
-        follows="the vector product in components",
-        corrected_tex=mended("(102)", {"b_1": "B_1"}),
-        grade="misprint",
-        note="A lower-case $b_1$ that means nothing here stands for $B_1$.",
-    ),
+    "(102)": Trial(signs={r"\mathbf{A}(\mathbf{y})": "A", r"A_0(\mathbf{y})": "A0"}, model=lagrangian_model),
     "text-potentials": Trial(
         signs={
             r"\frac{\partial\mathbf{A}}{\partial t}": "partial_t(A)",
@@ -425,22 +319,10 @@ TRIALS = {
             r"[\nabla,\mathbf{A}]": "curl(A)",
         },
         model=potentials_model,
-        follows="the potentials @(102)",
-        note=r"With $\mathbf{E} = +\nabla A_0$ the paper has the opposite of the sign that is customary; $A_0$ is "
-        "minus the usual potential, and @(103) agrees with it.",
-        false=Falsehood(r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$", "+ grad(A0)", "- grad(A0)"),
+        false=Falsehood("+ grad(A0)", "- grad(A0)"),
     ),
-    "(103)": Trial(
-        signs=_LAGRANGIAN,
-        model=lagrangian_model,
-        follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
-        solves="force(U) = e*E + e/c*cross(v,Bf)",
-    ),
+    "(103)": Trial(signs=_LAGRANGIAN, model=lagrangian_model, solves="force(U) = e*E + e/c*cross(v,Bf)"),
     "(104)": Trial(
-        signs=_LAGRANGIAN,
-        model=lagrangian_model,
-        follows="the potentials @(102), and @(89) by variation",
-        defines=("L",),
-        solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)",
+        signs=_LAGRANGIAN, model=lagrangian_model, defines=("L",), solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)"
     ),
 }

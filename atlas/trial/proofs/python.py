@@ -68,7 +68,7 @@ class Line:
         self.definitions = {
             name: tree.comparators[0]
             for tree in parse(line)
-            if (name := defined(tree, defines)) and not _called(tree) & set(defines)
+            if (name := defined(tree, defines)) and not _function_names(tree) & set(defines)
         }
         self.used: dict[str, Value] = {}
         self.symbols: list[Value] = []
@@ -107,7 +107,7 @@ class Line:
         every = tuple(name for tree in self.trees for name in letters_of(tree))
         return points(parameters(self.relations, self.model, every), self.model)
 
-    def needed(self) -> set[Value]:
+    def symbols_reached(self) -> set[Value]:
         """Return the symbols on which the written text depends, also through `bindings` and the rates."""
         values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
         return reached(values, [*self.model.bindings, *self.model.flow.items()])
@@ -159,7 +159,7 @@ class Line:
         size = max(len(value) if isinstance(value, sympy.MatrixBase) else 1 for value in values)
         for name in indices:
             size *= len(ranges.get(name, (1, 2, 3)))
-        if size > len(relation.left):  # summed over particles, in the middle of a chain
+        if size > len(relation.lhs):  # summed over particles, in the middle of a chain
             indices = [name for name in indices if name not in ranges]
         return [(name, ranges.get(name, (1, 2, 3))) for name in indices]
 
@@ -169,15 +169,15 @@ class Line:
         try:
             return [self.code(side, indices) for side in (tree.left, tree.comparators[0])]
         except _NoFormulaError:
-            return [self.plain(sympy.Matrix(side)) for side in (relation.left, relation.right)]
+            return [self.plain(sympy.Matrix(side)) for side in (relation.lhs, relation.rhs)]
 
-    def difference(self, relation: Relation, *, turned: bool = False) -> str:
+    def difference(self, relation: Relation, *, reverse: bool = False) -> str:
         """Return the left side less the right one, or the other way round."""
-        left, right = self.sides(relation)
+        lhs, rhs = self.sides(relation)
         if is_zero(parse(relation.text)[0].comparators[0]):
-            return f"-({left})" if turned else left
-        left, right = (right, left) if turned else (left, right)
-        return ast.unparse(ast.parse(f"({left}) - ({right})", mode="eval"))
+            return f"-({lhs})" if reverse else lhs
+        lhs, rhs = (rhs, lhs) if reverse else (lhs, rhs)
+        return ast.unparse(ast.parse(f"({lhs}) - ({rhs})", mode="eval"))
 
     def code(self, node: ast.expr, bound: tuple[str, ...]) -> str:
         """Return a formula as Python; indices in `bound` are variables of loops around it, all others are summed."""
@@ -191,19 +191,21 @@ class Line:
             return ast.UnaryOp(node.op, self.formula(node.operand, bound))
         operands = list(factors(node))
         sums = sorted(self.reader.summed(operands, names(node) - set(bound)))
-        (first, _), *others = [(self.factor(part, (*bound, *sums)), divides) for part, divides in operands]
-        for factor, divides in others:
-            if divides and not {*_words(first), *_words(factor)}:
-                first = ast.Call(ast.Name("Rational"), [first, factor], [])
+        (product, _), *further_factors = [
+            (self.factor(factor_tree, (*bound, *sums)), divides) for factor_tree, divides in operands
+        ]
+        for factor, divides in further_factors:
+            if divides and not {*_words(product), *_words(factor)}:
+                product = ast.Call(ast.Name("Rational"), [product, factor], [])
             else:
-                first = ast.BinOp(first, ast.Div() if divides else ast.Mult(), factor)
+                product = ast.BinOp(product, ast.Div() if divides else ast.Mult(), factor)
         if not sums:
-            return first
+            return product
         loops = " ".join(f"for {name} in {self.reader.ranges.get(name, (1, 2, 3))}" for name in sums)
         value = self.value(node, bound)
         start = f", zeros{value.shape}" if isinstance(value, sympy.MatrixBase) else ""
-        first = ast.fix_missing_locations(first)
-        return _tree(f"sum(({ast.unparse(first)} {loops}){start})")
+        product = ast.fix_missing_locations(product)
+        return _tree(f"sum(({ast.unparse(product)} {loops}){start})")
 
     def value(self, node: ast.expr, bound: tuple[str, ...]) -> Value:
         """Return the value of a formula where all indices are the first ones."""
@@ -265,18 +267,20 @@ class Line:
             if names(node) & set(bound):
                 raise _NoFormulaError
             return _tree(f"({self.plain(self.reader.value(node, {}))})")
-        first, *others = (self.formula(argument, bound) for argument in node.args)
+        argument_tree, *further_arguments = (self.formula(argument, bound) for argument in node.args)
         if name == "T":
-            return ast.Attribute(first, "T")
+            return ast.Attribute(argument_tree, "T")
         if name in _METHODS:
-            return ast.Call(ast.Attribute(first, _METHODS[name]), others, [])
+            return ast.Call(ast.Attribute(argument_tree, _METHODS[name]), further_arguments, [])
         if name == "norm":
-            name, first = "sqrt", ast.Call(ast.Attribute(first, "dot"), [first], [])
+            name, argument_tree = "sqrt", ast.Call(ast.Attribute(argument_tree, "dot"), [argument_tree], [])
         if name == "sqrt":  # a square in it is seen if it is factored
-            first = ast.Call(ast.Name("factor"), [first], [])
+            argument_tree = ast.Call(ast.Name("factor"), [argument_tree], [])
         for _ in range(2 if name == "d2" else 1):
-            first = ast.Call(ast.Name(_CALLED.get(name, name[:1] if name == "d2" else name)), [first, *others], [])
-        return first
+            argument_tree = ast.Call(
+                ast.Name(_CALLED.get(name, name[:1] if name == "d2" else name)), [argument_tree, *further_arguments], []
+            )
+        return argument_tree
 
 
 def _less(index: ast.expr) -> ast.expr:
@@ -290,7 +294,7 @@ def _tree(text: str) -> ast.expr:
     return ast.parse(text, mode="eval").body
 
 
-def _called(tree: ast.AST) -> set[str]:
+def _function_names(tree: ast.AST) -> set[str]:
     return {getattr(node.func, "id", "") for node in ast.walk(tree) if isinstance(node, ast.Call)}
 
 

@@ -8,7 +8,7 @@ from atlas.trial.proofs import pseudo_oscillator
 from atlas.trial.proofs.model import Model, Value, certain, turn, vector
 from atlas.trial.proofs.notation import sides
 from atlas.trial.proofs.pseudo_oscillator import cubic, integrals, state_model
-from atlas.trial.proofs.trial import Falsehood, Part, Trial, mended, read
+from atlas.trial.proofs.trial import Falsehood, Part, Trial, read
 
 omega1, omega2, omega3 = vector("omega")
 I, B2, B3 = sympy.symbols("I B2 B3", positive=True)
@@ -57,12 +57,12 @@ def condition_model() -> tuple[Model, Model]:
 
 
 def free_model() -> Model:
-    """Any initial angular velocity, on the surface or not."""
+    """Return the model of any initial angular velocity, on the surface or not."""
     return Model(LETTERS)
 
 
 def lost_lines_model() -> list[Model]:
-    """Both lines omega2 = -B2 for I <= 1: omega1 = sign sqrt(1 - I) B2 with I = 1 - s^2, any omega3."""
+    """Model both lines omega2 = -B2 for I <= 1: omega1 = sign sqrt(1 - I) B2 with I = 1 - s^2, any omega3."""
     root = sympy.Symbol("s", positive=True)
     cases = []
     for sign in (1, -1):
@@ -113,7 +113,7 @@ def _axes() -> tuple[Value, Value]:
 
 
 def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
-    """Points of the quadric in the coordinates along its own eigenvectors, centre -B'."""
+    """Return the model of points of the quadric in the coordinates along its own eigenvectors, centre -B'."""
     direction, normal = _axes()
     shifted = sympy.Matrix([omega2 + B2, omega3 + B3])
     sine = -(cd**2 - sd**2)
@@ -127,7 +127,7 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
 
 
 def axes_model(above: bool, sheets: int) -> Model:
-    """Sin(beta) anywhere between 0 and 1, and the squared semi-axes of (55) for two sheets, of (57) for one."""
+    """Model Sin(beta) anywhere between 0 and 1, and the squared semi-axes of (55) for two sheets, of (57) for one."""
     sine = 1 / (1 + sympy.Symbol("r", positive=True))
     I = 1 + excess if above else 1 / (1 + excess)
     a2, a3, square = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if sheets == 2 else 1 - I) * B2**2
@@ -135,14 +135,14 @@ def axes_model(above: bool, sheets: int) -> Model:
 
 
 def angle_model() -> Model:
-    """I^-1 B' = r (0, cos beta, sin beta)."""
+    """Return the model with I^-1 B' = r (0, cos beta, sin beta)."""
     I2, I3, r = sympy.symbols("I2 I3 r", positive=True)
     letters = {"I": I3 / I2, "B2": I2 * r * cd, "B3": I3 * r * sd, "beta": delta}
     return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1]), (delta, 2 * sympy.atan(p))], phases=PHASES)
 
 
 def range_model() -> Model:
-    """Beta, which runs over the open interval from 0 to pi/2 as B3/(I B2) runs over the positive numbers."""
+    """Model Beta, which runs over the open interval from 0 to pi/2 as B3/(I B2) runs over the positive numbers."""
     beta, s = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
     letters = {"beta": beta, "at_end": lambda x: x.subs(beta, sympy.pi / 2)}
     return Model(letters, [(beta, sympy.pi / 2 * s / (1 + s))], start={beta: 0})
@@ -155,7 +155,7 @@ def _sharp(line: str) -> str:
 
 
 def shell_model() -> Model:
-    """Moments of a cylindrical surface of mass M, by integration over the surface."""
+    """Return the model of moments of a cylindrical surface of mass M, by integration over the surface."""
     r, h, z, w, M = sympy.symbols("r h z w M", positive=True)
     density = M / (2 * sympy.pi * h)
     bounds = ((w, 0, 2 * sympy.pi), (z, -h / 2, h / 2))
@@ -165,13 +165,13 @@ def shell_model() -> Model:
 
 
 def plane_body_model() -> Model:
-    """I1 = I2."""
+    """Return the model with I1 = I2."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"I": 2 * g1 / (g1 + g3), "g3": g3, "I2": g1 + g3})
 
 
 def leaving_points_model() -> Model:
-    """Points of the quadric with omega1 > 0; the rate of Omega3 there is that of (38) at t = 0."""
+    """Return the model of points of the quadric with omega1 > 0; the rate of Omega3 there is that of (38) at t = 0."""
     away = sympy.Symbol("omega1", positive=True)
     rate = state_model().letters["at0"](state_model().letters["d"](state_model().letters["Omega3"]))
     certain(sympy.expand(rate - omega1 * B2) == 0)
@@ -196,27 +196,18 @@ def turned_model() -> Model:
 
 
 TRIALS = {
-    "(50)": Trial(
-        model=condition_model,
-        follows=r"@(49) with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
-    ),
+    "(50)": Trial(model=condition_model),
     "(51)": Trial(
         model=condition_model,
-        follows=r"@(50), and the other way round: the two differ by the factor $B'_3$ for every $\boldsymbol{\omega}$",
         also=(Part(line=f"{sides(_EQUATION_50)[0]} = B3*({sides(_EQUATION_51)[0]} - (1 - I)*B2^2)", model=free_model),),
     ),
     "text-quadric-origin": Trial(
         model=lambda: Model({**LETTERS, **dict.fromkeys(("omega1", "omega2", "omega3"), sympy.Integer(0))}),
         signs={r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}": _EQUATION_51},
-        follows=r"@(51) at $\boldsymbol{\omega} = 0$",
-        false=Falsehood(
-            r"The surface passes through its centre $-\mathbf{B}'$",
-            model=lambda: Model({**LETTERS, "omega1": 0 * B2, "omega2": -B2, "omega3": -B3}),
-        ),
+        false=Falsehood(model=lambda: Model({**LETTERS, "omega1": 0 * B2, "omega2": -B2, "omega3": -B3})),
     ),
     "(52)": Trial(
         model=lambda: condition_model()[0],
-        follows=r"@(50) for $\omega_2$ different from $-B'_2$",
         signs={r"\Omega_3": "Omega3"},
         corrected_also=(
             Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _EQUATION_50, model=lost_lines_model),
@@ -234,17 +225,9 @@ TRIALS = {
             r"\text{or}\quad\omega_2=-B'_2,\quad\omega_1=\pm\sqrt{1-I}\,B'_2,\quad\omega_3\in\mathbb{R}\quad"
             r"\text{if}\quad I\le1": ""
         },
-        corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2"
-        r"+B'_2)}\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_1=\pm"
-        r"\sqrt{1-I}\,B'_2,\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}",
-        grade="missing case",
-        note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @(50): for $I \le 1$ the "
-        r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
-        "1$ nothing is missing. The letter condition of the lines is the left side of @(50).",
     ),
     "(53)": Trial(
         model=coordinates_model,
-        follows=r"lengths from the centre $-\mathbf{B}'$ are kept, and the form @(51) becomes that of @(54)",
         defines=("w1", "w2", "w3"),
         solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form; sense([w1, w2, w3]) = 1",
     ),
@@ -252,42 +235,22 @@ TRIALS = {
         model=turned_model,
         also=(read("(53)", SIGNS),),
         signs={r"\omega'_i": "w[i]", r"\mathbf{e}'_i": "axis[i]", r"\mathbf{e}'_2": "axis[2]"},
-        follows="components along the turned axes, against @(53)",
-        false=Falsehood("The axes are turned clockwise", "*e2 + sin", "*e2 - sin"),
+        false=Falsehood("*e2 + sin", "*e2 - sin"),
     ),
-    "text-beta": Trial(
-        model=angle_model,
-        follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
-        false=Falsehood(r"$\beta$ is the angle between $\mathbf{e}_2$ and $\mathbf{B}'$", "B3/(I*B2)", "B3/B2"),
-    ),
-    "text-beta-range": Trial(
-        model=range_model,
-        follows=r"$\tan\beta > 0$",
-        form=_sharp,
-        false=Falsehood(r"They are turned by less than $\pi/3$", "< pi/2", "< pi/3"),
-    ),
-    "(54)": Trial(
-        model=canonical_model,
-        follows="@(51) in the coordinates along its own eigenvectors",
-        defines=("a2", "a3"),
-    ),
-    "(55)": Trial(model=lambda: canonical_model("above"), follows="@(54)", defines=AXES),
+    "text-beta": Trial(model=angle_model, false=Falsehood("B3/(I*B2)", "B3/B2")),
+    "text-beta-range": Trial(model=range_model, form=_sharp, false=Falsehood("< pi/2", "< pi/3")),
+    "(54)": Trial(model=canonical_model, defines=("a2", "a3")),
+    "(55)": Trial(model=lambda: canonical_model("above"), defines=AXES),
     "text-two-sheets": Trial(
-        model=lambda: axes_model(above=True, sheets=2),
-        follows=r"@(55), $0 < \sin\beta < 1$ and $I > 1$",
-        false=Falsehood("The surface has two sheets for $I < 1$ too", model=lambda: axes_model(above=False, sheets=2)),
+        model=lambda: axes_model(above=True, sheets=2), false=Falsehood(model=lambda: axes_model(above=False, sheets=2))
     ),
     "text-short-cylinder": Trial(
         model=shell_model,
         signs={r">1\iff h<\sqrt6\,r": "I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)"},
-        follows="the moments of the surface, integrated",
-        false=Falsehood("A cylindrical surface is short if it is wider than high", "(6*r^2 - h^2)", "(4*r^2 - h^2)"),
+        false=Falsehood("(6*r^2 - h^2)", "(4*r^2 - h^2)"),
     ),
     "text-plane-body": Trial(
-        model=plane_body_model,
-        signs={r"I=2\iff g_3=0": "2 - I = 2*g3/I2"},
-        follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
-        false=Falsehood("A plane body has $I = 1$", "2 - I =", "1 - I ="),
+        model=plane_body_model, signs={r"I=2\iff g_3=0": "2 - I = 2*g3/I2"}, false=Falsehood("2 - I =", "1 - I =")
     ),
     "text-tangent-planes": Trial(
         model=lambda: Model({**LETTERS, "I": sympy.Integer(2)}, [(omega3, constant_omega3()), (I, sympy.Integer(2))]),
@@ -297,35 +260,18 @@ TRIALS = {
                 "2*B2)^2)/(4*B2^2*(omega2 + B2)^2)"
             )
         },
-        follows="@(50) with $I = 2$",
-        note=r"Never negative, and zero only at $\boldsymbol{\omega} = 0$ and at $\boldsymbol{\omega} = -2 "
-        r"\mathbf{B}'$: there the sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$.",
-        false=Falsehood(
-            r"The second plane is $\omega_3 = -B'_3$", "(omega3 + B3)^2 - B3^2", "(omega3 + B3/2)^2 - (B3/2)^2"
-        ),
+        false=Falsehood("(omega3 + B3)^2 - B3^2", "(omega3 + B3/2)^2 - (B3/2)^2"),
     ),
-    "(56)": Trial(model=lambda: canonical_model("one"), follows="@(54) with $I = 1$, $a_2$ and $a_3$ as there"),
-    "text-cone-semi-axes": Trial(
-        model=lambda: canonical_model("one"),
-        follows="@(54) with $I = 1$",
-        corrected_tex=mended("text-cone-semi-axes", {f"a_{n}^2": rf"(\sqrt{{a_{n}}})^2" for n in (2, 3)}),
-        grade="wording",
-        note="The semi-axes are the roots of $a_2$ and $a_3$, as @(70) has them under the same letters.",
-    ),
-    "(57)": Trial(model=lambda: canonical_model("below"), follows="@(54)", defines=AXES),
+    "(56)": Trial(model=lambda: canonical_model("one")),
+    "text-cone-semi-axes": Trial(model=lambda: canonical_model("one")),
+    "(57)": Trial(model=lambda: canonical_model("below"), defines=AXES),
     "text-one-sheet": Trial(
-        model=lambda: axes_model(above=False, sheets=1),
-        follows=r"@(57), $0 < \sin\beta < 1$ and $I < 1$",
-        false=Falsehood("The surface has one sheet for $I > 1$ too", model=lambda: axes_model(above=True, sheets=1)),
+        model=lambda: axes_model(above=False, sheets=1), false=Falsehood(model=lambda: axes_model(above=True, sheets=1))
     ),
     "text-not-all": Trial(
         model=leaving_points_model,
         also=(_EQUATION_50,),
         signs={r"\omega_1B'_2\ne0\implies": "", r"\dot\Omega_3(0)": "rate"},
-        follows=r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
-        "B'_2$, @theorem-points",
-        note=r"By the last equation of @(38) at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
-        "quadric is its mirror image.",
-        false=Falsehood(r"At every point of the quadric $\Omega_3$ starts with the rate zero", "rate != 0", "rate = 0"),
+        false=Falsehood("rate != 0", "rate = 0"),
     ),
 }

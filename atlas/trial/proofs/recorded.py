@@ -1,8 +1,8 @@
 """The recorded verdicts, kept beside the proofs: a page is drawn from them and never waits for a proof.
 
 `source(name)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
-topic and the topics that it builds on, comments and blank lines aside, and all that the entry says: its TeX, its words,
-its quotation and its assumptions. A recorded verdict is current if its fingerprint is.
+topic and the topics that it builds on, comments and blank lines aside, and all that the ledger has of the entry. A
+recorded verdict is current if its fingerprint is.
 """
 
 import hashlib
@@ -49,15 +49,7 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 def source(name: str) -> str:
     """Return the fingerprint of the proof of an entry of the ledger."""
     entry = equation(name)
-    texts = (
-        _fingerprint(topic(name), MACHINERY),
-        entry.tex,
-        entry.says,
-        entry.quote,
-        *entry.assumptions,
-        *entry.outside,
-    )
-    return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:16]
+    return hashlib.sha256(f"{_fingerprint(topic(name), MACHINERY)}\0{entry}".encode()).hexdigest()[:16]
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:
@@ -83,9 +75,9 @@ def scripts(path: Path = SCRIPTS) -> dict[str, str]:
     return dict(json.loads(path.read_text("utf-8"))) if path.is_file() else {}
 
 
-def save_scripts(written: Mapping[str, str], path: Path = SCRIPTS) -> None:
+def save_scripts(texts_by_name: Mapping[str, str], path: Path = SCRIPTS) -> None:
     """Write scripts, in place of recorded ones of the same names."""
-    texts = scripts(path) | dict(written)
+    texts = scripts(path) | dict(texts_by_name)
     ordered = {name: texts[name] for name in EQUATIONS if name in texts}
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
@@ -109,11 +101,11 @@ def differs(verdicts: Iterable[Verdict], recorded: Mapping[str, Verdict] | None 
     changed = []
     for verdict in verdicts:
         before = records.get(verdict.name)
-        was = _both(before) if before else "not recorded"
-        if was != _both(verdict):
-            changed.append((verdict.name, was, _both(verdict)))
+        was = _decisions(before) if before else "not recorded"
+        if was != _decisions(verdict):
+            changed.append((verdict.name, was, _decisions(verdict)))
     return changed
 
 
-def _both(verdict: Verdict) -> str:
+def _decisions(verdict: Verdict) -> str:
     return verdict.verdict + (f", corrected form {verdict.corrected_verdict}" if verdict.corrected_verdict else "")

@@ -59,7 +59,10 @@ def trials(stem: str) -> dict[str, Trial]:
     """Return the trials of one topic by name; its `SIGNS` hold for each trial."""
     module = import_module(f"atlas.trial.proofs.{stem}")
     signs: dict[str, str] = getattr(module, "SIGNS", {})
-    return {name: replace(trial, name=name, signs={**signs, **trial.signs}) for name, trial in module.TRIALS.items()}
+    return {
+        name: replace(trial, name=name, signs={**signs, **trial.signs}, corrected_tex=EQUATIONS[name].corrected_tex)
+        for name, trial in module.TRIALS.items()
+    }
 
 
 def trial(name: str) -> Trial:
@@ -68,7 +71,7 @@ def trial(name: str) -> Trial:
     named = trials(topic(name)).get(name)
     if named is None:
         raise AtlasError(f"nothing has been tried about {name!r}: add a trial to atlas/trial/proofs/{topic(name)}.py")
-    return replace(named, grade=trial(named.slip).grade) if named.slip else named
+    return named
 
 
 def try_one(name: str) -> Verdict:
@@ -85,19 +88,19 @@ def try_one(name: str) -> Verdict:
         kind=entry.kind,
         verdict=outcome.decision,
         method=outcome.method,
-        follows=case.follows,
+        follows=entry.follows,
         printed=_lines(case.parts),
         said=case.said,
         not_read="; ".join(_unread(case)),
         outside=case.outside,
-        grade=case.grade,
-        slip=case.slip,
+        grade=equation(entry.slip or name).grade,
+        slip=entry.slip,
         corrected=_lines(case.corrected_parts),
         corrected_tex=case.corrected_tex,
         corrected_verdict=corrected,
         counterexample=outcome.counterexample,
-        note=case.note,
-        false=case.false.says if case.false else "",
+        note=entry.note,
+        false=entry.false,
         false_line=false.line if false else "",
         false_verdict=within_time(false.outcome).decision if false else "",
         seconds=round(time.process_time() - start, 2),
@@ -109,13 +112,13 @@ def _unread(case: Trial) -> Iterable[str]:
     """Return the assumptions that the trial does not read; one sentence if the model takes longer than `LIMIT`."""
     try:
         with limit(LIMIT):
-            return case.assumed.left
+            return case.assumed.unread
     except OverTimeError:
         return (f"no assumption was read in {LIMIT:.0f} s",)
 
 
-def _lines(parts: Iterable[Part]) -> str:
-    return "; ".join(line.line for line in parts)
+def _lines(statements: Iterable[Part]) -> str:
+    return "; ".join(line.line for line in statements)
 
 
 def within_time(run: Callable[[], Outcome]) -> Outcome:
@@ -146,7 +149,7 @@ def verify(
     vocabulary = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
     verdicts = {name: Verdict(**json.loads(entry)) for name, entry in vocabulary.items()}
     stale_names = [name for name in names_in_order if name not in verdicts]
-    for done, (name, result) in enumerate(_each(stale_names, jobs), len(verdicts) + 1):
+    for done, (name, result) in enumerate(_verdicts_of(stale_names, jobs), len(verdicts) + 1):
         verdicts[name] = result
         if store:
             store.put(keys[name], json.dumps(result.as_dict()).encode())
@@ -155,7 +158,7 @@ def verify(
     return [verdicts[name] for name in names_in_order]
 
 
-def _each(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:
+def _verdicts_of(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:
     executor = processes.pool(jobs, context="fork") if jobs > 1 and len(names) > 1 else None
     if executor is None:
         yield from ((name, try_one(name)) for name in names)

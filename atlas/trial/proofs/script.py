@@ -61,7 +61,7 @@ def script_of(verdict: Verdict) -> str:
         blocks += [_proved(line) for line in _lines(case.corrected_parts)]
     body = list(_joined(blocks))
     top = f"numer(together(x)){_WHERE}" if "where = " in "\n".join(body) else "x"
-    head = textwrap.wrap(f"# {verdict.name}, from {plain(case.follows)}", _WIDTH, subsequent_indent="# ")
+    head = textwrap.wrap(f"# {verdict.name}, from {plain(verdict.follows)}", _WIDTH, subsequent_indent="# ")
     head += ["from sympy import *", *(_CHECK.format(top=top).split("\n") if "check(" in "\n".join(body) else [""])]
     return "\n".join(_wrapped(row) for row in [*head, *body, f'print("{", ".join(says)}")']) + "\n"
 
@@ -112,7 +112,7 @@ def sides_of(name: str) -> list[str]:
 def _sides(relation: Relation, line: Line) -> str:
     """Return the sides of a relation as text; of several components, the first that is not 0."""
     bindings, printer = resolved(line.model.bindings), line.printer
-    pairs = [(sympy.sympify(a), sympy.sympify(b)) for a, b in zip(relation.left, relation.right, strict=True)]
+    pairs = [(sympy.sympify(a), sympy.sympify(b)) for a, b in zip(relation.lhs, relation.rhs, strict=True)]
     if relation.sign != "=":
         value = sympy.factor(sympy.together((pairs[0][0] - pairs[0][1]).xreplace(bindings)))
         return f"{relation.text}: left - right = {_short(value, printer)}"
@@ -139,8 +139,8 @@ def _short(value: Value, printer: StrPrinter) -> str:
     return f"{sizes[0]} in {letters}" + ("" if bottom.is_ground else f", over {sizes[1]}")
 
 
-def _lines(parts: Sequence[Part]) -> list[Line]:
-    return [Line(line.line, model, line.defines, line.solves) for line in parts for model in line.cases]
+def _lines(statements: Sequence[Part]) -> list[Line]:
+    return [Line(line.line, model, line.defines, line.solves) for line in statements for model in line.cases]
 
 
 def _proved(line: Line) -> Rows:
@@ -151,27 +151,27 @@ def _proved(line: Line) -> Rows:
         for index, numbers in line.loops(relation):
             rows.append(f"{indent}for {index} in {numbers}:")
             indent += "    "
-        value = sympy.sympify(relation.left[0] - relation.right[0]).xreplace(bindings)
-        turned = relation.sign in {"<", "<="} or (relation.sign == "!=" and not positive(value, strict=True))
-        difference = line.difference(relation, turned=turned)
+        value = sympy.sympify(relation.lhs[0] - relation.rhs[0]).xreplace(bindings)
+        reverse = relation.sign in {"<", "<="} or (relation.sign == "!=" and not positive(value, strict=True))
+        difference = line.difference(relation, reverse=reverse)
         if relation.sign == "=":
             rows.append(f"{indent}check({difference})")
             continue
         strict = relation.sign not in {"<=", ">="}
-        form = _FORMS[sign_forms(-value if turned else value, strict=strict).index(True)]
+        form = _FORMS[sign_forms(-value if reverse else value, strict=strict).index(True)]
         kind = "is_positive" if strict else "is_nonnegative"
         rows += [f"{indent}if not {form.format(f'({difference}){_WHERE}')}.{kind}:"]
         rows += [f'{indent}    raise SystemExit("not so: {relation.text}")']
     return _stated(line, rows)
 
 
-def _refuted(parts: Sequence[Part]) -> Rows:
+def _refuted(statements: Sequence[Part]) -> Rows:
     """Return the rows that put in the point which breaks a line."""
-    for line in _lines(parts):
+    for line in _lines(statements):
         for assignment in line.points():
             values = completed(assignment, line.model)
             for relation in line.relations:
-                for entry in range(len(relation.left)):
+                for entry in range(len(relation.lhs)):
                     if breaks(relation, entry, values):
                         return _broken(line, relation, entry, simplest(relation, entry, assignment, line.model))
     raise ValueError("there is no counterexample")
@@ -182,13 +182,16 @@ def _broken(line: Line, relation: Relation, entry: int, values: dict[Value, Valu
     runs = 1
     for _, choice in numbers:
         runs *= len(choice)
-    each = len(relation.left) // runs
-    rows, run = list[str](), entry // each
+    components = len(relation.lhs) // runs
+    rows, run = list[str](), entry // components
     for index, choice in reversed(numbers):
         rows.insert(0, f"{index} = {choice[run % len(choice)]}")
         run //= len(choice)
-    sides = [f"({side})[{entry % each}]" if each > 1 and side != "0" else f"({side})" for side in line.sides(relation)]
-    letters = set().union(*(sympy.sympify(side[entry]).free_symbols for side in (relation.left, relation.right)))
+    sides = [
+        f"({side})[{entry % components}]" if components > 1 and side != "0" else f"({side})"
+        for side in line.sides(relation)
+    ]
+    letters = set().union(*(sympy.sympify(side[entry]).free_symbols for side in (relation.lhs, relation.rhs)))
     point = {symbol: value for symbol, value in values.items() if symbol in letters}
     digits = "" if all(value.is_Rational for value in point.values()) else ".n(30)"
     sign = {"=": "=="}.get(relation.sign, relation.sign)
@@ -207,35 +210,35 @@ def _stated(line: Line, rows: Sequence[str]) -> Rows:
     definitions = [f"{name} = {line.definition(name)}" for name in line.in_order()]
     text = "\n".join([*definitions, *rows])
     letters = [f"{name} = {line.plain(value)}" for name, value in line.used.items() if line.is_said(name, value)]
-    needed = line.needed()
+    symbols = line.symbols_reached()
     if re.search(r"\bd\(", text):
         letters += [f"# the rates in flow: {line.model.laws}"] * bool(line.model.laws)
-        letters += [f"flow = {line.table({s: v for s, v in line.model.flow.items() if s in needed})}", _RATE]
+        letters += [f"flow = {line.table({s: v for s, v in line.model.flow.items() if s in symbols})}", _RATE]
     if "at0(" in text:
-        letters += [f"start = {line.table({s: v for s, v in line.model.start.items() if s in needed})}", _START]
+        letters += [f"start = {line.table({s: v for s, v in line.model.start.items() if s in symbols})}", _START]
     bindings = (
-        [] if "point = " in text else [pair for pair in reversed(ordered(line.model.bindings)) if pair[0] in needed]
+        [] if "point = " in text else [pair for pair in reversed(ordered(line.model.bindings)) if pair[0] in symbols]
     )
-    turned, bindings = _rotation(line, bindings)
+    rotation_rows, bindings = _rotation(line, bindings)
     pairs = ", ".join(f"({line.plain(symbol)}, {line.plain(value)})" for symbol, value in bindings)
-    letters += [f"where = [{pairs}]"] * bool(bindings or turned) + turned
-    rows = rows if bindings or turned else [row.replace(_WHERE, "") for row in rows]
+    letters += [f"where = [{pairs}]"] * bool(bindings or rotation_rows) + rotation_rows
+    rows = rows if bindings or rotation_rows else [row.replace(_WHERE, "") for row in rows]
     return line.assumptions(), [*letters, *definitions, *rows]
 
 
 def _rotation(line: Line, bindings: list[tuple[Value, Value]]) -> tuple[list[str], list[tuple[Value, Value]]]:
     """Return the rows that make a rotation of nine symbols by Cayley's formula, and the other substitutions."""
-    turned = [(symbol, value) for symbol, value in bindings if value in set(rotation())]
-    if len(turned) < 9:
+    rotation_entries = [(symbol, value) for symbol, value in bindings if value in set(rotation())]
+    if len(rotation_entries) < 9:
         return [], bindings
-    turned.sort(key=lambda pair: str(pair[0]))
-    symbols = ", ".join(line.plain(symbol) for symbol, _ in turned)
+    rotation_entries.sort(key=lambda pair: str(pair[0]))
+    symbols = ", ".join(line.plain(symbol) for symbol, _ in rotation_entries)
     line.symbols += [symbol for symbol in sympy.symbols("q1:4", real=True) if symbol not in line.symbols]
     rows = [
         f"C = Matrix([{', '.join(line.plain(q) for q in sympy.symbols('q1:4', real=True))}]).hat()",
         f"where += zip([{symbols}], ((eye(3) + C) * (eye(3) - C).inv()).applyfunc(cancel))",
     ]
-    return rows, [pair for pair in bindings if pair not in turned]
+    return rows, [pair for pair in bindings if pair not in rotation_entries]
 
 
 def _wrapped(row: str) -> str:

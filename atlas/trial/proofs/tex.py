@@ -85,12 +85,12 @@ class _Table:
 
     letters: Mapping[_Letter, str] = field(default_factory=dict)
     phrases: tuple[tuple[tuple[str, ...], str], ...] = ()
-    left: str = ""
+    left_side: str = ""
 
-    def taken(self, letter: _Letter) -> set[str]:
+    def names_of_others(self, letter: _Letter) -> set[str]:
         """Return the plain names that the table gives to letters other than this one, bold or not."""
         bare = replace(letter, base=letter.base.split()[-1])
-        return {plain for other, plain in self.letters.items() if replace(other, base=other.base.split()[-1]) != bare}
+        return {plain for entry, plain in self.letters.items() if replace(entry, base=entry.base.split()[-1]) != bare}
 
 
 def line(tex: str, signs: Mapping[str, str]) -> str:
@@ -147,8 +147,8 @@ def _table(signs: tuple[tuple[str, str], ...]) -> _Table:
                 letters[letter] = plain
                 continue
         phrases[tuple(tokens)] = plain
-    left = phrases.pop((), "")
-    return _Table(letters, tuple(sorted(phrases.items(), key=lambda phrase: -len(phrase[0]))), left)
+    left_side = phrases.pop((), "")
+    return _Table(letters, tuple(sorted(phrases.items(), key=lambda phrase: -len(phrase[0]))), left_side)
 
 
 def _tokens(tex: str) -> list[str]:
@@ -254,8 +254,8 @@ class _Formula:
         if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
             return [write(parse(self.tokens[0].plain))]
         sides, operators, lines = [self.sum()], list[ast.cmpop](), list[str]()
-        if self.table.left:
-            sides, operators = [_expression(self.table.left), *sides], [ast.Eq()]
+        if self.table.left_side:
+            sides, operators = [_expression(self.table.left_side), *sides], [ast.Eq()]
         while self.peek() in _SIGNS:
             sign = _SIGNS[str(self.take())]()
             if self.peek() == r"\text{const}" and isinstance(sign, ast.Eq):
@@ -278,11 +278,11 @@ class _Formula:
         """Return the next mark, "" at the end."""
         return self.tokens[self.position + ahead] if self.position + ahead < len(self.tokens) else ""
 
-    def take(self, wanted: str = "") -> _Token:
-        """Take the next mark, which must be the one that is wanted."""
+    def take(self, mark: str = "") -> _Token:
+        """Return the next mark and step past it; UnreadableError if it is not `mark`, where one is given."""
         here = self.peek()
-        if here == "" or (wanted and here != wanted):
-            raise UnreadableError(f"{wanted or 'something'} is missing where the formula has {here or 'its end'}")
+        if here == "" or (mark and here != mark):
+            raise UnreadableError(f"{mark or 'something'} is missing where the formula has {here or 'its end'}")
         self.position += 1
         return here
 
@@ -585,14 +585,14 @@ class _Formula:
         return value
 
     def meant(self, letter: _Letter) -> ast.expr:
-        """Return the plain name of a letter without dots."""
+        """Return the syntax tree of a letter without dots: a name, or an entry of an array."""
         if letter in self.table.letters:
             return _expression(self.table.letters[letter].removesuffix("[]"))
         bare = _Letter(letter.accents, letter.base, letter.primes, ())
         prefix = "".join(_ACCENTS[accent] for accent in letter.accents)
         name = prefix + _name(letter.base.split(" ")[-1].strip("\\")) + "p" * letter.primes
         vocabulary = self.table.letters.get(bare)
-        if name + "".join(letter.below) in self.table.taken(letter):
+        if name + "".join(letter.below) in self.table.names_of_others(letter):
             raise UnreadableError(f"{name}{''.join(letter.below)} is the name of another letter")
         if letter.below and not (vocabulary is None and all(mark.isdigit() for mark in letter.below)):
             array = _expression(vocabulary.removesuffix("[]")) if vocabulary else ast.Name(name)
@@ -608,7 +608,7 @@ _COMMON = {r"\mathbf{1}": "one", r"\epsilon": "eps[]"}
 
 
 def _expanded(term: ast.expr, index: str, sign: str) -> ast.expr:
-    """Return a product or a sum of a term with the index 1, 2, 3."""
+    """Return the product, or by `+` the sum, of a term with its index at 1, 2 and 3."""
     text = ast.unparse(term)
     return _expression(sign.join("(" + re.sub(rf"\b{index}\b", str(n), text) + ")" for n in (1, 2, 3)))
 
@@ -637,8 +637,8 @@ def _call(name: str, *arguments: ast.expr) -> ast.Call:
     return ast.Call(ast.Name(name), list(arguments), [])
 
 
-def _product(left: ast.expr | None, right: ast.expr) -> ast.expr:
-    return right if left is None else ast.BinOp(left, ast.Mult(), right)
+def _product(product: ast.expr | None, factor: ast.expr) -> ast.expr:
+    return factor if product is None else ast.BinOp(product, ast.Mult(), factor)
 
 
 def _minus(term: ast.expr) -> ast.expr:

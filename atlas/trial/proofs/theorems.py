@@ -31,7 +31,7 @@ ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, an
 
 
 def quartic_model() -> Model:
-    """Any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
+    """Model any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
     basis = state_model().letters
     names = ("E", "c3", "c5", "I", "Bsquare")
     fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
@@ -64,9 +64,9 @@ def stability_model() -> Model:
 
 def short_model() -> Model:
     """Model Q on the hyperbola for 1 <= I <= 2 and any real X but 0."""
-    X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
-    bindings = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + more})), (omega2, X - B2), (B3, tau * B2)]
-    letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + more), "X": X, "tau": tau, "I": 1 + more}
+    X, surplus = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
+    bindings = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + surplus})), (omega2, X - B2), (B3, tau * B2)]
+    letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + surplus), "X": X, "tau": tau, "I": 1 + surplus}
     return Model({**LETTERS, **letters}, bindings, domains={"more": "unit"})
 
 
@@ -81,20 +81,20 @@ def _slope_in_squares() -> Value:
 
 def places_model(*, within: bool) -> list[Model]:
     """Model x^2 = z within the band, its ends among them, or outside, below and above it; 8 tau^2 = 1 - root^2."""
-    share, more = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
+    share, surplus = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
     long, cases = 1 - 1 / (1 + excess), []
     for root in ROOTS:
         t2 = (1 - root**2) / 8
         low, high = (long * (1 - 2 * t2 + side * root) / (2 * (1 + t2)) for side in (-1, 1))
         inside = [(low + share * high) / (1 + share), (share * low + high) / (1 + share)]
-        for place in inside if within else [low / (1 + more), high + more]:
+        for place in inside if within else [low / (1 + surplus), high + surplus]:
             letters = {"nun2": _slope_in_squares().subs({T2: t2, I: 1 - long, z: place}), "t2": t2, "I": 1 - long}
             cases.append(Model({**letters, "z": place}, domains={"share": "positive"}))
     return cases
 
 
 def above_model() -> Model:
-    """8 tau^2 = 1 + gain and I < 1; z = x^2 is any positive number."""
+    """Return the model with 8 tau^2 = 1 + gain and I < 1; z = x^2 is any positive number."""
     t2, scale = (1 + r) / 8, 1 / (1 + excess)
     slope = _slope_in_squares().subs({T2: t2, I: scale})
     return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
@@ -125,21 +125,21 @@ def leaving_model() -> Model:
 
 
 def equatorial_model() -> Model:
-    """B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
+    """Return the model with B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
     lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
     rates = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
     return Model({**LETTERS, **rates}, [(B3, sympy.Integer(0))])
 
 
 def ball_nutation_model() -> Model:
-    """I = 1 and any initial angular velocity."""
+    """Return the model with I = 1 and any initial angular velocity."""
     spin = sympy.Matrix([omega1, omega2, omega3])
     Q = quartic(spin, sympy.Integer(1))
     return Model({"nun2": Q["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
 
 
 def torque_model() -> Model:
-    """(17) for any symmetric mass matrix and any Omega."""
+    """Return the model of (17) for any symmetric mass matrix and any Omega."""
     basis = euler_poisson.magnetic_model()
     R, tensor, mass = (basis.letters[name] for name in ("R", "I", "g"))
     spin, field = euler_poisson.Omega, euler_poisson.Bf
@@ -158,16 +158,16 @@ def lines_model() -> list[Model]:
 def turning_model(case: str) -> Model:
     """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
     e = elementary
-    first, axis, bindings = (
+    precession, axis, bindings = (
         (e.b, sympy.Matrix([0, e.hB2, e.hB3]), [(I, sympy.Integer(1))])
         if case == "ball"
         else (e.B2, sympy.Matrix([0, 1, 0]), [(e.u, sympy.Integer(1))])
     )
-    second = omega3 + e.B3 if case == "ball" else omega3
-    flow = {e.ck: -first * e.sk, e.sk: first * e.ck, e.cf: -second * e.sf, e.sf: second * e.cf}
+    spin_rate = omega3 + e.B3 if case == "ball" else omega3
+    flow = {e.ck: -precession * e.sk, e.sk: precession * e.ck, e.cf: -spin_rate * e.sf, e.sf: spin_rate * e.cf}
     letters = {**e.CONSTANTS, "Omega": e.SPIN.xreplace({omega2: -e.B2}), "b": e.b, "J": e.TENSOR, "g": e.MASS}
     letters["Bp"] = sympy.Matrix([0, e.B2, e.B3])
-    phases = {first * e.t: (e.ck, e.sk), second * e.t: (e.cf, e.sf)}
+    phases = {precession * e.t: (e.ck, e.sk), spin_rate * e.t: (e.cf, e.sf)}
     model = Model(letters, [*e.ANGLES, *e.FIELD, *bindings], flow, e.START, phases, e.DOMAINS)
     model.letters |= {"about_z": model.about(ball.E3), "about_B" if case == "ball" else "about_y": model.about(axis)}
     return model
@@ -197,8 +197,8 @@ def angles_model() -> Model:
         bindings += [(cosine, turn(tangent)[0]), (sine, turn(tangent)[1])]
     basis = {name: (c**2 - s**2, 2 * c * s) for name, (c, s) in halves.items()}
     axes = ball.E3, sympy.Matrix([1, 0, 0]), ball.E3
-    first, second, third = (rodrigues(axis, *basis[name]) for name, axis in zip(names, axes, strict=True))
-    R = first * second * third
+    R_psi, R_theta, R_chi = (rodrigues(axis, *basis[name]) for name, axis in zip(names, axes, strict=True))
+    R = R_psi * R_theta * R_chi
     model = Model({}, bindings, flow)
     W = R.T * R.applyfunc(model.rate)
     spin = sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])
@@ -219,11 +219,7 @@ _CONDITION = sides(read("theorem-points", SIGNS).split("; ")[-1])[1]
 
 TRIALS = {
     "theorem-quartic": Trial(
-        model=quartic_model,
-        follows="@(38) to @(41), for any state",
-        defines=("Q",),
-        solves="leading(Q(u)) = I - 1",
-        false=Falsehood("The quartic is that of the ball for every body", "E - I*u^2", "E - u^2"),
+        model=quartic_model, defines=("Q",), solves="leading(Q(u)) = I - 1", false=Falsehood("E - I*u^2", "E - u^2")
     ),
     "theorem-points": Trial(
         signs={
@@ -231,41 +227,14 @@ TRIALS = {
             " = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)"
         },
         model=state_model,
-        follows=r"@(38) and @(39) at $t = 0$, and the cubic at $\omega_3$",
         also=(Part(line=f"p = {_CONDITION}", model=lambda: Model({**LETTERS, "p": at_start(omega3)})),),
-        note=r"A constant $\Omega_3$ has both rates zero. Conversely, the two rates obey linear equations along every "
-        r"motion: that of the first is the second, that of the second the first times the slope of the cubic @(47). "
-        "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @(67) and, "
-        "for $I = 1$, the line of @theorem-ball-line.",
-        false=Falsehood(r"$\Omega_3$ starts with the rate $\omega_1 B'_3$", "omega1*B2", "omega1*B3"),
+        false=Falsehood("omega1*B2", "omega1*B3"),
     ),
-    "theorem-stability": Trial(
-        model=stability_model,
-        follows="@(48) as corrected, on the hyperbola @(71)",
-        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
-        "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @(47).",
-        false=Falsehood(
-            "The square of the nutation frequency is a sum of positive terms for every $I < 1$",
-            "(2*tau^2 - 1)",
-            "(2*tau^2 + 1)",
-        ),
-    ),
-    "theorem-root": Trial(
-        defines=("nun2",),
-        model=root_model,
-        follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
-        note=r"Where $\nu_n^2 > 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
-        r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
-        false=Falsehood("At an end of the band the motion leaves by $2B'_3$", "(4*B3 - v)", "(2*B3 - v)"),
-    ),
-    "theorem-stable-short": Trial(
-        model=short_model,
-        follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
-        false=Falsehood("The bound holds from above", "> (I", "< (I"),
-    ),
+    "theorem-stability": Trial(model=stability_model, false=Falsehood("(2*tau^2 - 1)", "(2*tau^2 + 1)")),
+    "theorem-root": Trial(defines=("nun2",), model=root_model, false=Falsehood("(4*B3 - v)", "(2*B3 - v)")),
+    "theorem-stable-short": Trial(model=short_model, false=Falsehood("> (I", "< (I")),
     "theorem-band": Trial(
         model=lambda: places_model(within=True),
-        follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
         signs={"x^2": "z", r"\tau^2": "t2", "y_-": "ym", "y_+": "yp", r"\tau\le\frac{1}{2\sqrt2}": "8*t2 <= 1"},
         defines=("ym", "yp"),
         form=_and_only_there,
@@ -280,14 +249,10 @@ TRIALS = {
             ),
             Part(line="1 - I > 0; gain > 0", model=above_model),
         ),
-        note=r"Positive below and above the two roots, not positive between them and at them; for $8 \tau^2 > 1$ "
-        "positive everywhere. Inside the band the motion is unstable by @theorem-root, at its ends by "
-        "@theorem-band-ends.",
-        false=Falsehood("Inside the band the motions are stable", "nun2 <= 0", "nun2 > 0"),
+        false=Falsehood("nun2 <= 0", "nun2 > 0"),
     ),
     "theorem-band-ends": Trial(
         model=leaving_model,
-        follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
         signs={r"\nu_n=0": ""},
         defines=("Omega3",),
         solves="d(Omega3)^2 = Q(Omega3); 2*d2(Omega3) = dQ(Omega3); at0(Omega3) = omega3 + 4*B3",
@@ -297,92 +262,55 @@ TRIALS = {
                 model=lambda: Model({"I": 1 / (1 + excess), "B3": B3, "v": 4 * B3 / (1 + r)}),
             ),
         ),
-        note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
-        r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
-        r"@(42) brings $\mathbf{K}$ near as well.",
-        false=Falsehood("It leaves to infinity in a finite time", "(1 + 4*(1 - I)", "(1 - 4*(1 - I)"),
+        false=Falsehood("(1 + 4*(1 - I)", "(1 - 4*(1 - I)"),
     ),
     "theorem-equatorial-stability": Trial(
         model=equatorial_model,
         signs={r"\omega_2=-B'_2:\quad\nu_n^2": "upright", r"\omega_3=0:\quad\nu_n^2": "level"},
-        follows=r"@(48) as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
-        note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $\nu_n = 0$ is fourfold, and for "
-        "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
-        false=Falsehood(
-            r"With $\omega_2 = -B'_2$ every spin is stable",
-            "I^2*omega3^2 - (1 - I)*B2^2",
-            "I^2*omega3^2 + (1 - I)*B2^2",
-        ),
+        false=Falsehood("I^2*omega3^2 - (1 - I)*B2^2", "I^2*omega3^2 + (1 - I)*B2^2"),
     ),
-    "theorem-ball-nutation": Trial(
-        model=ball_nutation_model,
-        follows="@(48) as corrected, with $I = 1$",
-        note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
-        r"ball rests in Larmor's frame, and pushed by $\delta$ it turns in that frame with the angular velocity "
-        r"$\delta$, however small.",
-        false=Falsehood("The ball nutates with its angular velocity in the laboratory", "omega + Bp", "omega"),
-    ),
+    "theorem-ball-nutation": Trial(model=ball_nutation_model, false=Falsehood("omega + Bp", "omega")),
     "theorem-ball-line": Trial(
         model=lambda: turning_model("ball"),
-        follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
         solves=elementary.MOTION,
-        false=Falsehood(r"The proper rotation is the spin $\omega_3$", "(omega3 + B3)", "omega3"),
+        false=Falsehood("(omega3 + B3)", "omega3"),
     ),
     "theorem-equatorial-field": Trial(
         model=lambda: turning_model("equator"),
-        follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
         solves=elementary.MOTION,
-        false=Falsehood("The proper rotation is counted from Larmor's frame", "omega3*t", "(omega3 + B2)*t"),
+        false=Falsehood("omega3*t", "(omega3 + B2)*t"),
     ),
     "theorem-quadric-lines": Trial(
-        model=lines_model,
-        also=(read("(50)", SIGNS),),
-        follows=r"@(50) by substitution, any $\omega_3$",
-        false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),
+        model=lines_model, also=(read("(50)", SIGNS),), false=Falsehood("omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0")
     ),
     "theorem-momentum": Trial(
         signs={r"\dot{\mathbf{m}}": "dm"},
         model=elementary.matrix_model,
-        follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
-        false=Falsehood("The angular momentum precesses against the axis", "k*cross(hat_B, m)", "k*cross(m, hat_B)"),
+        false=Falsehood("k*cross(hat_B, m)", "k*cross(m, hat_B)"),
     ),
     "theorem-moment": Trial(
         signs={r"\dot{\mathbf{m}}": "dm", r"\mathbf{B}": "Bf"},
         model=torque_model,
-        follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
-        false=Falsehood("The equation of the magnetic moment holds for every body", " - d(R*I*T(R)*Bf)", ""),
+        false=Falsehood(" - d(R*I*T(R)*Bf)", ""),
     ),
     "theorem-drift": Trial(
         signs=PARTICLE_SIGNS | {r"\mathbf{E}": "E"},
         model=drift_model,
-        follows="@(89) solved for the velocity that does not change, for either sign of the charge",
-        note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
-        false=Falsehood("A negative charge drifts the other way", "c*cross(E, Bf)", "mu/abs(mu)*c*cross(E, Bf)"),
+        false=Falsehood("c*cross(E, Bf)", "mu/abs(mu)*c*cross(E, Bf)"),
     ),
     "theorem-ball-rest": Trial(
-        model=rest_model,
-        follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
-        defines=("R",),
-        solves=ball.LINEAR,
-        false=Falsehood(r"The ball turns by $+\alpha t$", "-alpha*t", "alpha*t"),
+        model=rest_model, defines=("R",), solves=ball.LINEAR, false=Falsehood("-alpha*t", "alpha*t")
     ),
     "theorem-angles": Trial(
         signs={r"\dot\psi": "psi1", r"\dot\chi": "chi1"},
         model=angles_model,
-        follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
-        false=Falsehood(
-            "The proper rotation is the component of the angular velocity along the axis",
-            "chi1 = u - nu*psi1",
-            "chi1 = u",
-        ),
+        false=Falsehood("chi1 = u - nu*psi1", "chi1 = u"),
     ),
     "theorem-cayley-klein": Trial(
         signs={r"\frac{\dot\xi}{\xi}": "xi", r"\frac{\dot\eta}{\eta}": "eta"},
         model=angles_model,
-        follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "
-        r"\chi)/2)$: moduli and arguments",
-        false=Falsehood("The spin enters both arguments with the same sign", "(1 - nu) - u", "(1 - nu) + u"),
+        false=Falsehood("(1 - nu) - u", "(1 - nu) + u"),
     ),
 }

@@ -126,17 +126,10 @@ def border_model() -> list[Model]:
 
 TRIALS = {
     "theorem-every-top": Trial(
-        model=state_model,
-        defines=("q",),
-        also=("d(M3) = 0; d(p) = 0; d(h) = 0",),
-        follows=r"the equations at any state, $g = 2h - M_3^2/I + 2 k_2 p - k_2^2$ with the kinetic energy and $U$ in "
-        "$h$, and the rates of @theorem-angles",
-        false=Falsehood("The coupling adds nothing to the linear term: $a = a_0$", "2*a*nu", "2*a0*nu"),
+        model=state_model, defines=("q",), also=("d(M3) = 0; d(p) = 0; d(h) = 0",), false=Falsehood("2*a*nu", "2*a0*nu")
     ),
     "theorem-top-precession": Trial(
         model=precession_model,
-        follows=r"@theorem-every-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, "
-        r"and $q'(\nu_0)$ is then a multiple of the first",
         arrows={
             1: Part(
                 line="q(nu0) = (1 - nu0^2)*(g - 2*a*nu0 - A*nu0^2 - w^2*(1 - nu0^2));"
@@ -144,43 +137,31 @@ TRIALS = {
                 model=quartic_model,
             )
         },
-        false=Falsehood("The two rates are those of the heavy top", "a + A*nu0", "a"),
+        false=Falsehood("a + A*nu0", "a"),
     ),
     "theorem-top-nutation": Trial(
         model=precession_model,
-        follows=r"@theorem-top-precession: $M_3 w = \nu_0 w^2 + a + A \nu_0$",
         elsewhere={1: marginal_model, 2: marginal_model},
         also=("q(nu0) = 0; dq(nu0) = 0",),
-        note=r"Where $a = -2 A \nu_0$ too the root is fourfold, $q = A (\nu - \nu_0)^4$, and the sign of $A$ decides.",
-        false=Falsehood("The linear term makes no nutation faster or slower", "- 2*a*nu0", "- 0*a*nu0"),
+        false=Falsehood("- 2*a*nu0", "- 0*a*nu0"),
     ),
     "theorem-sleeping-top": Trial(
         model=sleeping_model,
         signs={"q": "q"},
         elsewhere={1: border_model, 2: border_model},
-        follows=r"@theorem-every-top with $p = \sigma M_3$ and the energy of the spin",
-        false=Falsehood(
-            "The spin steadies the top as strongly at every angle", "(1 + sigma*nu)*(2*sigma*a", "2*(2*sigma*a"
-        ),
+        false=Falsehood("(1 + sigma*nu)*(2*sigma*a", "2*(2*sigma*a"),
     ),
     "theorem-top-quadric": Trial(
         model=start_model,
-        follows=r"@theorem-every-top: the rates of $\nu$ by the equations, at $t = 0$; the quadratic form is that of "
-        r"@(51) with $\mathbf{n}$ in the place of $\mathbf{B}'$",
         defines=("w", "v"),
         also=(Part(line="n2*k3/I = b*n2; n3/I*(k3 - 2*kappa) = b*n3; D = (I - 1)*b^2", model=paper_model),),
-        false=Falsehood(
-            "The kind is the sign of $A$ and of the weight alone", "D = A + kappa^2 + a0/n3", "D = A + a0/n3"
-        ),
+        false=Falsehood("D = A + kappa^2 + a0/n3", "D = A + a0/n3"),
     ),
     "theorem-top-hyperbola": Trial(
         model=turns_model,
-        follows=r"the equations by substitution, at any phase of the turn about the axis",
         defines=("v", "psi1", "chi1"),
         solves="d(b) = cross(b,psi1*b + chi1*e3); J*d(psi1*b + chi1*e3) + k*d(b)"
         " = cross(J*(psi1*b + chi1*e3) + k*b,psi1*b + chi1*e3) + cross(k*(psi1*b + chi1*e3) - U*e3,b)",
-        false=Falsehood(
-            "The paper's hyperbola is that of every top: the constant is $A$", "n3*(w^2 + n2^2*D)", "n3*(w^2 + n2^2*A)"
-        ),
+        false=Falsehood("n3*(w^2 + n2^2*D)", "n3*(w^2 + n2^2*A)"),
     ),
 }

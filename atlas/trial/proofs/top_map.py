@@ -32,8 +32,8 @@ def spin_model() -> list[Model]:
     for sense in (1, -1):
         M, b = vector("M"), vector("b")
         letters: dict[str, Value] = {"sigma": sympy.Integer(sense), "a": a, "A": A, "nu": b[2], "M3": M[2]}
-        across = sympy.Matrix(b[:2])
-        letters |= {"z": across, "momentum": sympy.Matrix(M[:2]) - sense * M[2] * across / 2}
+        tilt = sympy.Matrix(b[:2])
+        letters |= {"z": tilt, "momentum": sympy.Matrix(M[:2]) - sense * M[2] * tilt / 2}
         letters |= {"p": dot(M, b), "g": M[0] ** 2 + M[1] ** 2 + 2 * a * b[2] + A * b[2] ** 2}
         models.append(Model(letters, list(zip(b, direction(), strict=True))))
     return models
@@ -53,33 +53,12 @@ def residue_model() -> list[Model]:
 
 TRIALS = {
     "theorem-cusp": Trial(
-        arrows={1: None},
-        model=cusp_model,
-        follows=r"@theorem-every-top: the axis stops where $\dot\nu$ and $\dot\psi$ vanish together",
-        defines=("p",),
-        note=r"At a simple root $\nu - \nu_c$ begins with $q'(\nu_c) t^2/4$ and $\psi$ with $t^3$, unless $M_3 = 2 k_2 "
-        r"\nu_c$: a cusp along the meridian. Where $\dot\psi$ changes its sign inside the range of $\nu$ the trace "
-        r"has loops, where it has one sign throughout, waves. For $k_2 = 0$, $\nu_c = p/M_3$, and Lagrange's top "
-        "has cusps exactly if $g = 2 a p/M_3$.",
-        false=Falsehood("The energy of a cusp does not depend on the coupling", " - k2^2*(1 - nuc^2)", ""),
+        arrows={1: None}, model=cusp_model, defines=("p",), false=Falsehood(" - k2^2*(1 - nuc^2)", "")
     ),
     "theorem-focus": Trial(
-        model=spin_model,
-        apart=(r"$g = 2 \sigma a + A$",),
-        follows=r"@theorem-every-top, where $g - 2a\nu - A\nu^2 = M_1^2 + M_2^2$, the square of the axis's velocity "
-        "but for the turn by $-k_2$",
-        defines=("D",),
-        note=r"$1 - \sigma\nu$ is of second order. With $D = -4c^2$ the first form is $(\boldsymbol\pi - c\mathbf{z}, "
-        r"\boldsymbol\pi + c\mathbf{z})$, and with the second it is the normal form of focus and focus. For $D > 0$ "
-        "it is a sum of squares.",
-        false=Falsehood("The weight does not enter the second order", "4*(sigma*a + A)", "4*A"),
+        model=spin_model, excluded=(r"$g = 2 \sigma a + A$",), defines=("D",), false=Falsehood("4*(sigma*a + A)", "4*A")
     ),
     "theorem-residue": Trial(
-        model=residue_model,
-        also=("root^2 = q(sigma)",),
-        follows=r"@theorem-every-top, $q(\sigma) = -(p - \sigma M_3)^2$",
-        note=r"So a path of $\nu$ that is drawn across $\sigma$ changes an angle by $2\pi i r = \pm\pi$, and a period, "
-        "which goes to and fro, by a full turn.",
-        false=Falsehood(r"Both angles have the same residue at $\nu = 1$ and at $-1$", "-sigma*res_dpsi", "res_dpsi"),
+        model=residue_model, also=("root^2 = q(sigma)",), false=Falsehood("-sigma*res_dpsi", "res_dpsi")
     ),
 }

@@ -8,11 +8,10 @@ import sympy
 
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.proofs import tex
-from atlas.trial.proofs.assumed import Read, held
+from atlas.trial.proofs.assumed import Read, compare
 from atlas.trial.proofs.decide import Outcome, decide, understood
 from atlas.trial.proofs.model import COMMON, Model, Value
 from atlas.trial.proofs.notation import NoMeaningError, Reader, parse, sides
-from atlas.trial.proofs.verdict import Grade
 
 Cases = Model | Sequence[Model]
 
@@ -26,10 +25,13 @@ def _made(model: Callable[[], Cases]) -> Sequence[Model]:
 
 @cache
 def _assumed(
-    assumptions: tuple[str, ...], signs: tuple[tuple[str, str], ...], model: Callable[[], Cases], apart: tuple[str, ...]
+    assumptions: tuple[str, ...],
+    signs: tuple[tuple[str, str], ...],
+    model: Callable[[], Cases],
+    excluded: tuple[str, ...],
 ) -> Read:
     """Hold assumptions against a model, once for all forms that are tried."""
-    return held(assumptions, dict(signs), _made(model), apart)
+    return compare(assumptions, dict(signs), _made(model), excluded)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,22 +48,20 @@ class Part:
         """The models in which the line is tried."""
         return _made(self.model)
 
-    def outcome(self, **wanted: bool) -> Outcome:
-        """Try the line; `wanted` are keywords of `decide`."""
-        return decide(self.line, self.cases, defines=self.defines, solves=self.solves, **wanted)
+    def outcome(self, **options: bool) -> Outcome:
+        """Return the outcome of the line in its models; `options` are keywords of `decide`."""
+        return decide(self.line, self.cases, defines=self.defines, solves=self.solves, **options)
 
 
 @dataclass(frozen=True)
 class Falsehood:
-    """A false sentence near a claim, which its trial must refute: else the trial would let the claim pass unread.
+    """Change of a line that makes the false sentence of an entry, which its trial must refute.
 
-    says    the sentence
     right   piece of the true form that is replaced, in the first line that has the piece; empty if none is
     wrong   piece in that place
     model   model of the false sentence, if not that of the claim
     """
 
-    says: str
     right: str = ""
     wrong: str = ""
     model: Callable[[], Cases] | None = None
@@ -73,50 +73,41 @@ class Trial:
 
     name       that of the entry, the key under which its topic has it
     model      function that makes the model, or a model for each case of the claim
-    follows    premises of the printed form, in a few words
     signs      meanings of letters and phrases of its TeX beside those of its topic; see `tex`
     form       change of the line that is made from the TeX, such as `notation.conserved`
     tex        the TeX, if it is not that of the ledger
     defines    letters that the printed form defines
     solves     line that must hold with these letters
     elsewhere  other models of single statements, by their place in the line
-    apart      clauses of its assumptions whose letters are not those of `model`: they are named as not read
+    excluded   clauses of its assumptions whose letters are not those of `model`: they are named as not read
     arrows     for each arrow of the formula, by the number of statements before it: None at a single one,
                whose premise the model has or the line defines; at a double one the line that tries it in both
                directions, empty where `form` makes that of its two sides
     also       further lines that the claim needs: parts, or the lines alone where they are of the same model
     definition whether the entry only defines its letters: then it is a definition and not proved
-    grade      kind of slip, if it needs an erratum: it is refuted, or true but incomplete
-    slip       the entry under which the slip is counted, if it is the same one; its grade then is this one's, too
-    corrected_tex  the true form where there is a slip, in which `\boxed` marks the changes; `corrected_signs`,
-               `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
-               those of the printed form, and `corrected_also`
-    note       meaning of the verdict, where a word is needed
-    false      a false sentence near it; a claim in words must have one, unless the claim is refuted
+    corrected_tex  the true form, that of the ledger; `corrected_signs`, `corrected_model`, `corrected_defines`,
+               `corrected_solves` where they differ from those of the printed form, and `corrected_also`
+    false      change that makes the false sentence of the entry from the line
     """
 
     name: str = ""
     model: Callable[[], Cases]
-    follows: str
     signs: Mapping[str, str] = field(default_factory=dict)
     form: Callable[[str], str] = str
     tex: str = ""
     defines: tuple[str, ...] = ()
     solves: str = ""
     elsewhere: Mapping[int, Callable[[], Cases]] = field(default_factory=dict)
-    apart: tuple[str, ...] = ()
+    excluded: tuple[str, ...] = ()
     arrows: Mapping[int, Part | str | None] = field(default_factory=dict)
     also: tuple[Part | str, ...] = ()
     definition: bool = False
-    grade: Grade = ""
-    slip: str = ""
     corrected_tex: str = ""
     corrected_signs: Mapping[str, str] = field(default_factory=dict)
     corrected_model: Callable[[], Cases] | None = None
     corrected_defines: tuple[str, ...] | None = None
     corrected_solves: str | None = None
     corrected_also: tuple[Part, ...] = ()
-    note: str = ""
     false: Falsehood | None = None
 
     @property
@@ -137,11 +128,10 @@ class Trial:
         return Trial(
             name=self.name,
             model=self.corrected_model or self.model,
-            follows=self.follows,
             signs={**self.signs, **self.corrected_signs},
             form=self.form,
             arrows=self.arrows,
-            apart=self.apart,
+            excluded=self.excluded,
             tex=self.corrected_tex,
             defines=self.defines if self.corrected_defines is None else self.corrected_defines,
             solves=self.solves if self.corrected_solves is None else self.corrected_solves,
@@ -161,11 +151,11 @@ class Trial:
     @property
     def assumed(self) -> Read:
         """The assumptions, held against the model of the true form."""
-        return self._held(EQUATIONS[self.name].assumptions)
+        return self._compared(EQUATIONS[self.name].assumptions)
 
-    def _held(self, assumptions: tuple[str, ...]) -> Read:
+    def _compared(self, assumptions: tuple[str, ...]) -> Read:
         case = self.true_form or self
-        return _assumed(assumptions, tuple(case.signs.items()), case.model, self.apart)
+        return _assumed(assumptions, tuple(case.signs.items()), case.model, self.excluded)
 
     @property
     def outside(self) -> str:
@@ -178,7 +168,7 @@ class Trial:
             return ""
         right, wrong = entry.outside
         false = tuple(clause.replace(right, wrong) for clause in entry.assumptions)
-        objection = self._unlike(self._held(false))
+        objection = self._unlike(self._compared(false))
         if false == entry.assumptions or not objection:
             raise ValueError(f"{self.name}: the false domain {wrong} in the place of {right} changes nothing")
         return f"{wrong} in the place of {right}: undecided ({objection.partition(': ')[0]})"
@@ -189,13 +179,13 @@ class Trial:
         statements: dict[Callable[[], Cases], list[str]] = {}
         for place, statement in enumerate(self.printed.split("; ")):
             statements.setdefault(self.elsewhere.get(place, self.model), []).append(statement)
-        first = [
+        printed_parts = [
             Part(line="; ".join(lines), model=model, defines=self.defines, solves=self.solves)
             for model, lines in statements.items()
         ]
         lines = [line for line in (*self.arrows.values(), *self.also) if line]
-        further = [Part(line=line, model=self.model) if isinstance(line, str) else line for line in lines]
-        return (*first, *further)
+        further_parts = [Part(line=line, model=self.model) if isinstance(line, str) else line for line in lines]
+        return (*printed_parts, *further_parts)
 
     @property
     def corrected_parts(self) -> tuple[Part, ...]:
@@ -244,13 +234,15 @@ class Trial:
         return ""
 
     def _unlike(self, read: Read) -> str:
-        """Return the assumption that is false in the model, or leaves a side of the line no value; empty if none."""
+        """Return an assumption that is false in the model, or for which the line has no value; "" if none."""
         if read.broken:
             return f"assumed, and not so in the model: {'; '.join(read.broken)}"
-        part = (self.true_form or self).parts[0]
+        first_statement = (self.true_form or self).parts[0]
         for number, symbol, value in read.special:
-            relations = understood(part.line, part.cases[number], part.defines, part.solves)[0]
-            sides = (sympy.sympify(side) for each in relations for side in (*each.left, *each.right))
+            relations = understood(
+                first_statement.line, first_statement.cases[number], first_statement.defines, first_statement.solves
+            )[0]
+            sides = (sympy.sympify(side) for each in relations for side in (*each.lhs, *each.rhs))
             if any(side.subs(symbol, value).has(sympy.nan, sympy.zoo) for side in sides):
                 return f"assumed, and without a value there: {symbol} = {value}"
         return ""
@@ -267,23 +259,12 @@ def evaluated(name: str, signs: Mapping[str, str], letters: Mapping[str, Value],
     return Reader({**COMMON, **letters}).value(parse(f"{line} = 0")[0].left, {})
 
 
-def mended(name: str, changes: Mapping[str, str], more: str = "") -> str:
-    r"""Return the TeX of an entry with other pieces, each in a \boxed unless it has one, and with more at the end.
-
-    Raises ValueError if a piece is not there.
-    """
-    tex, end = EQUATIONS[name].tex, r" \end{aligned}"
-    for printed, right in changes.items():
-        if printed not in tex:
-            raise ValueError(f"{printed} is not in {name}")
-        tex = tex.replace(printed, right if not right or r"\boxed" in right else rf"\boxed{{{right}}}")
-    return tex.removesuffix(end) + more + (end if tex.endswith(end) else "")
-
-
 def _joined(outcomes: Sequence[Outcome]) -> Outcome:
     """Return the outcome of several lines: refuted if one is, proved if all are."""
     for decision in ("refuted", "undecided", "supported"):
         for outcome in outcomes:
             if outcome.decision == decision:
                 return outcome
-    return Outcome("proved", ", ".join(dict.fromkeys(how for one in outcomes for how in one.method.split(", "))))
+    return Outcome(
+        "proved", ", ".join(dict.fromkeys(how for outcome in outcomes for how in outcome.method.split(", ")))
+    )

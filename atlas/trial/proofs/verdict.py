@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
+from atlas.trial.ledger.equation import Grade
+
 Decision = Literal["proved", "refuted", "undecided", "supported", "definition"]
-Grade = Literal["", "sign of the charge", "gap in the argument", "missing case", "misprint", "wording"]
 GRADES: tuple[Grade, ...] = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
 """The kinds of slips, the grave ones first: wrong physics, a gap in an argument, a result that covers less than
 claimed; then a formula or a sentence whose right form is plain from its context."""
@@ -68,11 +69,11 @@ class Verdict:
     @property
     def example(self) -> str:
         """The counterexample as one line to retype; empty if there is none."""
-        shown = dict(self.counterexample)
-        relation = shown.pop("relation", "")
-        sides = [f"{side}: {shown.pop(side)}" for side in ("left", "right") if side in shown]
-        reason = shown.pop("reason", "")
-        letters = ", ".join(f"{name} = {value}" for name, value in shown.items())
+        letters_and_sides = dict(self.counterexample)
+        relation = letters_and_sides.pop("relation", "")
+        sides = [f"{side}: {letters_and_sides.pop(side)}" for side in ("left", "right") if side in letters_and_sides]
+        reason = letters_and_sides.pop("reason", "")
+        letters = ", ".join(f"{name} = {value}" for name, value in letters_and_sides.items())
         return "; ".join(piece for piece in (reason, letters, relation, *sides) if piece)
 
 
