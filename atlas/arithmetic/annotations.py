@@ -41,11 +41,11 @@ class Body(Protocol):
 
     @property
     def I2(self) -> Any:
-        """Moment across the axis."""
+        """Moment of inertia perpendicular to the axis."""
 
     @property
     def I3(self) -> Any:
-        """Moment along the axis."""
+        """Moment of inertia along the axis."""
 
 
 class VectorField(Protocol):
@@ -57,10 +57,10 @@ class VectorField(Protocol):
 
 
 class AsMatrix(Protocol):
-    """A rotation that gives its matrix, such as a `Rotation` of SciPy."""
+    """A rotation with a method `as_matrix`, such as SciPy's `Rotation`."""
 
     def as_matrix(self) -> Any:
-        """Return the rotation matrix."""
+        """Return the rotation matrix, shape (3, 3) or (N, 3, 3)."""
 
 
 BodyLike: TypeAlias = Body | RealArrayLike

@@ -27,7 +27,7 @@ SPARE_BITS = 1 << 16  # bits of precision beyond those asked for at which the se
 
 @dataclass(frozen=True)
 class Printed:
-    """A number as text, with the count of its digits and whether all that were asked for are proven."""
+    """A number as text, the count of its proven digits, and whether all requested digits are proven."""
 
     text: str
     digits: int
@@ -37,10 +37,10 @@ class Printed:
 def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain", spare: int = SPARE_BITS) -> Any:
     """Return the result of ``function``, each certified number in it as text with ``digits`` proven digits.
 
-    ``function`` takes no argument and computes at the precision of the moment; it returns a number or lists, tuples
-    and dictionaries of them; whatever else it holds (names, None) stays as it is. ``digits`` counts significant
-    digits, in the layout ``fixed`` decimals. Zero is proven only where it is exact; the search for digits of one that
-    is not ends ``spare`` bits beyond.
+    ``function`` takes no argument and computes at the current precision. It returns a number or nested lists, tuples
+    and dictionaries of numbers; other items (names, None) are unchanged. ``digits`` counts significant digits, in the
+    layout ``fixed`` decimals. Zero is proven only where it is exact; the search for digits of any other number ends
+    ``spare`` bits beyond.
     """
     _check(digits, layout)
 
@@ -52,9 +52,9 @@ def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain"
 
 
 def enclosed(function: Callable[[], Any], bits: int) -> Any:
-    """Return the result of ``function``, each ball with a relative radius below 2**-bits or as near as can be had.
+    """Return the result of ``function``, its balls with relative radii below 2**-bits, or as near as possible.
 
-    A ball about zero that lies within 2**-4000 suffices: zero is the float nearest to all that it holds.
+    A ball about zero within 2**-4000 suffices: zero is the float nearest to all its points.
     """
 
     def enough(x: Real) -> bool:
@@ -67,7 +67,7 @@ def enclosed(function: Callable[[], Any], bits: int) -> Any:
 
 
 def printed(value: Real, digits: int, layout: Layout) -> Printed:
-    """Return one number with as many of its digits as are proven."""
+    """Return a number as `Printed`, with its proven digits, at most ``digits``."""
     if isinstance(value, arb) and value == arb("inf"):
         return Printed(INFINITE, digits, complete=True)
     if isinstance(value, arb) and not value.is_finite():

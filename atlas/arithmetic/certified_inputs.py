@@ -47,7 +47,7 @@ def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:
 
 
 def sin_cos(angle: Real) -> tuple[Real, Real]:
-    """Return sine and cosine as balls, and those of zero as the rationals 0 and 1.
+    """Return sine and cosine of an angle as balls; of zero the rationals 0 and 1.
 
     The sine and the cosine of any other algebraic angle are transcendental (Lindemann). So a sum of them with rational
     coefficients, collected term by term, is zero only where every coefficient is, and is then an exact zero here.

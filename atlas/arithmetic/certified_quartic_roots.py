@@ -47,7 +47,7 @@ def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any
 
 
 def _invariants(a0: Any, a1: Any, a2: Any, a3: Any, a4: Any) -> tuple[Any, Any]:
-    """Return g2 and g3."""
+    """Return the invariants (g2, g3) of the quartic a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4."""
     g2 = a0 * a4 - 4 * a1 * a3 + 3 * a2 * a2
     return g2, a0 * a2 * a4 + 2 * a1 * a2 * a3 - a2 * a2 * a2 - a0 * a3 * a3 - a1 * a1 * a4
 
@@ -90,7 +90,7 @@ def discriminant(c: Sequence[Any]) -> Any:
 
 
 def two_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return the roots of b0 x^2 + 2 b1 x + b2, as `four_roots` does; of two the one that does not cancel first."""
+    """Return the two roots of b0 x^2 + 2 b1 x + b2; if real, the one without cancellation first."""
     b0, b1, b2 = b
     root = _root(ball(b1 * b1 - b0 * b2))
     if root.imag.is_zero() and sign(b1):
@@ -100,7 +100,7 @@ def two_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any]
 
 
 def _root(x: arb) -> acb:
-    """Return the square root of a real number, real or imaginary exactly; not finite where its sign is not known."""
+    """Return the square root of a real number, exactly real or imaginary; NaN where the sign is unknown."""
     if x > 0:
         return acb(x.sqrt())
     return acb(0, (-x).sqrt()) if x < 0 else acb(arb("nan"))

@@ -27,13 +27,13 @@ class Surd:
 
     @classmethod
     def root(cls, N: fmpq) -> "Surd":
-        """Return sqrt(N)."""
+        """Return sqrt(N) as a `Surd`, rational where it is."""
         exact = root(N)
         return cls(exact, fmpq(0), N) if isinstance(exact, fmpq) else cls(fmpq(0), fmpq(1), N)
 
     @classmethod
     def rational(cls, x: fmpq) -> "Surd":
-        """Return a rational number."""
+        """Return a rational number as a `Surd`."""
         return cls(x, fmpq(0), fmpq(1))
 
     def of(self, x: "Surd | fmpq | int") -> "Surd":
@@ -79,7 +79,7 @@ class Surd:
 
     @property
     def value(self) -> fmpq | arb:
-        """The number itself where it is rational, else a ball at the precision of the moment."""
+        """The number as an exact rational where it is rational, else as a ball at the current precision."""
         if self.b == 0:
             return self.a
         precision = ctx.prec
@@ -92,7 +92,7 @@ class Surd:
 
 
 def evaluated(p: Polynomial, x: Surd) -> Surd:
-    """Return p(x)."""
+    """Return the value p(x) of a polynomial."""
     value = x.of(0)
     for c in reversed(p):
         value = value * x + c
@@ -100,7 +100,7 @@ def evaluated(p: Polynomial, x: Surd) -> Surd:
 
 
 def derivative(p: Polynomial) -> Polynomial:
-    """Return p'."""
+    """Return the derivative p' of a polynomial."""
     return trimmed([c * n for n, c in enumerate(p)][1:])
 
 
@@ -130,10 +130,10 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
 
 
 def roots(p: Polynomial) -> list[acb]:
-    """Return the roots of a polynomial that has no double one, the real ones first, ascending; no two balls overlap.
+    """Return the simple roots of a polynomial as disjoint balls: the real ones ascending, then the complex ones.
 
-    Of degree four at most. They are as accurate as the precision of the moment, which is
-    raised as far as it takes. DomainError where they are too many orders of magnitude apart.
+    The degree is at most four. The balls are as accurate as the current precision, for which it is raised as far as
+    needed. Raises DomainError where roots are too many orders of magnitude apart.
     """
     if len(p) == 2:
         return [acb((-(p[0] / p[1])).value)]
@@ -160,7 +160,7 @@ def _sorted(values: list[acb]) -> list[acb]:
 
 
 def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
-    """Return the roots in closed form at the precision of the moment, which may not suffice; none from unsure balls."""
+    """Return the roots in closed form at the current precision, perhaps inaccurate; [] where a sign is unknown."""
     formula = {5: four_roots, 4: three_roots, 3: two_roots}[len(p)]
     weights = {5: (1, 4, 6, 4, 1), 4: (1, 3, 3, 1), 3: (1, 2, 1)}[len(p)]
     numbers = p if exact else [_ball(c) for c in p]
@@ -172,7 +172,7 @@ def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
 
 
 class UnsureError(Exception):
-    """The sign of a ball is not known."""
+    """The sign of a ball is unknown: the ball contains zero."""
 
 
 def _sure_sign(x: arb) -> int:
@@ -186,7 +186,7 @@ def _ball(x: Surd) -> arb:
 
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
-    """Return quotient and remainder."""
+    """Return quotient and remainder of polynomials p/q."""
     remainder, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
     for n in range(len(p) - len(q), -1, -1):
         factor = remainder[n + len(q) - 1] / q[-1]
@@ -204,7 +204,7 @@ def gcd(p: Polynomial, q: Polynomial) -> Polynomial:
 
 
 def _minus(p: Polynomial, q: Polynomial) -> Polynomial:
-    """Return p - q."""
+    """Return the difference p - q of polynomials."""
     zero = (p or q)[0].of(0)
     size = max(len(p), len(q))
     first_coefficient, second = ([*x, *[zero] * (size - len(x))] for x in (p, q))

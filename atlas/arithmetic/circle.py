@@ -9,7 +9,7 @@ HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0,
 
 
 def signs(sums: FloatArray) -> FloatArray:
-    """Turn sums of whole numbers and ROUNDER, in place, into the signs 1 of even and -1 of odd ones."""
+    """Replace sums of integers and ROUNDER, in place, by 1.0 for even and -1.0 for odd integers."""
     parity = sums.view(np.int64)
     np.left_shift(parity, SIGN_BIT, out=parity)
     np.bitwise_or(parity, ONE_BITS, out=parity)

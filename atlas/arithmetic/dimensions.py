@@ -30,7 +30,7 @@ def is_quantity(value: Any) -> bool:
 
 
 def bare(value: Any, name: str, unit: str) -> Any:
-    """Return a quantity in that unit of SI, a number or an array; lists are gone through, other values stay.
+    """Return a quantity as a number or array in the SI unit `unit`; lists by component, other values unchanged.
 
     Raises AtlasError for another dimension, for a rate in hertz, and, without a unit, for a value with a dimension.
     """

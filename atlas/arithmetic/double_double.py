@@ -55,7 +55,7 @@ class DoubleDouble:
 
     @property
     def halves(self) -> Any:
-        """Both halves of `hi`, 26 digits each, by Veltkamp: their products are exact."""
+        """Upper and lower half of `hi`, 26 digits each, by Veltkamp: products of halves are exact."""
         if self._halves is None:
             t = self.hi * SPLITTER
             head = t - (t - self.hi)
@@ -160,11 +160,11 @@ class DoubleDouble:
 
     @property
     def low(self) -> Any:
-        """The second word as a number."""
+        """Low word, 0.0 where `lo` is None."""
         return 0.0 if self.lo is None else self.lo
 
     def nearest(self) -> tuple[Any, Any]:
-        """Return the nearest doubles, and where they are so for certain."""
+        """Return the high words, and a mask of those that are certainly the nearest doubles."""
         low, error = self.low, 2 * self.rel * abs(self.hi)
         return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
 
@@ -355,9 +355,9 @@ def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> An
 
 
 def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
-    """Return the inputs with those in `unit` over a power of two, its exponents, and which rows are ordinary then.
+    """Return the inputs, those in `unit` divided by powers of two; and the exponents with a mask of ordinary rows.
 
-    Rows that are `plain` stay as they are.
+    Rows where `plain` is true are unchanged.
     """
     rows = plain.size
     largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in columns[unit])), axis=0)
@@ -380,7 +380,7 @@ def _normal(s: Any, e: Any) -> tuple[Any, Any]:
 
 
 def _product(x: DoubleDouble, y: DoubleDouble) -> tuple[Any, Any]:
-    """Return the product of the first words and its rounding error, by Dekker's algorithm."""
+    """Return the product of the high words and its rounding error, by Dekker's algorithm."""
     (a, b), (c, d) = x.halves, y.halves
     p = x.hi * y.hi
     e = a * c

@@ -45,7 +45,7 @@ class Given:
         return len(self.shape)
 
     def at(self, index: Index) -> fmpq:
-        """Return the exact number at an index of an array to which this one broadcasts."""
+        """Return the exact number at an index of an array to which this array broadcasts."""
         return self._exact(_broadcast_index(self.shape, index))
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
@@ -60,7 +60,7 @@ class Given:
         return self.hi.tolist()
 
     def as_integer_ratio(self) -> tuple[int, int]:
-        """Return one number as a fraction, as a float does."""
+        """Return one number as (numerator, denominator), like float.as_integer_ratio."""
         x = self.at(())
         return int(x.p), int(x.q)
 
@@ -76,7 +76,7 @@ class Given:
         return f"<exact numbers {self.shape}>" if self.shape else repr(Fraction(*self.as_integer_ratio()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copy one number as an exact fraction."""
+        """Return the call that copies one number, as an exact fraction."""
         return exact_number, (Fraction(*self.as_integer_ratio()),)
 
 
@@ -86,7 +86,7 @@ def _broadcast_index(shape: tuple[int, ...], index: Index) -> Index:
 
 
 def exact_number(x: Any) -> Any:
-    """Return a Fraction or a rational number of flint as a float if one is equal, else as a `Given`."""
+    """Return a Fraction or a rational number of flint as the equal float if there is one, else as a `Given`."""
     from flint import fmpq
 
     x = fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x
@@ -142,7 +142,7 @@ def low_word(x: Any) -> Any:
 
 
 def ldexp(x: Any, power: Any) -> Any:
-    """Return numbers times powers of two; of exact ones only their words."""
+    """Return numbers times powers of two; of a `Given` only its two words are kept."""
     if not isinstance(x, Given):
         return np.ldexp(x, power)
     return Given(np.ldexp(x.hi, power), np.ldexp(x.lo, power), x.rel, _words_only)

@@ -62,7 +62,7 @@ class Progression:
         self.table = np.array([*(cut[:2] for cut in cuts), *(cut[2:] for cut in cuts)])
 
     def circle(self, i: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-        """Fill the arrays of `Phases.circle`, within the same 8 w, at whole numbers i above ones, (2, m).
+        """Write the arrays of `Phases.circle`, within the same 8 w, at integers i in the first of two rows (i, 1).
 
         Unless `refined`, x/2 is rounded: that adds half an ulp of it times 1 + u^2, at most w, to the error of
         u = tan(x/2), and saves that of a sum. As |u| is below 1 + 2^-12 for size <= 8000, u is within 2 w below 1 and
@@ -76,7 +76,7 @@ class Progression:
         circle_of(half, head if self.refined else None, sign, remainder, cos, sin, versine)
 
     def parts(self, i: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return x/2 for x = f t less whole half turns as a head and a rest, in radians, the turns' sign, and a spare.
+        """Return x/2 for x = f t less whole half turns, as head and rest in rad, the turns' sign, and a spare array.
 
         The four are (n, m) and lie in `work` (8, n, m).
         """
@@ -160,7 +160,7 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     before = -(-cut // FINE_TIMES)
 
     def fill(low: int, high: int) -> None:
-        """Fill blocks low to high of FINE_TIMES matrices: the first `before` end at the cut, the others begin there."""
+        """Write blocks low to high of FINE_TIMES matrices, of which the first `before` end at the cut."""
         for i in range(low - before, high - before, COARSE_TIMES):
             j = min(i + COARSE_TIMES, high - before)
             first_index, end, middle = cut + FINE_TIMES * i, cut + FINE_TIMES * j, min(max(-i, 0), j - i)

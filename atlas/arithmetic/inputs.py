@@ -140,7 +140,7 @@ def components(value: Any, names: Sequence[str], subject: str, unit: str = "") -
 
 
 def numbers(value: Any, name: str, unit: str = "") -> Any:
-    """Return `value` as an array by `real`, or numbers that no double holds, such as a Fraction, as `Given`."""
+    """Return `value` as an array by `real`; a number that no double holds, such as a Fraction, as `Given`."""
     if isinstance(value, Fraction):
         value = exact_number(value)
     return value if isinstance(value, Given) else real(value, name, unit)
@@ -152,7 +152,7 @@ def _listed(components: Sequence[Any]) -> bool:
 
 
 def finite(values: Value, name: str) -> Value:
-    """Return computed numbers or arrays unchanged; DomainError where one of them is not finite."""
+    """Return computed numbers or arrays unchanged. Raises DomainError where one is infinite or NaN."""
     numbers: Any = values if isinstance(values, tuple) else (values,)
     if not all(np.isfinite(value).all() for value in numbers):
         raise DomainError(f"{name} is too large for a float: choose larger units.")
@@ -184,7 +184,7 @@ class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
 
 
 def plain(array: Any) -> Any:
-    """Return a Python float for an array without dimensions, any other array as it is; exact numbers are rounded."""
+    """Return an array of dimension 0 as a Python float, any other array unchanged; a `Given` is rounded to doubles."""
     return float(array) if not np.ndim(array) else array.hi if isinstance(array, Given) else array
 
 
@@ -194,7 +194,7 @@ def as_given(array: Any) -> Any:
 
 
 def turn_time(rate: Any) -> float | FloatArray:
-    """Return the time 2 pi/|rate| of one turn; infinite where nothing turns. DomainError beyond all floats."""
+    """Return the time 2 pi/|rate| of one turn, inf for rate 0. Raises DomainError if it exceeds the largest float."""
     with np.errstate(divide="ignore", over="ignore"):
         times = np.divide(2 * np.pi, np.abs(rate))
     finite(np.where(np.equal(rate, 0), 0.0, times), "The period")

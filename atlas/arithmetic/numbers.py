@@ -24,9 +24,9 @@ _LOCK = RLock()
 
 
 class workprec:  # noqa: N801  the name that flint has for it
-    """Let flint compute with so many binary digits inside a `with` block, in one thread at a time.
+    """Context manager that sets flint's precision to `bits` binary digits, for one thread at a time.
 
-    Its precision is one for all threads of a process.
+    flint has one precision for all threads of a process.
     """
 
     __slots__ = ("_before", "bits")
@@ -63,7 +63,7 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
     @overload
     def __get__(self, instance: object, owner: Any = None) -> Value: ...
     def __get__(self, instance: Any, owner: Any = None) -> Self | Value:
-        """Return the cached value, computed anew if the current precision exceeds the precision of the cached one."""
+        """Return the cached value, computed again if the current precision exceeds that of the cached value."""
         if instance is None:
             return self
         with _LOCK:  # else the precision could be another thread's, or change while the value is made
@@ -87,7 +87,7 @@ def as_rational(x: fmpq | arb) -> fmpq:
 
 
 def root(x: Number) -> Number:
-    """Return the root of a number that is not negative; of a rational number exactly where it is rational."""
+    """Return the square root of a nonnegative number: exact for the square of a rational, else a ball."""
     if not isinstance(x, fmpq):
         return x.sqrt()
     p, q = int(x.p), int(x.q)
@@ -101,7 +101,7 @@ def pi_like(x: Number) -> Number:
 
 
 def select(x: Number, positive: Number, other: Number) -> Number:
-    """Return `positive` where x is, `other` elsewhere."""
+    """Return `positive` where x > 0, `other` elsewhere."""
     if isinstance(x, fmpq | arb):
         return positive if x > 0 else other
     return x.select(positive, other)
@@ -142,7 +142,7 @@ def length(*components: Number) -> Number:
 
 
 def direction(vector: Vector) -> tuple[Number, ...]:
-    """Return the unit vector along a vector; of a zero rational one, which has no direction, the last axis."""
+    """Return the unit vector along a vector; (0, ..., 0, 1) for the exact zero vector."""
     size = length(*vector)
     if isinstance(size, fmpq) and size == 0:
         return *vector[:-1], fmpq(1)
@@ -150,7 +150,7 @@ def direction(vector: Vector) -> tuple[Number, ...]:
 
 
 def unit(vector: Vector) -> list[Number]:
-    """Return the unit vector along one that is not zero, each component by one root."""
+    """Return the unit vector along a nonzero vector, each component by a single square root."""
     square = dot(vector, vector)
     roots = [(x, root(x * x / square)) for x in vector]
     return [select(x, size, -size) for x, size in roots]

@@ -174,7 +174,7 @@ class Phases:
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
-        """Phases of frequencies P0 + P1 in half turns, (2, n, m), each with a time of its own; no phase is too long."""
+        """Return phases of frequencies P0 + P1 in half turns, (2, n, m), one time for each; phases have no limit."""
         self = cls.__new__(cls)
         self._keep(words)
         is_still = words[0] == 0
@@ -223,7 +223,10 @@ class Phases:
         return half, remainder, signs(half_turns), free_rows
 
     def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
-        """Return the result of `angles` with the number of half turns, plus `rounder`, in the place of their sign."""
+        """Return (x/2, its rounding error, half turns + `rounder`, spare array), as `angles` does with signs.
+
+        `low` are low words of the times t. The arrays are (n, m) and lie in `work`.
+        """
         farthest_time = farthest(t)
         if not farthest_time <= self.longest:
             self.check(t)
@@ -316,12 +319,13 @@ class Phases:
         return np.matmul(table, stack, out=x)
 
     def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
-        """Return the same for half phases up to MAX_NEAR_PHASE, by Cody and Waite: half f t less w pi/2, both cut.
+        """Return the result of `reduced` for half phases up to MAX_NEAR_PHASE, by Cody and Waite.
 
-        With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53 digits, and
-        their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8: two sums of it
-        are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x.
-        The low part of a time is in t1, whose sum and product are then within 2^-59 each: 0.1 w more.
+        The half phase is half f t less w pi/2, both split. With F0 + F1 half the frequency and t0 + t1 the time, F0 t0
+        and w times the head of pi/2 have 53 digits, and their difference, below 2, is exact. The rest, F0 t1 + F1 t
+        less w times the tail, is below 1/8: two sums of it are within 2^-57, two products within 2^-59, and F1 and the
+        tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x. The low part of a time is in t1, whose sum and product are
+        then within 2^-59 each: 0.1 w more.
         """
         products, product, half_turns, w = work[:2], work[2], work[3], work[7]
         np.multiply(self.radians[0], halves, out=products)
@@ -357,7 +361,7 @@ class Phases:
 
 
 def _exponents(halves: Sequence[Number]) -> list[int]:
-    """Return the powers of two by which frequencies are scaled: zeros, where none is extreme."""
+    """Return the exponents of two by which frequencies are scaled; all zero where no frequency is extreme."""
     moving = [magnitude(p) for p in halves if p != 0]
     if moving and all(abs(x) <= SAFE_EXPONENT for x in moving):
         return [0] * len(halves)
@@ -394,7 +398,7 @@ def _head(x: Number) -> tuple[float, float, float]:
 
 
 def _cut(turn: Number) -> tuple[float, float]:
-    """Cut a phase in turns into half turns: a multiple of 2^-25, at most one, and the rest."""
+    """Return a phase in turns, less whole turns, as half turns: a multiple of 2^-25, at most one, and the rest."""
     fraction = turn_of(turn)
     head = round(ldexp(nearest(fraction), 26)) / 2.0**25
     return head, 2 * nearest(fraction - head / 2)

@@ -36,7 +36,7 @@ SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
 
 
 class Basis:
-    """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
+    """Workspace for the functions F_r at up to `size` times: of two phases, or cos, sin and 1 - cos of one.
 
     In the order of `resolution`: cos kt, cos phi t, sin kt, sin phi t, 1 - cos kt; cos kt and sin kt times cos phi t,
     the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t. `phases` are `Phases` or a
@@ -198,7 +198,7 @@ class DoubleRotation:
         return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
     def vector(self, name: str) -> Any:
-        """Return the components of a vector."""
+        """Return the components of a constant vector by its name."""
         return self.vectors[name]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -247,7 +247,7 @@ def combinations(
 
 
 def functions_of_one(circle: list[tuple[float, float, float]], count: int) -> tuple[float, ...]:
-    """Return the functions of `Basis` over SCALE at one time, from `Phases.circle_of_one`."""
+    """Return the first `count` functions of `Basis` over SCALE at one time, from `Phases.circle_of_one`."""
     c, s, v = circle[0]
     if count == 3:
         return c, s, v

@@ -47,7 +47,7 @@ class Frequencies:
     exact: Callable[[Any], Sequence[Number]]
 
     def at(self, index: Any, t: FloatArray) -> FloatArray:
-        """Return words of motions by their index, good for the times t that go with them.
+        """Return the words (2, n, m) of the frequencies of m motions, accurate enough for their times t (m,).
 
         Raises AtlasError if a phase is too long.
         """
@@ -139,7 +139,7 @@ class DoubleRotationRows:
         self.frequencies = Frequencies(words, errors, partial(_exact, groups, self.groups))
 
     def at(self, index: Any, t: FloatArray) -> "DoubleRotationRows":
-        """Return motions by their index, ready for the times t that go with them; AtlasError if a phase is too long."""
+        """Return the motions of the given indices, paired with times t. Raises AtlasError if a phase is too long."""
         selection = copy(self)
         selection.indices, selection.words = self.indices[index], self.frequencies.at(index, t)
         selection.axis, selection.dyad, selection.defect = (x[:, index] for x in (self.axis, self.dyad, self.defect))
@@ -151,7 +151,7 @@ class DoubleRotationRows:
 
     @property
     def extreme(self) -> Any:
-        """Where a frequency is beyond MAX_FREQUENCY, and the motion has to be made alone."""
+        """Indices of the motions with a frequency out of the range of MAX_FREQUENCY, which need the scalar path."""
         size = abs(self.words[0])
         return np.flatnonzero(~((size == 0) | ((size > 1 / MAX_FREQUENCY) & (size < MAX_FREQUENCY))).all(axis=0))
 
@@ -204,7 +204,7 @@ class DoubleRotationRows:
         return [_unit(*column) for column in columns]
 
     def _precession(self, sin: FloatArray, versine: FloatArray) -> list[tuple[Any, Any, Any]]:
-        """Return the rows of R_n, by Rodrigues."""
+        """Return the rows of R_n, the rotation about the axis, by Rodrigues."""
         s1, s2, s3 = self.axis * sin
         v12, v13, v23 = self.dyad * versine
         d1, d2, d3 = 1.0 - self.defect * versine
@@ -219,7 +219,7 @@ class DoubleRotationRows:
 
 
 def _unit(x: FloatArray, y: FloatArray, z: FloatArray) -> tuple[Any, Any, Any]:
-    """Return a vector of length 1 but for rounding with a length nearer to 1, each component to its own size."""
+    """Return a vector of length 1 up to rounding with its length corrected, as three components."""
     factor = 1.5 - 0.5 * (x * x + y * y + z * z)
     return x * factor, y * factor, z * factor
 

@@ -47,7 +47,7 @@ def magnitude(x: arb) -> int:
 
 
 def words(x: Number, count: int) -> list[float]:
-    """Split a number into doubles, each the nearest to the remainder of the ones before."""
+    """Return a number as a list of doubles, each the nearest to the remainder of the previous ones."""
     doubles, remainder = [], middle(x)
     with workprec(2 * BITS):
         for _ in range(count):
@@ -57,7 +57,7 @@ def words(x: Number, count: int) -> list[float]:
 
 
 def turn_of(x: Number) -> arb:
-    """Return a number minus the nearest integer."""
+    """Return the midpoint of a number minus the nearest integer, exactly."""
     m, e = (int(number) for number in middle(x).man_exp())
     if e >= 0:
         return arb(0)

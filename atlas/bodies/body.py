@@ -62,7 +62,7 @@ def moments(ratio: Any) -> tuple[Any, Any]:
 
 
 def excess(I2: Any, I3: Any) -> Any:
-    """Return I3 - I2 of moments, which may be exact numbers, rounded once: zero only if they are equal."""
+    """Return I3 - I2, exact inputs included, rounded once: zero only for equal moments."""
     return over(lambda I2, I3: I3 - I2, I2, I3)
 
 
@@ -139,7 +139,7 @@ class SymmetricBody(CarriesUncertainty):
         return np.array_equal(self.I2, other.I2) and np.array_equal(self.I3, other.I3)
 
     def __repr__(self) -> str:
-        """Return the call that makes the body, with its axes where they are not those of the frame."""
+        """Return the call that makes the body, with its axes where these are not the unit vectors."""
         if self._shape:
             name, sizes = self._shape
             return f"{type(self).__name__}.{name}({', '.join(f'{key}={value!r}' for key, value in sizes.items())})"
@@ -148,7 +148,7 @@ class SymmetricBody(CarriesUncertainty):
         return f"{type(self).__name__}(I2={I2!r}, I3={I3!r}{axes_text})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let the body be copied as the call that makes it."""
+        """Return the call that makes the body again, for copy and pickle."""
         return (_shaped, (type(self), *self._shape)) if self._shape else (type(self), (*self.exact, self.axes))
 
     def _repr_html_(self) -> str:
@@ -532,9 +532,9 @@ WORDS = {"equatorial": "equatorial radius", "polar": "polar radius"}
 
 
 def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density: Any = None) -> Made:
-    """Return the body of a shape of these sizes, numbers or arrays, with the mass of a density if one is given.
+    """Return the body of a shape from its sizes, numbers or arrays, and its mass or its density.
 
-    The moments are exact, with a density in 256 digits, since its volume has the factor pi.
+    The moments are exact; with a density they have 256 digits, since the volume has the factor pi.
 
     Raises DomainError for a size that is not positive, AtlasError for a mass or size that is missing.
     """

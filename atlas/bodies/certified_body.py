@@ -11,7 +11,7 @@ from atlas.errors import DomainError
 
 
 class Moments(NamedTuple):
-    """I2 and I3, in the place of a ratio."""
+    """Moments I2 and I3, given instead of their ratio."""
 
     I2: Any
     I3: Any

@@ -21,7 +21,7 @@ from atlas.errors import AtlasError, DomainError
 
 
 class Prime(np.ndarray[Any, np.dtype[np.float64]]):
-    """The vector B', an array (3,) that is not cut to B2 and B3 where B1 is not zero."""
+    """The vector B', an array (3,). Raises DomainError for the slice of B2 and B3 where B1 is not zero."""
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, slice) and self.shape == (3,) and key.indices(3) == (1, 3, 1) and self[0] != 0:

@@ -31,7 +31,7 @@ def holds(where: Any) -> bool:
 
 
 def refuse(where: Any, sentence: str, *values: Any) -> None:
-    """Raise DomainError where a condition holds; each {} in the sentence is the first value for which it does."""
+    """Raise DomainError where a condition holds; each {} in the sentence is the first value for which it holds."""
     if not holds(where):
         return
     if getattr(where, "shape", ()):
@@ -71,7 +71,7 @@ def check_ball(inertia: Number) -> None:
 
 
 def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> str:
-    """Name the case of an elementary motion, decided on the inputs as given; DomainError where (67) has no point."""
+    """Return the name of the case of an elementary motion. Raises DomainError where (67) has no point."""
     if B2 == 0:
         if B3 == 0:
             return "free body"
@@ -88,7 +88,7 @@ def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> s
 
 
 def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
-    """Raise DomainError if omega3 is not given where it is free, or is where it follows from (71)."""
+    """Raise DomainError if omega3 is free but not given, or given but different from (71)."""
     if case in CASES[:FREE_CASES]:
         general = "or omega = (0, omega2, omega3) to the general motion"
         refuse(omega3 is None, f"In the case {case!r} omega3 is free: give it, {general}.")

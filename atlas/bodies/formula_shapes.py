@@ -37,7 +37,7 @@ FLAT = ("height", "polar")
 
 
 def check_shape(name: str, dimensions: Iterable[str]) -> None:
-    """Raise AtlasError for a shape that there is not, and for other dimensions than its own."""
+    """Raise AtlasError for an unknown shape, and for dimensions other than those of the shape."""
     if name not in SHAPES:
         raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
     names, given_names = SHAPES[name][0], list(dimensions)

@@ -60,7 +60,7 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
 
 def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
-    """Return the matrix of `mass_matrix_of_points` from sums of rational numbers; in doubles of very many points."""
+    """Return the matrix of `mass_matrix_of_points` in exact rational sums; in doubles above MAX_EXACT_POINTS points."""
     m, x = real(masses, "The masses", MASS), real(positions, "The positions", LENGTH)
     if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
         raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
@@ -126,7 +126,7 @@ def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], FloatArray]:
-    """Return the principal values of `principal` to `PRECISION` bits, equal ones equal, and the axes, rounded once."""
+    """Return the principal values to `PRECISION` bits, equal ones exactly equal, and the axes as rows, rounded once."""
     if not any(matrix[i][j] for i in range(3) for j in range(3) if i != j):
         return [matrix[i][i] for i in range(3)], np.eye(3)
     with workprec(PRECISION):
@@ -135,7 +135,7 @@ def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], FloatArray]:
 
 
 def rational_matrix(matrix: FloatArray) -> list[list[fmpq]]:
-    """Return the elements of a matrix as the rational numbers that they are."""
+    """Return the floats of a matrix as exact rational numbers."""
     return [[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
 
 

@@ -34,7 +34,7 @@ def greatest_charge(radius: Any, surface_field: float) -> float:
 
 
 def greatest_ratio(radius: Any, density: Any, surface_field: float) -> float:
-    """Charge-to-mass ratio 3 eps0 E/(rho r), in C/kg, of that ball, with the density in kg/m^3."""
+    """Charge-to-mass ratio 3 eps0 E/(rho r), in C/kg, of a ball with surface field E; the density in kg/m^3."""
     r, rho = positive(radius, "The radius"), positive(density, "The density")
     return 3 * ELECTRIC_CONSTANT * positive(surface_field, "The surface field") / (rho * r)
 

@@ -31,7 +31,7 @@ def speed_of_light(units: System) -> float:
 
 
 def check_drift(E: Any, B: Any, units: System) -> None:
-    """Warn of a drift in fields (3,) above a tenth of the speed of light. DomainError where it is not below it."""
+    """Warn if the drift in fields (3,) exceeds a tenth of the speed of light c. Raises DomainError at c and above."""
     e, n = (np.array(x, dtype=float) for x in (E, B))
     if not (n.any() and e.any()):
         return
@@ -49,7 +49,7 @@ def check_drift(E: Any, B: Any, units: System) -> None:
 
 
 def warn_of(speed: str, part: float) -> None:
-    """Warn of a speed, in parts of that of light, if it is above a tenth."""
+    """Warn of a speed, in units of the speed of light, if it exceeds a tenth."""
     if part > MAX_SLOW_SPEED:
         warnings.warn(
             f"non-relativistic: {speed} is {part:.3g} times the speed of light, above {MAX_SLOW_SPEED:g}: formulas are "
@@ -60,7 +60,7 @@ def warn_of(speed: str, part: float) -> None:
 
 
 def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
-    """Return the largest speed |[Omega, x]| of points x of a shape about e3, one of `SHAPES`, by its dimensions."""
+    """Return the largest speed |[Omega, x]| of points x of a shape about e3, one of `SHAPES`, from its dimensions."""
     w, r = np.array(omega, dtype=float), float(sizes.get("radius", 0.0))
     if shape in ELLIPSOIDS:
         axes = [float(sizes.get(name, r)) for name in ("equatorial", "equatorial", "polar")]

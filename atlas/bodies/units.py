@@ -48,7 +48,7 @@ MAGNETIC_CONSTANT = 1.25663706127e-6
 
 @dataclass(frozen=True)
 class System:
-    """A system of units: the c of its formulas, and the names of its units."""
+    """A system of units: the constant c of its formulas, and the names of its units."""
 
     name: str
     c: float
@@ -79,7 +79,7 @@ def charge_to_mass(charge: Any, mass: Any) -> float:
 
 
 def ratio_of(mu: Any, charge: Any, mass: Any) -> Any:
-    """Return mu, or charge over mass as the Fraction that it is. AtlasError unless one of both is given."""
+    """Return mu, or charge over mass as a Fraction. Raises AtlasError unless exactly one of the two is given."""
     if (mu is None) == (charge is None and mass is None) or (mu is None and None in (charge, mass)):
         raise AtlasError("A field takes mu, or charge and mass, for the charge-to-mass ratio.")
     if mu is not None:

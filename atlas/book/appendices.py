@@ -46,7 +46,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Described:
-    """A public name of the package: its arguments as they are written, its docstring, and the names inside it."""
+    """A public name of the package: its arguments as text, its docstring, and the members inside it."""
 
     arguments: str
     docstring: str

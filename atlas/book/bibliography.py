@@ -55,7 +55,7 @@ def read(path: Path) -> Bibliography:
 
 
 def _citation(key: str, mode: str) -> dict[str, Any]:
-    """Return a citation of one work as pandoc writes it."""
+    """Return pandoc's node of a citation of one work."""
     nothing: dict[str, Any] = {"citationPrefix": [], "citationSuffix": [], "citationNoteNum": 0, "citationHash": 0}
     return {"citationId": key, "citationMode": {"t": mode}, **nothing}
 

@@ -31,7 +31,7 @@ DIMENSIONS = {
 
 
 class Body(StrictStruct, frozen=True):
-    """A body: its ratio I = I3/I2, or both moments, or a shape with its dimensions (metres and kilograms in SI)."""
+    """A body's record: the ratio I = I3/I2, or (I2, I3), or a shape with dimensions in metres and kilograms."""
 
     title: str
     ratio: float | None = None
@@ -47,7 +47,7 @@ class Body(StrictStruct, frozen=True):
 
 
 class Field(StrictStruct, frozen=True):
-    """A field: the components (B2, B3) of B' in 1/s, or B itself with the system of units that it is given in."""
+    """A field's record: (B2, B3) of B' in 1/s, or the vector B with its system of units."""
 
     title: str
     prime: tuple[Exact, Exact] | None = None
@@ -68,10 +68,10 @@ class BodiesAndFields(StrictStruct, frozen=True):
 
 @dataclass(frozen=True)
 class BodyAndField:
-    """A body in a field: `ratio` and `field` as every class of the atlas takes them, and where they come from.
+    """A body in a field, and the records from which both come.
 
-    `body` and `record` are the body and its record; `field` = (B2, B3), components of B' in 1/s. `physical`, `frame`
-    and `units` are there if the field was given as B.
+    `body` and `body_record` are the body and its record; `field` = (B2, B3), components of B' in 1/s. `physical`,
+    `frame` and `units` are set if the field was given as B.
     """
 
     body: SymmetricBody | None = None
@@ -96,14 +96,14 @@ class BodyAndField:
 
     @property
     def components(self) -> tuple[float, float]:
-        """(B2, B3), where there must be a field."""
+        """Components (B2, B3) of B' in 1/s. Raises AtlasError without a field."""
         if self.field is None:
             raise AtlasError("this needs a field: name one with the key 'field'.")
         return self.field
 
     @property
     def exact_components(self) -> tuple[float | Fraction, ...]:
-        """(B2, B3) without rounding where B is given in the plane of e2 and e3, else `components`."""
+        """Components (B2, B3) of B': exact if B lies in the plane of e2 and e3, else rounded."""
         if self.field_record and self.field_record.prime is not None:
             return tuple(as_float_or_fraction(rational(x, "prime")) for x in self.field_record.prime)
         field, frame = self.physical, self.frame
@@ -145,13 +145,13 @@ def body(record: Body) -> SymmetricBody:
 
 
 def dimensions(record: Body) -> dict[str, float]:
-    """Return the dimensions that a body was given, and its mass."""
+    """Return the given dimensions and mass of a body by name."""
     values = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
     return {key: value for key, value in values.items() if value is not None}
 
 
 def chosen(block: Any, records: BodiesAndFields) -> tuple[BodyAndField, ...]:
-    """Return the bodies that a block names, each in the field that it names; either may be missing."""
+    """Return the bodies that a block names, each in the block's field; None for a missing body or field."""
     field = records.fields[block.field] if block.field else None
     bodies = block.bodies or ((block.body,) if block.body else (None,))
     return tuple(body_and_field(records.bodies[name] if name else None, field) for name in bodies)

@@ -33,13 +33,13 @@ def compose(
     *,
     outline: bool = False,
 ) -> Document:
-    """Give the blocks of a report their numbers, compute its tables, and collect its texts.
+    """Number the blocks of a report, compute its tables, and collect its texts.
 
     `pictures` are those of `atlas.book.pictures.pictures`, `recorded` holds the recorded results that its blocks
     show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
     that, else to the first display of the equation, else to one of the reports `related` to this one. An `outline` has
-    the numbers and places of everything, and computes no table. A picture that failed keeps its place with the reason;
-    anything else that is wrong raises AtlasError.
+    numbers and anchors of everything, and computes no table. A picture that failed keeps its place with the reason;
+    any other mistake raises AtlasError.
     """
     document = Document(
         report,
@@ -93,7 +93,7 @@ def _pages_of(report: Report) -> dict[str, str]:
 
 
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
-    """Yield the views of the blocks of a page; an error says which of them it is about."""
+    """Yield the views of the blocks of a page; an error names its block."""
     for place, block in enumerate(page.blocks):
         composer.place, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
         try:

@@ -50,9 +50,9 @@ class Resource:
 
 
 def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = True) -> dict[str, bytes]:
-    """Return the files of a report's data by their places; `drawn` holds each figure's data as CSV, by its anchor.
+    """Return the files of a report's data by path; `drawn` holds each figure's data as CSV, by its anchor.
 
-    Raises AtlasError where pyarrow, which writes Parquet, is wanted and missing.
+    Raises AtlasError where pyarrow, which writes Parquet, is missing.
     """
     files, resources = dict[str, bytes](), []
     texts = [text.markdown for text in document.texts.texts]
@@ -90,7 +90,7 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
 
 
 def _table(table: TableView, texts: Sequence[str]) -> Resource:
-    """Return a table; a number whose digits are not all proven is marked in a column of its own."""
+    """Return the resource of a table; an extra column marks numbers whose digits are not all proven."""
     names = unique(ascii_name(words(texts[column.head])) or "column" for column in table.columns)
     fields, columns = list[Mapping[str, Any]](), list[list[str]]()
     for place, (name, column) in enumerate(zip(names, table.columns, strict=True)):
@@ -116,7 +116,7 @@ def _table(table: TableView, texts: Sequence[str]) -> Resource:
 
 
 def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence[str]) -> dict[str, Any]:
-    """Return the description of a column: a number only if all of its cells are, its unit, and its most digits."""
+    """Return the description of a column: type, unit, largest number of digits; "number" only if all cells are."""
     numbers = [cell for cell in cells if cell.text is None and cell.whole]
     numeric = bool(numbers) and all(cell.text is None for cell in cells)
     field: dict[str, Any] = {
@@ -192,7 +192,7 @@ def value(cell: Cell, texts: Sequence[str]) -> str:
 
 
 def digits(number: str) -> int:
-    """Return the number of significant digits of a number."""
+    """Return the count of significant digits in a number's text."""
     return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
 
 
@@ -211,7 +211,7 @@ def ascii_name(head: str) -> str:
 
 
 def unique(names: Iterable[str]) -> list[str]:
-    """Return names with a number behind those that were there before."""
+    """Return names made unique by a number after repeated ones."""
     counts, unique = Counter[str](), []
     for name in names:
         counts[name] += 1

@@ -13,9 +13,9 @@ from atlas.book.schema import Id, Slug, StrictStruct, TwoNumbers
 
 
 class Thumbnail(StrictStruct, frozen=True):
-    """A cut of a figure of a page, the first if none is named: enlarged ``zoom`` times about the place ``at``.
+    """A detail of a page's figure (by default the first), enlarged ``zoom`` times about the point ``at``.
 
-    The place is given in parts of width and height.
+    The point is given in fractions of width and height.
     """
 
     figure: Id = ""
@@ -24,10 +24,10 @@ class Thumbnail(StrictStruct, frozen=True):
 
 
 class Page(StrictStruct, frozen=True):
-    """One page of the HTML, one chapter of the PDF; pages of one part stand together in the contents.
+    """One page of the HTML, one chapter of the PDF; pages of one part are grouped in the contents.
 
-    An appendix is lettered and set in small type. ``thumbnail`` stands for the page on the front page. Formulas between
-    dollars are set in titles; all else in them is plain words.
+    An appendix is lettered and set in small type. ``thumbnail`` represents the page on the front page. Titles are plain
+    words, with formulas between dollars.
     """
 
     slug: Slug
@@ -54,9 +54,9 @@ class Index(StrictStruct, frozen=True):
 
 @dataclass(frozen=True)
 class Source:
-    """The file of a report, and the lines on which its pages begin, by (page,), and its blocks, by (page, block).
+    """The file of a report, and the lines where its pages begin, by (page,), and its blocks, by (page, block).
 
-    Both are counted from 0. A file in TOML has no lines here.
+    Pages and blocks are counted from 0. A file in TOML has no lines here.
     """
 
     file: str = ""
@@ -99,7 +99,7 @@ class Report(StrictStruct, frozen=True):
     source: Source = Source()
 
     def place(self, page: Page, block: int | None = None) -> str:
-        """Return the beginning of a message: file, line, page, and the block of that number, from 0, with its kind."""
+        """Return the start of a message: file, line, page, and block number (argument from 0) with its kind."""
         number = self.pages.index(page)
         line = self.source.lines.get((number,) if block is None else (number, block))
         there = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"

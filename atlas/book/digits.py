@@ -10,7 +10,7 @@ THIN = "\N{NARROW NO-BREAK SPACE}"
 
 @dataclass(frozen=True)
 class Number:
-    """A number as digits, none where none is proven, and whether all that were asked for are proven.
+    """A number as its proven digits, "" if there are none; `proven` says that all requested digits are proven.
 
     ``-1.25e-7``, or with a standard deviation in its last digits ``-1.25(17)e-7``.
     """
@@ -20,13 +20,13 @@ class Number:
 
     @classmethod
     def as_given(cls, value: float) -> "Number":
-        """Return an input as it was given."""
+        """Return a float as its shortest digits."""
         return cls(plain(value))
 
     def parts(self) -> tuple[str, str, str]:
-        """Return the whole part, the point with the fraction, and the power of ten.
+        """Return the integer part, the point with the fraction, and the power of ten.
 
-        The digits after the point are grouped in threes where there are more than four; a question mark stands where
+        The digits after the point are grouped in threes if there are more than four; a question mark means that
         no digit is proven.
         """
         if not self.digits:
@@ -38,7 +38,7 @@ class Number:
         return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
 
     def words(self) -> str:
-        """Return the number as it stands in a sentence, a power of ten, as ``10^5^``, only where it is far from 1."""
+        """Return the number for a sentence; with a power of ten, as ``10^5^``, only if it is far from 1."""
         mantissa, _, power = self.digits.lower().partition("e")
         if not self.digits:
             return "?"
@@ -61,7 +61,7 @@ def room(text: str) -> float:
 
 
 def plain(value: float) -> str:
-    """Write an input as it was given, in ASCII: the shortest digits that read back the same."""
+    """Return the shortest digits that read back as the float, in ASCII."""
     return repr(float(value)).removesuffix(".0")
 
 

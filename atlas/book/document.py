@@ -29,10 +29,10 @@ THEOREMS = {
 
 @dataclass(frozen=True)
 class PageView:
-    """A page: its place in the contents, the views of its blocks and the names of their templates.
+    """A page: its position in the contents, the views of its blocks and the names of their templates.
 
-    `number` is that of the chapter, or the letter of the appendix; `title` is in plain words, `heading` the number of
-    the text that is set.
+    `number` is the chapter's number or the appendix's letter; `title` is plain words, `heading` the number of
+    its text.
     """
 
     number: str
@@ -51,12 +51,12 @@ class PageView:
 
     @property
     def placed(self) -> list[tuple[str, Any]]:
-        """Template and view of each block, in their order."""
+        """Pairs (template, view) of the blocks, in order."""
         return list(zip(self.templates, self.blocks, strict=True))
 
     @property
     def floated(self) -> list[tuple[str, Any]]:
-        """Template and view of each block, a figure before the prose that speaks of it: so it floats to that page."""
+        """Pairs (template, view), each figure moved before the prose that discusses it, to float onto that page."""
         floated: list[tuple[str, Any]] = []
         for template, view in self.placed:
             place = len(floated)
@@ -75,15 +75,14 @@ class PageView:
 
 @dataclass
 class Document:
-    """A report ready to be set: its pages, pictures, texts, and where each citation leads.
+    """A report ready to be typeset: its pages, pictures, texts, and the target of each citation.
 
     `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
     that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
-    ledger; `errata` the page of the errata; `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas`, the
-    equations that are cited here and stand in no page of this report, are numbers of texts. `gallery` is the page of
-    pictures, which only the HTML has. `related` holds the reports
-    beside this one, in outline; a citation of a name that is not here leads there. `bibliography` holds
-    the works that can be cited, `listed_on` is the page of their list.
+    ledger; `errata` the page of the errata. `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas` (cited
+    equations that no page of this report displays) are numbers of texts. `gallery` is the page of pictures, in the HTML
+    alone. `related` holds the related reports in outline; a citation of a name that is missing here leads there.
+    `bibliography` holds the works that can be cited, `listed_on` is the page of their list.
     """
 
     report: Report
@@ -108,7 +107,7 @@ class Document:
     gallery: PageView | None = None
 
     def set(self, *targets: Target) -> None:
-        """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
+        """Typeset all texts for each target, in parallel threads: pandoc is a separate process."""
         self.texts.read()
         with ThreadPoolExecutor(len(targets)) as threads:
             texts = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
@@ -168,17 +167,17 @@ class Document:
         return here
 
     def entry(self, name: str) -> str:
-        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
+        """Return the page, without suffix, of an equation's ledger entry, in this or a related report; else ""."""
         ledgers = ((folder, related.ledger) for folder, related in self.related.items())
         page = next((f"../{folder}/{ledger[name]}" for folder, ledger in ledgers if name in ledger), "")
         return self.ledger.get(name, page)
 
     def number(self, name: str) -> str:
-        """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
+        """Return the citation of an equation: its printed number, the report's own number, or its name."""
         return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
     def numbered(self, name: str) -> str:
-        """Return the number of an equation; one that has none in the paper gets the next of our own."""
+        """Return the number of an equation; one without a number in the paper gets the report's next one."""
         if not name.startswith("("):
             number = len(self.equations) - len(THEOREMS) + 1
             self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{number})")
@@ -186,7 +185,7 @@ class Document:
 
     @cached_property
     def displays_the_paper(self) -> bool:
-        """Whether numbers of our own must not be taken for those of the paper, whose equations stand beside them."""
+        """Whether the report displays the paper's equations, so that its own numbers need an A."""
         blocks = [block for page in self.report.pages for block in page.blocks]
         return any(getattr(block, "name", "").startswith("(") or isinstance(block, Ledger | Errata) for block in blocks)
 
@@ -202,16 +201,16 @@ class Document:
         return self.pictures_of(chosen)[0] if chosen else None
 
     def listed(self, template: str) -> list[Any]:
-        """Return the figures or the tables, by the name of their template, in their order."""
+        """Return the views of all figures, or of all tables, by the name of their template."""
         return [block for page in self.pages for name, block in page.placed if name == template]
 
     def flows_after(self, table: Any) -> bool:
-        """Whether the table after one stands in its place in the text."""
+        """Whether the next table stands at its place in the text."""
         return any(table_after.flows for table_after in self.listed("table")[table.number : table.number + 1])
 
     @property
     def citable(self) -> list[str]:
-        """All names that can be cited."""
+        """All names that can be cited, each with @."""
         return [f"@{name}" for name in (*self.targets, *EQUATIONS, *self.bibliography.named)]
 
     @property

@@ -26,7 +26,7 @@ MARKS = re.compile(f"[{chr(FIRST_MARK)}-{chr(LAST_MARK)}]")
 
 
 class ExpansionError(ValueError):
-    """A sentence about a template, and its line in the body, from 1, or the text of the head that has it."""
+    """A message about a template, with its line in the body, from 1, or the head's text that has the mistake."""
 
     def __init__(self, sentence: str, line: int = 0, text: str = "") -> None:
         super().__init__(sentence)
@@ -34,9 +34,9 @@ class ExpansionError(ValueError):
 
 
 def expanded(values: Mapping[str, Any], head: Any, body: str) -> tuple[Any, str, list[int]]:
-    """Return head and body of a report with their tags filled in, and the line of the template of each new line.
+    """Return a report's head and body with their tags filled in, and the template's line for each new line.
 
-    A text of the head that is one expression and nothing else becomes the value of the expression, a number say.
+    A text of the head that is a single expression becomes the expression's value, such as a number.
 
     Raises
     ------
@@ -57,7 +57,10 @@ def expanded(values: Mapping[str, Any], head: Any, body: str) -> tuple[Any, str,
 
 
 def fill(values: Mapping[str, Any], head: Any, body: str) -> dict[str, Any]:
-    """Fill in a head and a body; return both, and the line of the template of each line of the body."""
+    """Return a dict with head and body filled in and the template's line for each line of the body, or an error.
+
+    Keys are "head", "body" and "lines", or "error": (message, line, text).
+    """
     environment = sandbox()
 
     def value(text: str) -> Any:
@@ -85,7 +88,7 @@ def fill(values: Mapping[str, Any], head: Any, body: str) -> dict[str, Any]:
 
 
 def joined(pieces: Iterable[str]) -> str:
-    """Join the pieces of a text. Raises ExpansionError where they are too long."""
+    """Return the joined pieces of a text. Raises ExpansionError above MAX_LENGTH characters."""
     kept, length = list[str](), 0
     for piece in pieces:
         kept.append(piece)
@@ -122,14 +125,14 @@ def line_of(error: BaseException) -> int:
 
 
 def sandbox() -> Any:
-    """Return the environment of templates, which marks each line of a text by its number."""
+    """Return the Jinja environment of templates, which marks each line by its number."""
     from jinja2 import StrictUndefined
     from jinja2.ext import Extension
     from jinja2.lexer import Token, TokenStream
     from jinja2.sandbox import ImmutableSandboxedEnvironment
 
     class Lines(Extension):
-        """Marks of lines."""
+        """Jinja extension that puts a mark with its number before each line of text."""
 
         def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
             for token in stream:

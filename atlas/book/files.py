@@ -39,7 +39,7 @@ def find(name: str) -> Path:
 
 
 def beside(name: str, folder: Path) -> Path | None:
-    """Return a file in the folder of a report or below, None where there is none; a link that leads out is none."""
+    """Return a file in or below the report's folder; None if it is missing or a link that leads out."""
     file = folder / name
     return file if file.resolve().is_relative_to(folder.resolve()) and file.is_file() else None
 
@@ -67,7 +67,7 @@ def head_of(text: str) -> str:
 
 
 def related_to(file: Path) -> list[str]:
-    """Return the names of the reports that stand beside that of a file; none where the file can't be read."""
+    """Return the names of the reports related to a file's report; [] if the file cannot be read."""
     try:
         related = head(file).get("related", {})
     except AtlasError:

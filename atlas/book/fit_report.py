@@ -62,7 +62,7 @@ class Fitted:
 
     @property
     def words(self) -> list[str]:
-        """The options, as they are typed."""
+        """Options of the command, as typed words."""
         return [word for name, texts in self.options.items() for word in (f"--{name}", *texts)]
 
     @property
@@ -81,14 +81,14 @@ class Fitted:
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
     def sources(self, exists: Callable[[str], bool]) -> dict[str, str]:
-        """Return the report file and the recipe of its picture, by their names."""
+        """Return the texts of the report file and of its picture's recipe, by file name."""
         return {
             f"{self.name}.md": headed(self, written(self.definition(exists))),
             f"{self.name}.py": headed(self, self._recipe()),
         }
 
     def definition(self, exists: Callable[[str], bool]) -> dict[str, Any]:
-        """Return the report as the values of its file."""
+        """Return the report as a dict of values for its file."""
         left_out, motion = list[str](), self.motion
         blocks = [
             _prose(self._verdict()),
@@ -154,7 +154,7 @@ class Fitted:
         }  # fmt: skip
 
     def _correlations(self) -> Iterator[dict[str, Any]]:
-        """Yield the table of strong correlations, or the sentence that there are none."""
+        """Yield the block of strong correlations, or a sentence that there are none."""
         pairs = {
             frozenset((name, partner)): size
             for name, p in self.fit.parameters.items()
@@ -187,7 +187,7 @@ class Fitted:
         }  # fmt: skip
 
     def _motion(self, left_out: list[str], exists: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
-        """Yield the figures of the motion, and where its own page is."""
+        """Yield the blocks of the motion's figures, and a link to its own page."""
         name = self.motion
         place = f"[`{name.command}`]({name.name}.html)" if exists(name.name) else f"`{name.command}`"
         yield _prose(

@@ -25,7 +25,7 @@ ITALIC = "\N{PLANCK CONSTANT}" + "".join(map(chr, [*range(0x1D434, 0x1D468), *ra
 
 @dataclass(frozen=True)
 class Face:
-    """A file of a font, the package that carries it, and the CSS family, weight and style that it serves."""
+    """A font file, the package that contains it, and the CSS family, weight and style for which it is used."""
 
     package: str
     file: str
@@ -65,7 +65,7 @@ def characters(pages: Iterable[str]) -> tuple[str, str]:
 
 
 def subset(face: Face, letters: str) -> bytes:
-    """Cut a face down to some characters, as WOFF; the same characters give the same bytes.
+    """Return a face reduced to some characters, as WOFF; equal characters give equal bytes.
 
     WOFF2 would be a quarter smaller, a hundredth of a page with figures, and takes three times as long.
     """
@@ -94,9 +94,9 @@ Recall: TypeAlias = Callable[[Sequence[str], Callable[[], bytes]], bytes]
 
 
 def all_subsets(pages: Iterable[str], recall: Recall) -> dict[str, bytes]:
-    """Return the WOFF bytes of every face cut to the letters of HTML pages, by file name.
+    """Return the WOFF bytes of every face, reduced to the characters of HTML pages, by file name.
 
-    `recall` may return a font made from the same parts before: the face, its package and the characters.
+    `recall` may return a font made earlier from the same parts: the face, its package and the characters.
     """
     text, formulas = characters(pages)
     subsets = {}

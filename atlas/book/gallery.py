@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Plate:
-    """A figure of the gallery: its drawn picture, the number of its sentence among the texts, where a page shows it."""
+    """A figure of the gallery: its picture, the number of its sentence's text, and the page that shows it."""
 
     picture: Picture
     sentence: int
@@ -39,19 +39,19 @@ class Plate:
 
 @dataclass(frozen=True)
 class GalleryView:
-    """The plates of each row by its heading, and the widths in millimetres of the targets by their names."""
+    """The plates of each row by its heading, and the targets' widths in millimetres by name."""
 
     rows: dict[str, list[Plate]]
     widths: dict[str, str]
 
     @property
     def plates(self) -> list[Plate]:
-        """Return all plates, in their order."""
+        """All plates, in order."""
         return [plate for row in self.rows.values() for plate in row]
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
-        """Return the pictures, from which the page takes the scripts that it needs."""
+        """Pictures of all plates; the page loads their scripts."""
         return tuple(plate.picture for plate in self.plates)
 
 
@@ -81,9 +81,9 @@ def page(composer: "Composer") -> PageView:
 
 
 def chosen(names: Sequence[str], folder: Path) -> tuple[str, ...]:
-    """Return the recipes of a gallery: ``*`` is all of figures/, NAME.py files beside the report or anywhere.
+    """Return the recipes of a gallery; ``*`` is all of figures/, NAME.py a file, also by pattern beside the report.
 
-    Raises AtlasError for a name or a file that is not there.
+    Raises AtlasError for a name or a file that does not exist.
     """
     chosen_names = list[str]()
     for name in names:

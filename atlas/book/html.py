@@ -37,7 +37,7 @@ CARD = (400, 250)
 
 
 class Card(NamedTuple):
-    """A figure that stands for a page on the front page, and how it is cut."""
+    """A figure that represents a page on the front page, and the detail that is shown."""
 
     page: PageView
     figure: FigureView
@@ -45,7 +45,7 @@ class Card(NamedTuple):
 
     @property
     def file(self) -> str:
-        """The place of its small picture in the report."""
+        """Path of the card's picture in the report."""
         return f"cards/{self.page.slug}.webp"
 
 
@@ -78,13 +78,13 @@ def pages(document: Document) -> dict[str, str]:
 
 
 def whole(text: str) -> str:
-    """Keep the options in inline code on one line: a browser breaks them behind their hyphens."""
+    """Return HTML whose options in inline code are not broken at hyphens by a browser."""
     option = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
     return re.sub("<code>[^<]*</code>", lambda code: option.sub(r'<span class="option">\g<0></span>', code[0]), text)
 
 
 def anchored(page: str) -> str:
-    """Give each heading inside a page an anchor made of its words, and a link to it."""
+    """Return a page whose headings have an anchor made of their words, and a link to it."""
     counts: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
 
     def heading(match: re.Match[str]) -> str:
@@ -108,12 +108,12 @@ def _with_sections(page: str) -> str:
 
 
 def _figures(document: Document) -> list[Card]:
-    """Return the figures, in their order."""
+    """Return a card for every figure, in order."""
     return [Card(page, block) for page in document.pages for block in page.blocks if isinstance(block, FigureView)]
 
 
 def cards(document: Document) -> list[Card]:
-    """Return the cards of the pages: of the figures `pictures.on_cards`, those that are drawn."""
+    """Return the cards of the front page, one for each page with a drawn figure."""
     figures, cards = _figures(document), []
     cuts = {card.slug: card.thumbnail for card in document.report.pages}
     for page in document.pages:
@@ -130,7 +130,7 @@ def cards(document: Document) -> list[Card]:
 
 
 def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
-    """Cut a picture about a place, `CARD` pixels large, as WebP."""
+    """Return a detail of a PNG as WebP of `CARD` pixels."""
     from PIL import Image
 
     with Image.open(BytesIO(png)) as picture:
@@ -181,7 +181,7 @@ def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) ->
 
 
 def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
-    """Cut a page at its anchors."""
+    """Yield (file, anchor, title, text) tuples for the search, a page split at its anchors."""
     starts = list(_START.finditer(html))
     for start, end in pairwise(starts):
         anchor = next(filter(None, start.groups()))
@@ -196,7 +196,7 @@ def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, s
 
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
-    """Return the formulas by the names in their anchors: of the ledger, of the displays, and others that are cited."""
+    """Return the formulas by the names in their anchors: of the ledger, of displays, and other cited ones."""
     equations = {slug(name): texts[number] for name, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
@@ -208,7 +208,7 @@ def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
 
 
 def _words(html: str) -> str:
-    """Return the words of a piece of HTML, its formulas on one line."""
+    """Return the plain words of HTML, formulas as one line of text."""
     html = re.sub(r'<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
     html = re.sub(r"<math.*?</math>", lambda matched: escaped(linear(matched[0])), html, flags=re.DOTALL)
     return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))

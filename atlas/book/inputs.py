@@ -26,7 +26,7 @@ class InputsError(AtlasError):
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """Sentences of the message, one a line of the command line."""
+        """Sentences of the message, one for each fault."""
         return tuple(str(self).split("\n"))
 
 
@@ -52,12 +52,12 @@ class Input(StrictStruct, frozen=True):
 
 
 def declared(path: Path) -> dict[str, Input]:
-    """Return the inputs of a report by name, none where its head declares none.
+    """Return the inputs of a report by name; {} where its head declares none.
 
     Raises
     ------
     AtlasError
-        For a head that is no TOML, and for a declaration that is none.
+        For a head that is no TOML, and for a malformed declaration.
     """
     tables = files.head(path).get("inputs", {})
     try:
@@ -74,7 +74,7 @@ def declared(path: Path) -> dict[str, Input]:
 
 
 def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
-    """Return the value of each input of a report: of its text among those given, else of its default.
+    """Return the value of each input of a report by name: from its given text, or else its default.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
 
 
 def read(declaration: Input, text: str) -> Any:
-    """Return the value of a text by the kind of an input. Raises AtlasError for a text that is none."""
+    """Return the value of a text for an input of its kind. Raises AtlasError for an unsuitable text."""
     if declaration.kind == "text":
         if not text.isprintable():
             raise AtlasError("is no text of one line; leave out its control characters.")
@@ -148,7 +148,7 @@ def text_of(value: Any) -> str:
 
 
 def line_of(path: Path, name: str) -> int:
-    """Return the line on which a head declares an input, that of [inputs] for an unknown one; from 1."""
+    """Return the line, from 1, where a head declares an input; for an unknown one the line of [inputs]."""
     lines = files.text_of(path).split("\n")
     patterns = (rf"\s*(\[inputs\.{re.escape(name)}\]|{re.escape(name)}\s*=)", r"\s*\[?inputs\b")
     found = (k for pattern in patterns for k, line in enumerate(lines, 1) if re.match(pattern, line))
@@ -161,14 +161,14 @@ def digest(values: Mapping[str, Any]) -> str:
 
 
 def name_of(path: Path, values: Mapping[str, Any]) -> str:
-    """Return the name of the report that these inputs make: with a digest where they are not the defaults."""
+    """Return the name of the report made from these inputs: with a digest unless all are defaults."""
     inputs = declared(path)
     defaults = {name: read(one, text_of(one.default)) for name, one in inputs.items() if one.default is not None}
     return path.stem if dict(values) == defaults else f"{path.stem}-{digest(values)}"
 
 
 def filled(text: str, values: Mapping[str, Any], *, markdown: bool) -> tuple[dict[str, Any], str, list[int]]:
-    """Return the head of a report and its text, the inputs filled in, and for each line its line in the file.
+    """Return a report's head and text with the inputs filled in, and the line in the file of each line of text.
 
     Raises
     ------

@@ -16,7 +16,7 @@ from atlas.book.tables.table import Data, heads
 
 
 def blocks() -> Data:
-    """List the kinds of blocks that a page of a report has, with their keys, from their records."""
+    """Return the table of block kinds with their keys."""
     kinds = {f"`{name}`": kind.record for name, kind in KINDS.items()}
     says = (
         'The kinds of blocks, `kind = "NAME"`, with their keys; those in bold are needed, of others the value is what '
@@ -26,7 +26,7 @@ def blocks() -> Data:
 
 
 def report_keys() -> Data:
-    """List the keys of a report file, of its pages, bodies and fields, from their records."""
+    """Return the table of the keys of a report file, of its pages, bodies and fields."""
     place = {
         "in the head": Report, "`{page}`, below its title": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
         "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
@@ -39,7 +39,7 @@ def report_keys() -> Data:
 
 
 def layers() -> Data:
-    """List the classes of a scene, which a recipe returns, and of its parts."""
+    """Return the table of the classes of a scene, which a recipe returns, with their fields."""
     from atlas.pictures import layers as made
 
     kinds = {f"`{kind.__name__}`": kind for kind in (made.Scene, made.Plane, made.Space, *get_args(made.Layer))}
@@ -60,7 +60,7 @@ def _first_sentence(kind: type) -> str:
 
 
 def _keys(kind: Any) -> Iterator[str]:
-    """Go through the keys of a record, with the values that hold where they are left out, or the fields of a layer."""
+    """Yield the keys of a record with their defaults, or the fields of a layer, as Markdown."""
     if is_dataclass(kind):
         for field in fields(kind):
             yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"

@@ -42,7 +42,7 @@ _ESCAPES = str.maketrans(
 
 @dataclass(frozen=True)
 class Numeral:
-    """A number by its key: its digits, all proven, how many they are, its unit for siunitx, and where it stands."""
+    """A number with its key: its proven digits, their count, its siunitx unit, and its table cell."""
 
     key: str
     cell: str
@@ -52,7 +52,7 @@ class Numeral:
 
 
 def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the files of a document whose texts are set in LaTeX, by their places.
+    """Return the LaTeX files of a document, whose texts must be set, by path.
 
     `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
     """
@@ -82,7 +82,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
 
 
 def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
-    """Yield the numbers of a computed table: keyed by table, row and, where there are several, column."""
+    """Yield the numbers of a computed table, keyed by table, row and, if there are several, column."""
     heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
     numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]
     places = {name: place for place, name in enumerate(heads)}
@@ -102,7 +102,7 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
 
 
 def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
-    """Return the name of a row: its symbol, else its name in Python, else its first words, else its number."""
+    """Return the key of a row: its symbol, else its Python name, else its first cell, else its number."""
     for head in ("Symbol", "Name"):
         if head in places and row[places[head]]:
             return ascii_name(row[places[head]].partition("=")[0])
@@ -110,7 +110,7 @@ def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[i
 
 
 def _with_unit(number: str, unit: str) -> tuple[str, str]:
-    """Return a number with the power of ten that stands before its unit, and the unit as siunitx reads it."""
+    """Return (number with the power of ten that precedes its unit, unit for siunitx)."""
     power = _POWER.match(unit)
     remainder = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
     remainder = re.sub(r"\^([^^{}]+)\^", r"^{\1}", remainder).replace(MINUS, "-")  # an exponent in Markdown
@@ -119,7 +119,7 @@ def _with_unit(number: str, unit: str) -> tuple[str, str]:
 
 
 def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
-    """Return a figure as an environment of its own, of the width that it was made for: a column or both."""
+    """Return a figure as a LaTeX environment, one column wide or two."""
     name = figure.id.removeprefix("fig-")
     files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
     kind = "figure*" if any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures) else "figure"
@@ -187,7 +187,7 @@ def _block(name: str, block: Any, texts: Sequence[str]) -> str:
 
 
 def _in_lines(tex: str) -> str:
-    """Return a formula in lines, broken where it has a wide space, for a column; one without is as it was."""
+    """Return a formula for a column, broken at its wide spaces; unchanged without any."""
     if r"\begin" in tex or r"\qquad" not in tex:
         return tex
     return r"\begin{gathered}" + r" \\ ".join(tex.split(r"\qquad")) + r"\end{gathered}"
@@ -211,7 +211,7 @@ PAGE_LINES = 60
 
 
 class Layout:
-    """Columns of a table in LaTeX: their siunitx formats, letters and shares of the page's width, 0 where unbroken."""
+    """Columns of a table in LaTeX: siunitx formats, letters, and shares of the page's width, 0 for unbroken ones."""
 
     def __init__(self, table: TableView, markdown: Sequence[str]) -> None:
         printed = [[value(cell, markdown) for cell in row] for row in table.rows]
@@ -241,7 +241,7 @@ class Layout:
 
 
 def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
-    """Return a table as an environment of its own: over both columns where it is wide, over pages where it is high."""
+    """Return a table as a LaTeX environment: over two columns if wide, over several pages if long."""
     layout = Layout(table, markdown)
     caption = rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}"
     cells = [_head(column, texts, format_) for column, format_ in zip(table.columns, layout.formats, strict=True)]
@@ -283,10 +283,7 @@ def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
 
 
 def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
-    """Yield for each column its part of the page's width where its words are broken into lines, else 0.
-
-    They are where the table would be wider than the page.
-    """
+    """Yield the share of the page's width for each column of long words in too wide a table; 0 for other columns."""
     long = [place for place, count in enumerate(letters) if count > MAX_CELL_LETTERS and formats[place] == "l"]
     remaining = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)
     total = sum(letters[place] for place in long)
@@ -296,7 +293,7 @@ def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
 
 
 def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
-    """Return the head of a column with its unit; braces keep siunitx from reading it as a number."""
+    """Return the LaTeX head of a column with its unit; braces keep siunitx from reading it as a number."""
     unit = texts[column.unit] if column.unit is not None else ""
     head = texts[column.head] + (f" ({unit})" if unit and unit != "1" else "")
     return head if format_ == "l" else f"{{{head}}}"

@@ -24,7 +24,7 @@ from atlas.pictures.style import is_known
 
 
 def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
-    """Read a report file, with the values of its inputs, else their defaults.
+    """Return the report of a file, with the given values of its inputs or their defaults.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
 
 
 def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
-    """Return the values of a text, and put the pieces into `pieces` if it is Markdown."""
+    """Return the values of a text; for Markdown also fill `pieces`."""
     if markdown:
         raw, lines = read(text)
         pieces |= lines
@@ -89,9 +89,10 @@ def _consistent(report: Report, folder: Path) -> Report:
 
 
 def _filled(report: Report, folder: Path) -> Report:
-    """Return the report with the places of the recipes and the style that lie beside it, and its sets in its blocks.
+    """Return the report with paths of recipes and style beside it, and sets of parameters merged into its blocks.
 
-    Of the sets of parameters the last holds, above all the block's own. AtlasError for a recipe that is not there.
+    A later set overrides an earlier one, the block's own parameters override both. Raises AtlasError for a missing
+    recipe.
     """
 
     def fill(block: Block) -> Block:
@@ -126,7 +127,7 @@ def _check_reference(block: Block, report: Report, path: tuple[int, int]) -> Non
 
 
 def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> None:
-    """Raise for the first name, given with its place, that comes twice."""
+    """Raise SchemaError for the first name, given with its position, that occurs twice."""
     names = set[str]()
     for path, name in named:
         if name in names:
@@ -140,10 +141,7 @@ def _in_file(line: int, lines: Sequence[int]) -> int:
 
 
 def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> int:
-    """Return the line of a mistake: of its key, if that stands once in its block or in the file, else of its block.
-
-    0 where there is none.
-    """
+    """Return the line of a mistake: of its key if that is unique in the block or file, else of the block, else 0."""
     piece = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
     key, lines, start = re.escape(error.key), piece.lines if piece else text.split("\n"), piece.line if piece else 0
     pattern = re.compile(rf"\s*(?:\[[^\]]*\b{key}\b|{key}\s*=)|.*[{{,]\s*{key}\s*=")

@@ -31,7 +31,7 @@ class LineError(AtlasError):
 
 @dataclass(frozen=True)
 class Piece:
-    """A run of lines from `line` on: a text (without a kind), a heading ("#"), a block of some kind, or the head."""
+    """A run of lines from `line` on: a text (kind ""), a heading ("#"), a block of some kind, or the head."""
 
     kind: str
     line: int
@@ -43,7 +43,7 @@ class Piece:
         return "\n".join(self.lines).strip("\n")
 
     def values(self) -> dict[str, Any]:
-        """Return the lines read as TOML. LineError with the line of the file where they are none."""
+        """Return the lines parsed as TOML. Raises LineError, with the line in the file, if they are not TOML."""
         try:
             return toml.loads("\n" * self.line + "\n".join(self.lines))
         except ValueError as error:
@@ -54,7 +54,7 @@ class Piece:
 
 
 def split(text: str) -> tuple[Piece, Iterator[Piece]]:
-    """Return the head of a report and the pieces below it. LineError for a head or a block that does not end."""
+    """Return the head of a report and the pieces below. Raises LineError for a head or block that does not end."""
     lines = text.split("\n")
     end = next((number for number, line in enumerate(lines[1:], 1) if line.rstrip() == RULE), None)
     if lines[0].rstrip() != RULE or end is None:
@@ -94,7 +94,7 @@ def _end(lines: list[str], opening: int, fence: str) -> int:
 
 
 def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
-    """Return the values of a report as its TOML would have them, and their pieces.
+    """Return the values of a Markdown report in the form of TOML, and their pieces.
 
     Keys of the pieces are () for the head, (page,) and (page, block), from 0. Raises LineError.
     """
@@ -129,7 +129,7 @@ def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
 
 
 def _block(piece: Piece) -> dict[str, Any]:
-    """Return the values of a block: a text, TOML, or, for a kind with a text, a head of TOML, if any, and the text."""
+    """Return the values of a block from its TOML, and of a kind with text also from the text below."""
     kind, lines = piece.kind or "prose", piece.lines
     if piece.kind and piece.kind not in FENCED:
         hint = str(unknown("block kind", kind, FENCED)).rstrip(".")
@@ -146,14 +146,14 @@ def _block(piece: Piece) -> dict[str, Any]:
 
 
 def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]:
-    """Return the values. Raises LineError for one of `keys`, which the Markdown gives outside of the TOML."""
+    """Return the values. Raises LineError for one of `keys`, which Markdown gives outside the TOML."""
     for key in values.keys() & {*keys}:
         raise LineError(piece.line, f"this block takes no key {key!r}: the file says it outside of the TOML.")
     return values
 
 
 def written(report: Mapping[str, Any]) -> str:
-    """Write the values of a report as Markdown; the slugs of its pages are those that their titles give."""
+    """Return the Markdown of a report's values; slugs of pages follow from their titles."""
     head = {key: value for key, value in report.items() if key not in {"abstract", "pages"}}
     pieces = [f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n", f"{report['abstract']}\n"]
     for page in report["pages"]:

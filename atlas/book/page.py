@@ -60,13 +60,13 @@ class Asked:
 
     @property
     def words(self) -> list[str]:
-        """The command's name and its options, as they are typed."""
+        """Words of the command: its name and options, as typed."""
         command = self.family.command.name if self.family.command else self.family.name
         return [command, *chain.from_iterable((f"--{name}", *texts) for name, texts in self.options.items())]
 
     @property
     def exact_values(self) -> dict[str, Any]:
-        """The other parameters of the family, with fractions in the place of floats that would be rounded."""
+        """Parameters by name, with fractions in the place of floats that would be rounded."""
         return {**self.values, **self.exact}
 
     @property
@@ -82,11 +82,11 @@ class Asked:
         return self.called or name_of(self.words)
 
     def sources(self, exists: Callable[[str], bool]) -> dict[str, str]:
-        """Return the text of the report file by its name; `exists` says which pages lie beside the new one."""
+        """Return {file name: text} of the report file; `exists` says which other pages lie in its folder."""
         return {f"{self.name}.md": headed(self, written(definition(self, exists)))}
 
     def changed(self, family: str, **options: Any) -> "Asked":
-        """Return the request of another object near it; an option that is None is left out."""
+        """Return the request for a neighbouring object; an option with value None is removed."""
         new = {name: _texts(value) for name, value in options.items() if value is not None}
         kept_options = {
             name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
@@ -116,13 +116,13 @@ HEAD = (
 
 
 def name_of(words: Iterable[str]) -> str:
-    """Return the name of a page's files, made of words of its command."""
+    """Return a file name made of the words of a command, with a digest if it is long."""
     name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
     return name if len(name) <= MAX_NAME_LENGTH else f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
 
 
 def headed(request: Any, content: str, command: str = "") -> str:
-    """Return a file of a page, with the command that makes it, if not that of the page, at its head."""
+    """Return a file's content below a head with its digest and the command that makes it."""
     start = f"{RULE}\n" * content.startswith(RULE)
     content = content.removeprefix(start)
     digest = sha256(content.encode()).hexdigest()[:12]
@@ -134,14 +134,14 @@ def headed(request: Any, content: str, command: str = "") -> str:
 
 
 def edited(file: str) -> bool:
-    """Whether a file of a page is no longer as it was made."""
+    """Whether the content of a page's file differs from the digest in its head."""
     head, _, content = file.partition("\n\n")
     matched = re.search(r"digest (\w+)\.", head)
     return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
 
 
 def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
-    """Return the report as the values of its file. Raises AtlasError where there is no such object."""
+    """Return the report as a dict of values for its file. Raises AtlasError where the object does not exist."""
     family, left_out = request.family, list[str]()
     thing = Thing.of(Request([case_of(request)], {"family": family.name, **request.exact_values}, request.digits))
     motion, _ = thing.kernels(), thing.balls()
@@ -177,7 +177,7 @@ def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
 
 
 def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
-    """Yield the table of quantities with their standard deviations, where inputs have an uncertainty."""
+    """Yield the table of standard deviations, if inputs have uncertainties."""
     if request.deviations:
         yield {
             "kind": "listing", "id": "deviations", "rows": [list(row) for row in request.deviations],
@@ -188,14 +188,14 @@ def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
 
 
 def other_families(family: Family) -> list[Family]:
-    """Return the other families of a body in a field whose inputs are among those of this one."""
+    """Return the other families of a body in a field that need no further inputs."""
     names = {p.name for p in family.parameters}
     parameters = {other.name: {p.name for p in other.parameters} for other in FAMILIES.values() if other is not family}
     return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
 
 
 def _calls(request: Asked, family: Family) -> dict[str, str]:
-    """Return the keys of a block by which it calls the body and the field that a family has."""
+    """Return the keys by which a block names the body and the field, if the family takes them."""
     return {
         key: key
         for key, name in (("body", "ratio"), ("field", "field"))
@@ -204,7 +204,7 @@ def _calls(request: Asked, family: Family) -> dict[str, str]:
 
 
 def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the block of a computed table of a family, with these values of its parameters."""
+    """Return the block of a computed table of a family, with its parameters' values."""
     unit = {"units": request.units} if request.units else {"time": request.time} if request.time != "time" else {}
     return {
         "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(request, FAMILIES[family]),
@@ -238,9 +238,9 @@ def too_slow(motion: Any, time: str) -> Iterator[str]:
 def figures_of(
     request: Asked, left_out: list[str], maps: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
 ) -> Iterator[dict[str, Any]]:
-    """Yield the figures of the family, and the `maps` with their parameters; note in `left_out` why others are not.
+    """Yield the blocks of the family's figures and of the `maps`; add to `left_out` why figures are missing.
 
-    A figure is left out where its recipe does not take the numbers.
+    A figure is left out where its recipe refuses the parameters.
     """
     from atlas.bodies.units import system
     from atlas.pictures import recipes
@@ -267,13 +267,13 @@ def figures_of(
 
 
 def case_of(request: Asked) -> Any:
-    """Return the body in the field as tables have it."""
+    """Return the request's `BodyAndField`."""
     body = convert(request.body, Body) if request.body else None
     return body_and_field(body, convert(request.field, Field) if request.field else None)
 
 
 def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
-    """Yield the table of the nearest closed motions, if there are any."""
+    """Yield the table of the nearest closed motions, if there are any; else add the reason to `left_out`."""
     if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
         block = table_of(request, "closed", request.family.name, request.exact_values)
         try:
@@ -286,7 +286,7 @@ def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
 
 
 def _neighbours(request: Asked, exists: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
-    """Yield the heading "Neighbours" and a table: for each object near by the command of its page, or a link to it."""
+    """Yield the heading "Neighbours" and a table: for each neighbour the command of its page, or a link."""
     rows = [
         [
             words,
@@ -304,7 +304,7 @@ def _neighbours(request: Asked, exists: Callable[[str], bool]) -> Iterator[dict[
 
 
 def near(request: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield objects near by, each in words."""
+    """Yield (words, request) for neighbouring objects."""
     values, name = request.values, request.family.name
     if not request.body:
         return
@@ -336,7 +336,7 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
 
 
 def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield the object with a ball and with a disk or loop for its body."""
+    """Yield (words, request) of the same motion for a ball, and for a disk or loop."""
     ratio = case_of(request).ratio
     shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
     if request.body and "density" in request.options:
@@ -367,7 +367,7 @@ def _reproduce(request: Asked, motion: Any) -> str:
 
 
 def _is_printed(quantity: Any, motion: Any) -> bool:
-    """Return whether a quantity without a getter of its own has digits to print and a value for this motion."""
+    """Return whether a quantity of the motion, without its own getter, has digits to print."""
     if quantity.get or not (quantity.certified or quantity.printed):
         return False
     try:

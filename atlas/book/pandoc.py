@@ -86,13 +86,13 @@ def document(blocks: Tree) -> str:
 
 @cache
 def api() -> list[int]:
-    """Return the version of pandoc's trees."""
+    """Return the version of pandoc's document trees."""
     version: list[int] = json.loads(run(["-f", "markdown", "-t", "json"], ""))["pandoc-api-version"]
     return version
 
 
 def run(arguments: Sequence[str], source: str) -> str:
-    """Run pandoc once; turn its first warning into an error, and a text that it can't finish."""
+    """Return pandoc's output. Raises AtlasError for its first warning, and for a text that takes too long."""
     with TemporaryDirectory() as folder:
         log = Path(folder) / "log.json"
         command = [_program(), "+RTS", f"-M{MEMORY}", "-RTS", *arguments, f"--log={log}"]
@@ -169,7 +169,7 @@ _FACTORS = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 
 
 def mend_all(html: str) -> str:
-    """Mend every formula of a piece of HTML; signs that touch it stand on its line: a comma, a bracket, a unit."""
+    """Return HTML with corrected formulas, and adjacent commas, brackets, units kept on the formula's line."""
 
     def together(match: re.Match[str]) -> str:
         before, formula, sign = match[1], mend(match[2]), match[3]
@@ -199,7 +199,7 @@ def mend(math: str) -> str:
 
 
 def _mended(element: ET.Element) -> ET.Element:
-    """Return the replacement of one element."""
+    """Return the corrected replacement of one element."""
     if element.get("mathvariant") == "bold-italic":
         del element.attrib["mathvariant"]
         element.text = "".join(map(_upright, element.text or ""))
@@ -242,7 +242,7 @@ def _space_functions(parent: ET.Element) -> None:
 
 
 def _is_function(element: ET.Element) -> bool:
-    """Tell whether an element is the name of a function: pandoc marks it as one, but not inside growing brackets."""
+    """Whether an element is a function's name; pandoc marks it, except inside growing brackets."""
     while element.tag in {"msup", "msub"} or (
         element.tag == "mrow" and len(element) == 2 and element[1].text == _APPLY
     ):

@@ -12,9 +12,9 @@ from atlas.errors import AtlasError, unknown
 
 
 def pictures(report: Report) -> dict[str, Picture]:
-    """Return the pictures that the figures of a report and its gallery show, by `key`, in the order of their showing.
+    """Return the pictures of a report's figures and gallery, by `key`, in the order of appearance.
 
-    Nothing is drawn. A recipe that can't be loaded leaves the reason in its pictures; a misspelt recipe or parameter
+    Nothing is drawn. A recipe that cannot be loaded leaves the reason in its pictures; a misspelt recipe or parameter
     raises AtlasError.
     """
     by_key: dict[str, Picture] = {}
@@ -38,12 +38,12 @@ def pictures(report: Report) -> dict[str, Picture]:
 
 
 def keys(block: Figure, report: Report) -> list[str]:
-    """Return the keys of the pictures of a figure block: the same for the same recipe, parameters and renderer."""
+    """Return the keys of a figure block's pictures; equal recipe, parameters and renderer give equal keys."""
     return [name for name, _ in _pictures_of_block(block, report)]
 
 
 def on_cards(report: Report) -> set[str]:
-    """Return the keys of the pictures that stand for pages: the first of each, or its thumbnail."""
+    """Return the keys of the pictures that represent pages on the front page."""
     figures = [(page.slug, block) for page in report.pages for block in page.blocks if isinstance(block, Figure)]
     named = {page.slug: page.thumbnail.figure for page in report.pages}
     blocks = [
@@ -54,7 +54,7 @@ def on_cards(report: Report) -> set[str]:
 
 
 def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
-    """Go through the pictures of a figure block with their keys; a misspelt parameter is an error."""
+    """Yield (key, picture) for a figure block. Raises AtlasError for a misspelt parameter."""
     recipe, failure = _recipe(block.recipe)
     parameters = _parameters(block, recipe, report)
     for name in parameters if recipe else ():
@@ -67,7 +67,7 @@ def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Pic
 
 
 def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
-    """Turn the bodies and the field that a figure names into those parameters that its recipe takes."""
+    """Return the recipe's parameters, those of a named body and field included."""
     cases = chosen(block, report.parameters)
     offered: dict[str, Any] = {}
     if block.body:
@@ -89,7 +89,7 @@ def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]
 
 
 def _recipe(name: str) -> tuple[Any, str]:
-    """Load a recipe, or return why it can't be loaded; a name that there is not is an error."""
+    """Return (recipe, "") or (None, reason of the failure). Raises AtlasError for an unknown name."""
     from atlas.pictures import recipes
 
     if not name.endswith(".py") and name not in recipes.names():

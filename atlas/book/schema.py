@@ -31,11 +31,11 @@ T = TypeVar("T")
 
 
 class StrictStruct(msgspec.Struct, frozen=True):
-    """A table of the file; `convert` refuses a key that it does not have, and one that is a dataclass of Python."""
+    """Base of the records of report files: `convert` refuses unknown keys, and keys whose type is a dataclass."""
 
 
 class SchemaError(AtlasError):
-    """A sentence about a report file, the key that it is about, and the places in lists on the way to that key."""
+    """A message about a report file, with the key concerned and the list indices on the way to it."""
 
     def __init__(self, place: str, sentence: str, key: str = "", path: tuple[int, ...] = ()) -> None:
         super().__init__(f"{place or 'at the top'}: {sentence}")
@@ -122,7 +122,7 @@ def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: 
 
 
 def _fits(raw: Any, kind: inspect.Type) -> bool:
-    """Tell whether a value without parts has a type."""
+    """Return whether a scalar value has a type."""
     match kind:
         case inspect.FloatType():
             number = isinstance(raw, int | float) and not isinstance(raw, bool) and math.isfinite(raw)
@@ -162,6 +162,6 @@ def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
 
 
 def _value_text(raw: Any) -> str:
-    """Show a wrong value, cut if it is long."""
+    """Return a wrong value as text, cut if it is long."""
     text = repr(raw)
     return text if len(text) <= MAX_VALUE_LENGTH else f"{text[:MAX_VALUE_LENGTH]}…"

@@ -36,7 +36,7 @@ FORMULAIC = "explorer.js"
 
 
 class Term:
-    """A number of a script: a name, and the lines that give numbers their names, which all terms share."""
+    """A number of a generated script: a variable's name, and the list of assignments that all terms share."""
 
     def __init__(self, name: str, lines: list[str]) -> None:
         self.name, self.lines = name, lines
@@ -76,7 +76,7 @@ class Term:
         return self._named(f"Math.abs({self})")
 
     def sqrt(self) -> "Term":
-        """Return the root."""
+        """Return the square root as a new term."""
         return self._named(f"Math.sqrt({self})")
 
     def scaled(self, power: int) -> "Term":
@@ -84,7 +84,7 @@ class Term:
         return self._named(f"{self} * {2**power}")
 
     def select(self, positive: Any, alternative: Any) -> "Term":
-        """Return `positive` where this term is, else the other."""
+        """Return the term of `positive` where this term is positive, of `alternative` elsewhere."""
         return self._named(f"{self} > 0 ? {positive} : {alternative}")
 
 

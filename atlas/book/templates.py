@@ -19,12 +19,12 @@ _TYPESET: dict[str, Any] = {
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of the atlas and of the libraries that it runs on."""
+    """Return the versions of the atlas and of its libraries, by name."""
     return {"atlas": atlas.__version__} | libraries.versions()
 
 
 def templates(kind: Literal["html", "typst", "latex"], **filters: Callable[..., Any]) -> "Environment":
-    """Return the templates for a language, with filters of their own; `versions` is known in all of them."""
+    """Return the Jinja environment of a language's templates, with `filters`; `versions` is defined in all."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(

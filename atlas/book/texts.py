@@ -55,7 +55,7 @@ class Link(NamedTuple):
 
 @dataclass(frozen=True)
 class Text:
-    """A piece of Markdown, where it stands in the report, whether it is less than a paragraph.
+    """A piece of Markdown, its position in the report, and whether it is shorter than a paragraph.
 
     `anchors` are the ids to give to the first citations of some names.
     """
@@ -88,7 +88,7 @@ class Texts:
         return self.texts[number]
 
     def read(self) -> None:
-        """Parse the texts that have been added. Raises AtlasError for one whose parts are nested too deeply.
+        """Parse the added texts. Raises AtlasError for a text nested too deeply.
 
         The time that pandoc takes for such a text doubles with each level.
         """
@@ -104,10 +104,10 @@ class Texts:
         self._trees = [json.loads(tree) for tree in self._recalled(keys)]
 
     def set(self, target: Target, cite: Callable[[str, str], Link]) -> list[str]:
-        """Set all texts for a target, in their order.
+        """Return all texts typeset for a target, in order.
 
-        `cite` (name, place) returns the link of a citation. Raises AtlasError, with the place, for a formula that can't
-        be read, a link that is not allowed, and a picture.
+        `cite` (name, place) returns the link of a citation. Raises AtlasError, with the place, for an unreadable
+        formula, a link that is not allowed, and a picture.
         """
         if len(self._trees) < len(self.texts):
             self.read()
@@ -129,7 +129,7 @@ class Texts:
         return self._recalled(keys)
 
     def _recalled(self, keys: Sequence[str]) -> list[str]:
-        """Return the output of some sources."""
+        """Return the cached outputs of the keys, and mark them as used."""
         self.used |= {key: self.memory[key] for key in keys}
         return [self.used[key] for key in keys]
 
@@ -154,7 +154,7 @@ def deepest(markdown: str) -> int:
 
 
 def title(text: str) -> str:
-    """Return a title as Markdown: its formulas are set, and all else in it is plain words."""
+    """Return a title as Markdown: formulas are set, everything else is escaped as plain words."""
     words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(_APOSTROPHE.sub("’", text))
     return "".join(piece if k % 2 else re.sub(words, r"\\\1", piece) for k, piece in enumerate(formulas))
 
@@ -165,7 +165,7 @@ def title_words(text: str) -> str:
 
 
 def citations(markdown: str) -> list[str]:
-    """Return the names that a text cites, in their order, without those in code or in formulas."""
+    """Return the names that a text cites, in order, except in code and formulas."""
     return [name for name in _CITED.findall(markdown) if name]
 
 
@@ -177,7 +177,7 @@ def _braced(markdown: str) -> str:
 
 
 class _Checked:
-    """The tree of a text made safe, its citations resolved: only text and formulas reach a page."""
+    """Checker of a text's tree: only text and formulas reach a page, and citations are resolved."""
 
     def __init__(self, text: Text, target: Target, cite: Callable[[str, str], Link]) -> None:
         self.text, self.target, self.cite = text, target, cite
@@ -219,7 +219,7 @@ class _Checked:
         return [{"t": kind, "c": self.tree(content) if isinstance(content, list) else content}]
 
     def citation(self, pieces: Any) -> Tree:
-        """Return the links of a citation, in brackets with the words around them if it was written so."""
+        """Return the nodes of a citation's links, in brackets with the surrounding words if written so."""
         links = [self.cite(work["citationId"], self.text.where) for work in pieces]
         works = self.are_works(pieces, links)
         if works and self.target != "html":  # Typst and BibTeX set their own bibliography
@@ -234,7 +234,7 @@ class _Checked:
         return [*_words(start), *nodes, *_words(end)] if bracketed else nodes
 
     def are_works(self, citations: Any, links: Sequence[Link]) -> bool:
-        """Return whether a citation is of works, not of equations; it can't be of both."""
+        """Return whether a citation is of works, not of equations. Raises AtlasError for a mixture."""
         works = {bool(link.bracketed) for link in links}
         if len(works) > 1:
             raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
@@ -243,7 +243,7 @@ class _Checked:
         return works == {True}
 
     def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
-        """Return one link of a citation, at its anchor where it is the first to the name."""
+        """Return the nodes of one link of a citation, with an anchor at the first citation of the name."""
         name = work["citationId"]
         words = self.tree(_words(link.bracketed if bracketed and link.bracketed else link.words))
         if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
@@ -316,7 +316,7 @@ def _words(text: str) -> Tree:
 
 
 def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:
-    """Return a link as a node."""
+    """Return pandoc's node of a link."""
     return {"t": "Link", "c": [["", [], []], words, [url, title]]}
 
 
@@ -327,7 +327,7 @@ def _tex(tex: str, target: Target) -> str:
 
 
 def _mark(text: Text) -> str:
-    """Return a comment in Typst to stand before and after a formula of a text, which can't have it in itself."""
+    """Return a Typst comment that marks a formula's text, to stand before and after the formula."""
     return f"/*{hashlib.sha256(text.markdown.encode(errors='surrogatepass')).hexdigest()}*/"
 
 
@@ -342,7 +342,7 @@ def _finished(piece: str, target: Target, text: Text) -> str:
 
 
 def _mended(formula: str, text: Text) -> str:
-    r"""Mend a formula: ``\;`` and ``\!`` get their widths, which pandoc rounds to whole ems, bars are delimiters again.
+    r"""Return a Typst formula with the widths of ``\;`` and ``\!``, which pandoc rounds to ems, and with norm bars.
 
     A formula marked by ``\boxed`` gets its colour.
     """

@@ -7,7 +7,7 @@ from typing import Any
 
 
 def loads(text: str) -> dict[str, Any]:
-    """Return the values of a text. Raises ValueError, which TOMLDecodeError is, for one that is no TOML."""
+    """Return the values of a TOML text. Raises ValueError (or its TOMLDecodeError) for other text."""
     try:
         return tomllib.loads(text)
     except RecursionError:
@@ -15,7 +15,7 @@ def loads(text: str) -> dict[str, Any]:
 
 
 def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
-    """Yield values as TOML, dictionaries among them as tables below the others."""
+    """Yield values as lines of TOML, dictionaries as tables after the other values."""
     for key, value in values.items():
         if not isinstance(value, dict) and value is not None:
             yield f"{key} = {written(value)}\n"

@@ -31,7 +31,7 @@ def compiled(typst_source: str, folder: Path, fonts: Sequence[Path]) -> bytes:
 
 
 def _reason(error: Any) -> str:
-    """Return Typst's message, the line of the source and its text, in one line."""
+    """Return Typst's message, with the source line's number and text, as one line."""
     message = str(error.message).removeprefix("error: ").strip()
     place = re.search(r"\.typ:(\d+):\d+", error.diagnostic or "")
     excerpt = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)

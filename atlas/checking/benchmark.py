@@ -65,7 +65,7 @@ OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "ev
 
 
 def title(method: str) -> str:
-    """Return the name of a method in words; one that is not known keeps its own."""
+    """Return the title of a method for legends; an unknown method is its own title."""
     return METHODS[method][0] if method in METHODS else method
 
 
@@ -93,7 +93,7 @@ class Machine(Item, frozen=True):
 
 
 class Run(Item, frozen=True):
-    """One method on one case up to one horizon: its largest error and its time, always both, or why there is none.
+    """One method on one case up to one horizon: its largest error and its time, or a note why there is none.
 
     ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up.
     """
@@ -138,7 +138,7 @@ class Limit(Item, frozen=True):
 
 
 class Results(Item, frozen=True):
-    """One run of the benchmark, as far as figures, pages and the README show it."""
+    """One run of the benchmark: the fields of its record that figures, pages and the README show."""
 
     format: int
     command: str
@@ -156,7 +156,7 @@ def stored() -> Path:
 
 
 def read(path: Path | None = None) -> Results:
-    """Read a record, the repository's own by default; one that does not have the form is an AtlasError."""
+    """Read a benchmark record, by default the repository's. Raises AtlasError for any other file."""
     path = path or stored()
     try:
         return msgspec.json.decode(path.read_bytes(), type=Results)
@@ -184,13 +184,13 @@ def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
 
 
 def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
-    """Return points (N, 2); a zero, which a logarithm cannot show, becomes the smallest error there is to see."""
+    """Return points (x, y), (N, 2), at least 1e-18 each: a logarithmic axis cannot show zero."""
     points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
     return np.asarray(np.maximum(points, 1e-18))
 
 
 def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
-    """Return the line of a method with a dot where it was measured."""
+    """Return the curve of a method, with its title, and dots at the measured points."""
     return Curve(points, role(method), title(method)), Points(points, "sample")
 
 
@@ -201,13 +201,13 @@ def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tu
 
 
 def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
-    """Return a panel on logarithmic axes, which hold `every` layer with so many decades of room: in x, in y."""
+    """Return a panel of layers on logarithmic axes that hold `every` layer, with margins `room` in decades: (x, y)."""
     x, y = np.concatenate([layer.points for layer in every]).T
     return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
 
 
 def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
-    """Return a panel of the layers of each case, all on the same axes, of which the lowest name the horizontal one."""
+    """Return one panel a case, all on the same axes; only the lowest row names the horizontal axis."""
     every, upper = [layer for runs in cases.values() for layer in runs], len(cases) - columns
     return tuple(
         panel(runs, every, ("" if k < upper else labels[0], labels[1]), room, f"({'abcdefgh'[k]}) {case_title(case)}")
@@ -224,6 +224,6 @@ def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> 
 
 
 def power(value: float) -> str:
-    """Return a power of ten for a formula, or the number where it is none."""
+    """Return a power of ten as TeX, any other number as plain text."""
     exponent = np.log10(value)
     return f"10^{{{exponent:.0f}}}" if exponent == round(exponent) else f"{value:g}"

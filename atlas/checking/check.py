@@ -294,7 +294,7 @@ def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Chec
 
 
 def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, Any]) -> Check:
-    """Grade a trajectory in one go."""
+    """Return the grades of a trajectory, read once."""
     if not 0 <= threshold <= MAX_DIGITS:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MAX_DIGITS:g}; it cannot be {threshold:g}.")
     target = reference(trajectory.parameters, parameters, trajectory.file)

@@ -22,7 +22,7 @@ class Comparison:
     checks: tuple[Check, ...]
 
     def __str__(self) -> str:
-        """Return the tables of the trajectories, one after the other."""
+        """Return the tables of all trajectories, one below the other."""
         return "\n".join(map(str, self.checks))
 
     def record(self) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from atlas.motions.nutation.certified_top import TopMotion
 
 @dataclass(frozen=True)
 class Drift:
-    """How far something that must not change leaves its true value: the largest relative deviation, and the last."""
+    """Deviation of a conserved quantity from its true value: the largest relative one, with its time, and the last."""
 
     name: str
     says: str
@@ -95,7 +95,7 @@ class AnyBody:
         self._start = start
 
     def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-        """Yield the deviations in one more block."""
+        """Yield the deviations of the conserved quantities in the next block."""
         columns, R, Omega = _read(block)
         yield from _rigid(columns, R)
         if R is None or Omega is None:
@@ -108,7 +108,7 @@ class AnyBody:
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield how far a top is off in orthogonality, the norm, and the constants h, M3, p in units of its moment I2."""
+    """Yield a top's deviations: of orthogonality, of the norm, and of the constants h, M3, p in units of I2."""
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
     if R is None or Omega is None:
@@ -131,7 +131,7 @@ def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> I
 
 
 def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
-    """Return the columns in extended precision, and R (m, 3, 3) and Omega (m, 3) where they are there."""
+    """Return the columns in extended precision, R (m, 3, 3) and Omega (m, 3); None for one that is missing."""
     columns = {name: values.astype(np.longdouble) for name, values in block.items()}
     R = _matrices(columns, len(block["t"]))
     return columns, R, np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None

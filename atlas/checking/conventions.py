@@ -20,7 +20,7 @@ CHANGE = 0.01
 
 
 def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit: float) -> list[str]:
-    """Return sentences on other conventions in which most rows have errors below a limit, where as given they have not.
+    """Return sentences on conventions in which most rows have errors below `limit`, if they do not as given.
 
     Tried are transposed matrices, conjugate and reordered quaternions, attitudes turned by a constant rotation, and
     rates in the laboratory or in other units.
@@ -44,7 +44,7 @@ def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit:
 
 
 def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
-    """Yield words and quaternions, scalar first, for both orders and both directions of quaternions (N, 4)."""
+    """Yield (words, quaternions (N, 4), scalar first) for both orders of components and both directions."""
     conjugate = np.array([1.0, -1.0, -1.0, -1.0])
     orders = {"": 0, "with the scalar last": 1, "with the scalar first": -1}
     for order, places in orders.items():
@@ -53,7 +53,7 @@ def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
-    """Yield words and matrices of the readings of quaternions, none where one is zero."""
+    """Yield (words, matrices) for the readings of quaternions; nothing where a quaternion is zero."""
     from scipy.spatial.transform import Rotation
 
     if (np.linalg.norm(q, axis=-1) > 0).all():
@@ -65,7 +65,7 @@ def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: float) -> list[str]:
-    """Return a sentence on the first reading of matrices that is R, as given or turned; none if as given it is R."""
+    """Return a sentence on the first reading of matrices equal to R, or turned from R; [] if they agree as given."""
     if not readings or _median_error(next(iter(readings.values())), R) <= limit or _median_error(R, R[0]) < CHANGE:
         return []
     for words, M in readings.items():
@@ -85,7 +85,7 @@ def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: floa
 
 
 def _of_rates(rates: FloatArray, R: FloatArray, Omega: FloatArray, limit: float) -> list[str]:
-    """Return a sentence on the first frame and unit in which rates are Omega."""
+    """Return a sentence on the first frame and unit in which the rates equal Omega; [] if they agree as given."""
     size = float(np.abs(Omega).max()) or 1.0
     if _median_error(rates / size, Omega / size) <= limit:
         return []

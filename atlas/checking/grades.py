@@ -37,7 +37,7 @@ POINTS = 2048
 
 @dataclass(frozen=True)
 class Column:
-    """The grade of one column: digits that are correct, the worst place, and the time from which it fails, if it does.
+    """Grade of one column: median and least number of correct digits, the time of the worst, and of the first failure.
 
     Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
     The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls. Of a body
@@ -81,7 +81,7 @@ class Errors:
         return differences
 
     def true(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return R (m, 3, 3) and Omega (m, 3) at a few times (m,), by balls where there is nothing faster."""
+        """Return R (m, 3, 3) and Omega (m, 3) at a few times (m,), from balls where nothing faster is accurate."""
         rows = self._truth.within(t)
         R, Omega, _ = self._truth.values(np.where(rows, t, 0.0)) if rows.any() else np.zeros((3, t.size, 9))
         R, Omega = R.reshape(-1, 3, 3).astype(np.float64), Omega[:, :3].astype(np.float64)
@@ -146,7 +146,7 @@ class Grade:
                     break
 
     def column(self) -> Column:
-        """Return the grade."""
+        """Return the grade of all rows so far, a `Column`."""
         values = np.array(sorted(self._thousandths))
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
@@ -159,7 +159,7 @@ class Grade:
 
 
 class Envelope:
-    """The largest error of each group of columns in rows that follow one another, as many as keep the points few."""
+    """Largest error of each group of columns over consecutive rows, grouped so that the points stay few."""
 
     def __init__(self) -> None:
         self.rows = 1
@@ -182,7 +182,7 @@ class Envelope:
                 self._points_kept, self.rows = _largest(self._points_kept, 2), 2 * self.rows
 
     def times(self) -> list[float]:
-        """Return the first time of each point; none where nothing is graded."""
+        """Return the first time of each point; [] where nothing is graded."""
         return list(map(float, self._points()[:, 0])) if self._groups else []
 
     def errors(self) -> dict[str, list[float]]:
@@ -205,7 +205,7 @@ def _quaternion(motion: Any, t: float) -> list[Real]:
 
 
 def _precise(function: Callable[[], Any]) -> Any:
-    """Return nested lists of balls whose radii are small beside the largest of them; single ones may be zero."""
+    """Return the result of `function`, nested lists of balls, with radii below 2^-BITS of the largest ball."""
     precision = 2 * BITS
     while True:
         with workprec(precision):

@@ -42,7 +42,7 @@ QUESTIONS = {
 
 @dataclass(frozen=True)
 class Heading:
-    """The columns of a table: canonical names with their places, names in the file, factors to s and rad/s."""
+    """Columns of a table by canonical name: their indices, their names in the file, and factors to s and rad/s."""
 
     width: int
     places: Mapping[str, int]
@@ -93,7 +93,7 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
 
 
 def _canonical(names: Sequence[str], extra_names: Sequence[str]) -> dict[int, str]:
-    """Return the canonical names of columns that are known, by their places."""
+    """Return the canonical names of the known columns, by index."""
     bare = [re.sub(r"[\s_.]+", "", name).lower() for name in names]
     by_spelling = _NAMES | {name.lower(): name for name in extra_names}
     spelling = next((s.split() for s in SPELLINGS if set(s.split()) <= set(bare)), ())
@@ -111,7 +111,7 @@ def _hint(name: str) -> str:
 
 
 def _size(name: str, unit: str, place: str) -> Fraction:
-    """Return the unit in the heading of a column over the column's own, s or rad/s; 1 where no unit is given."""
+    """Return the unit in a column's heading divided by s or rad/s; 1 where no unit is given."""
     if unit in PLAIN:
         return Fraction(1)
     option = OPTIONS.get(name, "")

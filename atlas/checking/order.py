@@ -55,7 +55,7 @@ class Convergence:
         return f"order of convergence of {len(self.steps)} runs, case {self.case}: {', '.join(order_text)}"
 
     def table(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows: of each run its step, the largest errors, and the orders beside the run before."""
+        """Return heading and rows: of each run its step, the largest errors, and the order from the previous run."""
         heading = ["step", *(x for name in self.errors for x in (f"error of {name}", "order"))]
         rows = []
         for i, step in enumerate(self.steps):
@@ -94,7 +94,7 @@ class Convergence:
 
 
 def convergence(checks: Sequence[Any]) -> Convergence:
-    """Return the order of convergence of runs, each a `Check`. Raises AtlasError where they do not tell one."""
+    """Return the order of convergence of runs, each a `Check`. Raises AtlasError where the runs determine none."""
     runs = sorted(checks, key=lambda run: -run.step)
     steps = tuple(run.step for run in runs)
     if len(set(steps)) < max(2, len(steps)) or min(steps) <= 0:

@@ -41,7 +41,7 @@ class Reference:
     unit: Real = 1
 
     def frequencies(self) -> dict[str, str]:
-        """Return omega3, k and phi of an elementary motion; of others nothing, for their angles belong to a period."""
+        """Return omega3, k and phi of an elementary motion as texts by name; {} for other motions."""
         if not isinstance(motion := self.motion, ElementaryMotion):
             return {}
         digits: dict[str, str] = certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15)
@@ -80,7 +80,7 @@ def reference(of_file: Mapping[str, tuple[float, ...]], overrides: Given, file: 
 
 
 def _in_given_axes(motion: Any) -> Reference:
-    """Return a motion of `atlas.motion` with its arguments, and its integrals in the given axes."""
+    """Return the `Reference` of a motion of `atlas.motion`: its arguments, and its integrals in the given axes."""
     tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)
     arguments = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
@@ -90,7 +90,7 @@ def _in_given_axes(motion: Any) -> Reference:
 
 
 def _any_body(values: Given, start: Given, file: str) -> Reference:
-    """Return the motion of a body of any inertia tensor: certified where its moments and its start are given."""
+    """Return the `Reference` of any inertia tensor: certified where principal moments and a start are given."""
     inertia, B = values["inertia"], np.array(_parameter(values, "field", file), dtype=float)
     a, b, c, ab, ac, bc = (*inertia, 0.0, 0.0, 0.0)[:6]
     tensor, field = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]]), B if B.size == 3 else np.array([0.0, *B])
@@ -160,7 +160,7 @@ def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given
 
 
 def _plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a symmetric body's motion as plain numbers, a body as its two moments."""
+    """Return the parameters of a symmetric body's motion as floats and lists; a body as its moments [I2, I3]."""
     body = parameters["ratio"]
     plain: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
     plain["field"] = [float(component) for component in parameters["field"]]
@@ -179,7 +179,7 @@ def _body(values: Given, file: str) -> Any:
 
 
 def _number(value: Any) -> Any:
-    """Return a number that stands alone in its line, or was given."""
+    """Return a parameter as a number: the first of a tuple, or the value itself."""
     return value[0] if isinstance(value, tuple) else value
 
 

@@ -214,7 +214,7 @@ TOLERANCE = 1e-11
 def flow(
     inertia: FloatArray, W: FloatArray, K: FloatArray, a: float, g: float, times: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return W and K, shape (N, 3), after so many `times` (N,), ascending from 0, of the flow of a H + g F/2."""
+    """Return W and K, (N, 3) each, along the flow of a H + g F/2 at `times` (N,), ascending from 0."""
     from scipy.integrate import solve_ivp
 
     I, J, L = (float(x) for x in inertia)

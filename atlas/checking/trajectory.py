@@ -67,10 +67,10 @@ POLICIES = ("omit", "raise")
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A trajectory: where it is from, its columns as they were called, its parameters, and the rows, block by block.
+    """A trajectory: its file, the names of its columns, its parameters, and an iterator over blocks of rows.
 
-    The keys of `names` are canonical. Each block has a column (m,) for each, NaN where a number is missing; together
-    they can be gone through once. `left_out` is a sentence on columns that are not used, `units` holds those of the
+    The keys of `names` are canonical. Each block has an array (m,) for each column, NaN where a number is missing;
+    the blocks can be read once. `left_out` is a sentence on columns that are not used, `units` holds those of the
     headings.
     """
 
@@ -124,7 +124,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
 
 
 def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str, Any]) -> dict[str, Any]:
-    """Return data by name, those named in the plural among them. Raises TypeError for another name."""
+    """Return data by singular name, from keywords in either number. Raises TypeError for another keyword."""
     singular = {"axes" if name == "axis" else f"{name}s".replace("ys", "ies"): name for name in columns}
     for name in plural:
         if name not in singular:
@@ -135,10 +135,10 @@ def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str,
 
 
 def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_policy: str = "omit") -> Trajectory:
-    """Return the trajectory of times (N,) and arrays, None where one is left out.
+    """Return the `Trajectory` of times (N,) and arrays by name; None for an array that is left out.
 
-    They are rotation (N, 3, 3), quaternion (N, 4) and angular_velocity (N, 3). Raises AtlasError for another shape,
-    and for an entry that is no number; NaN is none with the policy "raise".
+    The arrays are rotation (N, 3, 3), quaternion (N, 4) and angular_velocity (N, 3). Raises AtlasError for another
+    shape, and for an entry that is no number; with the policy "raise" also for NaN.
     """
     times = measured(t, "t", nan_policy)
     if times.ndim != 1 or not times.size:
@@ -175,7 +175,7 @@ def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
 
 
 def whole_rows(block: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], int]:
-    """Return the rows of a block that have all their numbers, and the count of the others."""
+    """Return the rows of a block without missing numbers, and the count of the other rows."""
     is_whole = np.all([np.isfinite(x) for x in block.values()], axis=0)
     return {name: x[is_whole] for name, x in block.items()}, int(is_whole.size - is_whole.sum())
 
@@ -213,7 +213,7 @@ def _split(line: str, separator: str) -> list[str]:
 
 
 def _one_word(line: str) -> str:
-    """Return a line of names parted by spaces with each unit beside its name."""
+    """Return a line of names separated by spaces, without the space between a name and its unit."""
     return re.sub(r"\s+(?=[\[(])", "", line)
 
 
@@ -257,7 +257,7 @@ def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatA
 
 
 def _rows(rows: Sequence[tuple[int, str]], title: Heading, separator: str, file: str) -> FloatArray:
-    """Return the numbers of some lines, shape (rows, columns): as JSON, where they are; else each cell by itself."""
+    """Return the numbers of lines, shape (rows, columns): parsed as JSON if possible, else cell by cell."""
     places = [*title.places.values()]
     lines = [",".join(line.split(None if separator == " " else separator)) for _, line in rows]
     if all(line.count(",") == title.width - 1 for line in lines):
@@ -272,7 +272,7 @@ _DECODER = msgspec.json.Decoder(list[float])
 
 
 def _cells(line: str, title: Heading, separator: str, place: str) -> list[float]:
-    """Return the numbers of one line."""
+    """Return the numbers in the known columns of one line."""
     cells = _split(line, separator)
     if len(cells) == title.width + 1 and not cells[-1].strip():
         del cells[-1]  # a separator at the end
@@ -282,7 +282,7 @@ def _cells(line: str, title: Heading, separator: str, place: str) -> list[float]
 
 
 def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
-    """Return the parameters of a # line, none where it is a comment."""
+    """Return the parameters in a # line by name; {} for a comment."""
     parameters: dict[str, tuple[float, ...]] = {}
     for item in line.split(";"):
         key = re.match(r"\s*(\w+)\s*([=:])\s*", item)
@@ -300,7 +300,7 @@ def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
 
 
 def _number(cell: str, place: str) -> float:
-    """Return the number in a cell, NaN where it is empty."""
+    """Return the number in a cell, NaN for an empty cell."""
     text = cell.strip(" \t")
     text = "" if text.lower() in HOLES else text
     plain = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's 1.5D-05

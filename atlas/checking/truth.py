@@ -61,7 +61,7 @@ class Truth:
         self.n2, self.n3, self.omega2, self.omega3 = map(long, values[2:])
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
-        """Tell at which times the truth is good to UNCERTAINTY, shape (m,)."""
+        """Return a mask (m,) of the times at which the reference is accurate to UNCERTAINTY."""
         return np.asarray((np.abs(t) <= PHASE * self._phases.reach) & EXTENDED)
 
     def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
@@ -87,11 +87,10 @@ class Truth:
 
 @dataclass(frozen=True)
 class KernelTruth:
-    """R, Omega and the quaternion of other motions, by the kernels: to a few units in the last place of a double.
+    """Reference R, Omega and quaternion of a motion by its kernel, accurate to a few units in the last place.
 
-    They are good to `uncertainty`; `in_balls` says whether there is a certified counterpart.
-    Errors below `near` are to be found by balls;
-    those below `floor` are not told from it.
+    The values are accurate to `uncertainty`; `in_balls` says whether there is a certified counterpart. Errors below
+    `near` are computed in balls; errors below `floor` cannot be distinguished from `floor`.
     """
 
     single: Any
@@ -102,7 +101,7 @@ class KernelTruth:
     in_balls: bool = True
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
-        """Tell at which times there is a value, shape (m,)."""
+        """Return a mask (m,) of the times within `reach`."""
         return np.asarray(np.abs(t) <= self.reach)
 
     def values(self, t: FloatArray) -> tuple[Long, Long, Long]:

@@ -28,10 +28,10 @@ BESIDE = {"data": "report", "tex": "report"}
 
 
 class LazyCommand(click.Command):
-    """A command that is loaded when it is called: until then its name and one line of help are known."""
+    """A command that is imported when it is called; until then only its name and one line of help are known."""
 
     def loaded(self) -> click.Command:
-        """Load the command."""
+        """Return the click command, imported now."""
         name = str(self.name)
         if name in SUMMARIES:
             from atlas.cli.family import command as of_families
@@ -42,7 +42,7 @@ class LazyCommand(click.Command):
         return command
 
     def make_context(self, *arguments: Any, **settings: Any) -> click.Context:
-        """Load the command and let it read its arguments."""
+        """Return the context of the imported command for its arguments."""
         return self.loaded().make_context(*arguments, **settings)
 
 
@@ -72,14 +72,14 @@ class Atlas(click.Group):
     """The group of all commands."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the words before the command."""
+        """Parse the words before the command; a closed pipe ends the process quietly."""
         try:
             return super().parse_args(ctx, args)
         except BrokenPipeError as error:  # of a page of help, for which click would end the process with status 1
             raise click.exceptions.Exit(_reader_gone()) from error
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        """Find the command; say where one is that has gone. `help NAME` is the help of a command, or of all."""
+        """Return the command; name the new place of a removed one. `help NAME` is the help of a command, or of all."""
         if args[0] == "help":
             if len(args) == 1:
                 click.echo(ctx.get_help())

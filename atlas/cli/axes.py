@@ -13,10 +13,10 @@ OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
 
 
 def motion_in_given_axes(options: dict[str, Any]) -> Any:
-    """Return the motion of a body in other axes than its class has them, None for one that is along these.
+    """Return the motion in the given axes where they differ from those of its class, else None.
 
-    So is a body whose axes are not principal ones, one that starts from an attitude, and a symmetric one in a field of
-    three components. It is in doubles: a certified twin has principal axes, and R(0) = 1.
+    They differ for a tensor that is not diagonal, for a start from an attitude, and for a symmetric body in a field of
+    three components. The motion is in doubles: a certified motion has principal axes, and R(0) = 1.
     """
     tensor, attitude = body.given_tensor(options), body.given_attitude(options)
     J = body.chosen_moments(options) if tensor is None else tensor
@@ -28,7 +28,7 @@ def motion_in_given_axes(options: dict[str, Any]) -> Any:
 
 
 class Principal(NamedTuple):
-    """A motion in the axes of its class: the family, the options that say which, and these axes in those given.
+    """A motion along the axes of its class: family, options, values, and these axes in terms of the given ones.
 
     `is_rounded` tells whether numbers along these axes are rounded to floats.
     """
@@ -41,7 +41,7 @@ class Principal(NamedTuple):
 
     @property
     def note(self) -> str:
-        """Sentence on these axes, where they are not those of the body."""
+        """Sentence on the principal axes; "" where they are the given axes."""
         if self.axes == OWN_AXES:
             return ""
         rounded = "; numbers along them are rounded to floats" * self.is_rounded
@@ -49,7 +49,7 @@ class Principal(NamedTuple):
 
 
 def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
-    """Return the request of a motion in given axes, turned into the axes of its class, rates in a unit.
+    """Return a motion in given axes as a `Principal`, along the axes of its class, with rates in a unit.
 
     Where floats do not hold the inputs of the class, or its field has three components, the family is that of any
     three moments; not for a motion that was fitted, which is rounded.
@@ -68,7 +68,7 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
 
 
 def along_principal_axes(motion: Any, unit: str = "") -> Principal:
-    """Return the request of a motion in given axes, as that of a body with three moments, rates in a unit."""
+    """Return a motion in given axes as a `Principal` of a body with three moments, with rates in a unit."""
     from atlas.motions.start import start_of
 
     start = start_of(**motion.arguments)

@@ -114,7 +114,7 @@ spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about 
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that describe the body and the field, as they were given."""
+    """Return the given options of body and field, by name."""
     names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
     parameters = given(options, names)
     parameters |= {"points": str(options["points"])} if "points" in parameters else {}
@@ -150,7 +150,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
 
 
 def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed | None) -> Any:
-    """Return the body of a shape with the dimensions that were typed; its mass is 1 where none was."""
+    """Return the body of a shape from the typed dimensions; its mass is 1 if none was given."""
     from atlas.bodies.body import from_shape
 
     shapes_by_name = shapes()
@@ -208,7 +208,7 @@ def exact_tensor(options: dict[str, Any]) -> Any:
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
-    """Return the rotation R(0) of --attitude, None where it is not given. Raises AtlasError for no unit length."""
+    """Return R(0), (3, 3), from --attitude, or None. Raises AtlasError for a quaternion not of unit length."""
     if options.get("attitude") is None:
         return None
     from atlas.arithmetic.quaternions import rotation_of
@@ -217,7 +217,7 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
 
 
 def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> str:
-    """Return the one option that was given among several. Raises click.UsageError for none and for two."""
+    """Return the single given option among `names`. Raises click.UsageError for none and for several."""
     names_given = list(given(options, names))
     if len(names_given) != 1:
         option_names = ", ".join(f"--{name}" for name in names if name in options)
@@ -253,7 +253,7 @@ def exact_body(options: dict[str, Any]) -> Any:
 
 
 def mass_of(options: Mapping[str, Any]) -> Any:
-    """Return the mass of a shape, as given or by the density, with pi in 512 digits; None where neither is said."""
+    """Return the mass of a shape, from --mass or from the density with pi in 512 digits; None without either."""
     if options.get("density") is None:
         return options.get("mass")
     from atlas.arithmetic.numbers import as_rational, rational, workprec
@@ -270,9 +270,9 @@ def mass_of(options: Mapping[str, Any]) -> Any:
 
 
 def system_of(options: Mapping[str, Any]) -> str:
-    """Return the system of units of --magnetic: SI where a charge or a unit is given and nothing is said.
+    """Return the system of units: --units, or by default "si" with a charge or a typed unit, else "natural".
 
-    Raises click.UsageError for a unit beside another system.
+    Raises click.UsageError for a typed unit with another system.
     """
     charged = options["charge"] is not None or options.get("points") is not None
     has_unit = in_one_system(options)
@@ -287,7 +287,7 @@ def speed_of_light(options: Mapping[str, Any]) -> float:
 
 
 def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
-    """Return the numbers with a unit, which is in SI. Raises click.UsageError for one beside another system."""
+    """Return the numbers typed with a unit, (option, number). Raises click.UsageError with a system other than SI."""
     numbers_with_units = measured(options)
     if numbers_with_units and options["units"] not in {None, "si"}:
         raise click.UsageError(f"{numbers_with_units[0][1].text} is in SI: leave out --units {options['units']}.")
@@ -295,13 +295,13 @@ def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return the units of times and rates, where they are known."""
+    """Return the names of the units of times and rates where known, else {}."""
     has_units = options.get("magnetic") is not None and system_of(options) != "natural"
     return SECONDS if has_units or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
 
 def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> float:
-    """Return mu, from --mu, from --mass and --charge or from --points, where there are such; `needs` is what needs it.
+    """Return mu, from --mu, from --mass and --charge, or from --points; `needs` names the option that requires it.
 
     Raises click.UsageError where none of them or several are given.
     """
@@ -320,7 +320,7 @@ def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> 
 
 
 def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fraction, float | Fraction]:
-    """Return a charge and a mass as they were typed; the charge-to-mass ratio and 1 where that is given."""
+    """Return (charge, mass) as typed; (mu, 1) where the ratio mu is given."""
     mass = mass_of(options)
     option_names = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
     if options.get("points") is not None:
@@ -378,9 +378,9 @@ def exact_field(options: dict[str, Any]) -> Any:
 
 
 def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = None) -> None:
-    """Warn of speeds above a tenth of that of light, where units are known: of a charge, and of a body at t = 0.
+    """Warn of speeds above a tenth of that of light, of a charge or of a body's points at t = 0, if units are known.
 
-    `start` is the angular velocity of a body where options do not say it.
+    `start` is the angular velocity of the body where no option gives it.
 
     Raises DomainError where the drift in crossed fields is not below the speed of light.
     """
@@ -407,7 +407,7 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
-    """Return the initial angular velocity, of --omega or --spin; None where it is not needed and neither is given."""
+    """Return the initial angular velocity, (3,), from --omega or --spin; None if neither is given nor `needed`."""
     omega, spin = options["omega"], options["spin"]
     if (needed or spin is not None) and (omega is None) == (spin is None):
         raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")

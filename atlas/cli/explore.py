@@ -65,7 +65,7 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
 
 
 def started(args: list[str]) -> tuple[str, str]:
-    """Return the family of a motion, from options of atlas motion, and the fragment of an address with its numbers.
+    """Return the family for options of atlas motion, and the fragment of a URL with their values.
 
     Raises click.UsageError for another word.
     """

@@ -98,7 +98,7 @@ def command(name: str) -> click.Command:
 
 
 def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
-    """Return the command of several families: its help is that of all, its arguments are of the one they belong to."""
+    """Return one command for several families: it has all their options, and calls the family they belong to."""
     params = dict[str, click.Parameter]()
     for param in (copy(param) for command in commands.values() for param in command.params):
         option = params.setdefault(str(param.name), param)
@@ -116,7 +116,7 @@ def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Comma
 
 
 def _is_for_all(words: Words, params: Iterable[click.Parameter]) -> bool:
-    """Tell whether help is asked for, or an option that no family has is misspelt: the command of all answers that."""
+    """Whether help is requested, or an option is unknown to all families: the common command answers."""
     return not words.names - {"--"} <= {name for param in params for name in param.opts}
 
 
@@ -143,7 +143,7 @@ def family_of(words: Words) -> str:
 
 
 def _command_of(family: Family, described: Described) -> click.Command:
-    """Return the command of a family, with its options and its action."""
+    """Return the click command of a family."""
     has_lines = any(s.matrix for s in family.sampled)
     decorators = [
         *object_options(family),
@@ -171,7 +171,7 @@ class Best(dict[tuple[str, Any], Any]):
 
 @dataclass(frozen=True)
 class Question:
-    """Request of the command of a family: an object, given by options, and its samples at times."""
+    """Request to the command of a family: the options of an object, and times of its samples."""
 
     family: Family
     described: Described
@@ -181,12 +181,12 @@ class Question:
 
     @property
     def named(self) -> dict[str, str]:
-        """Name of the family, where the command has several."""
+        """Record {"family": name} where the command serves several families, else {}."""
         return {"family": self.family.name} if self.described.name == "motion" else {}
 
     @property
     def sampled(self) -> list[Sampled]:
-        """Functions of time that are printed."""
+        """Functions of time that the command prints."""
         return [s for s in self.family.sampled if s.printed]
 
     def floats(self) -> dict[str, Any]:
@@ -198,7 +198,7 @@ class Question:
 
     @cached_property
     def near(self) -> list[Any]:
-        """Quaternions in doubles, which have a sign; none where that is not known."""
+        """Quaternions in doubles at the times, whose signs the certified ones take; None where no sign is certified."""
         try:
             motion = motion_in_given_axes(self.options) if self.family.in_given_axes else None
             return list(along((motion or _kernel(self.family, self.options)).quaternion, self.times))
@@ -253,7 +253,7 @@ def _later(
     options: dict[str, Any],
     spare: int,
 ) -> Iterator[dict[str, Any]]:
-    """Yield the records of later times, some at a time: a table prints them while the next are computed."""
+    """Yield the certified records of further times by blocks: a table prints while the next block is computed."""
     from atlas.arithmetic.certified_digits import certified
 
     for start in range(0, len(times), AT_ONCE):
@@ -327,7 +327,7 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:
-    """Return a line for each quantity that is among the texts, but for the one that names the case."""
+    """Return the lines of the quantities in `texts`, except the one called `named`, which selects the case."""
     case = texts.get(named, "") if named else ""
     quantities = [q for q in family.quantities if q.name in texts and q.name != named]
     return [line for q in quantities for line in _lines(q, texts[q.name], case, _units(family, options))]
@@ -353,7 +353,7 @@ def _with_sigma(
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters as they were given."""
+    """Return the given parameters by name, for the record."""
     if family.takes("coupling") and given_otherwise(options):
         return parameters_of_top([p.name for p in family.parameters], options)
     parameters = body.body_parameters(options) if in_field(family) else {}
@@ -364,7 +364,7 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
-    """Print a motion in given axes, which is certified in no twin but that of any body."""
+    """Print a motion in given axes, in doubles."""
     from atlas.motions.start import body_of
 
     family = FAMILIES[motion.family]
@@ -395,7 +395,7 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
 
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
-    """Return the angle by which rounding of the inputs turns the body until the farthest time, if above `ROUNDING`."""
+    """Return the angle in rad by which rounded inputs turn the body until the latest time; {} below ROUNDING."""
     if not times or not family.is_sensitive:
         return {}
     with suppress(AtlasError):  # where there are no derivatives there is no bound
@@ -405,14 +405,14 @@ def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[st
 
 
 def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
-    """Whether a motion is so short that rounding can't grow, told without the libraries that a table does not load."""
+    """Whether a motion is too short for the rounding of inputs to matter; decided without heavy imports."""
     rates = [x for name in ("field", "omega", "omega2", "spin") for x in parts_of(options.get(name) or 0.0)]
     field_is_prime = options.get("magnetic") is None and options.get("linear") is None
     return field_is_prime and max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
 
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
-    """Yield the sentence on the error by rounding of the inputs, where they are rounded."""
+    """Yield the sentence on the error from rounded inputs, if there is one."""
     rounded = options["digits"] is None and not options["decimal"] and family.is_sensitive
     if not rounded or _is_short(options, times):
         return
@@ -430,7 +430,7 @@ def _kernel(family: Family, options: dict[str, Any]) -> Any:
 
 
 def _balls(family: Family, options: dict[str, Any]) -> Any:
-    """Return the certified object that the options say, in the axes and from the attitude that were given."""
+    """Return the certified object of the options, in the given axes and with the given attitude."""
     if family.in_given_axes and (body.given_tensor(options) is not None or options["attitude"] is not None):
         from atlas.motions.torus.certified_placed import PlacedMotion
 
@@ -454,7 +454,7 @@ def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Seque
 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:
-    """Return the options that say which object of a family it is."""
+    """Return the decorators of all options that define an object of a family."""
     return [
         *([body.body_options] if family.takes("ratio") else []),
         *([body.field_options] if in_plane(family) else []),
@@ -472,22 +472,22 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
 
 
 def in_plane(family: Family) -> bool:
-    """Whether a family takes its field (0, B2, B3), which may be given as B and mu, by the options made for that."""
+    """Whether a family's field is (0, B2, B3), with the options for B and the charge-to-mass ratio."""
     return any(p.name == "field" and not p.option for p in family.parameters)
 
 
 def of_any_body(family: Family) -> bool:
-    """Whether a family takes three moments of inertia, and its field along their axes."""
+    """Whether a family takes three moments of inertia, and a field of three components."""
     return any(p.name == "inertia" and len(p.names) == len("123") for p in family.parameters)
 
 
 def in_field(family: Family) -> bool:
-    """Whether the field of a family may be given as B with a charge-to-mass ratio, by the options made for that."""
+    """Whether a family's field may be given as B with a charge-to-mass ratio."""
     return of_any_body(family) or family.takes("ratio")
 
 
 def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
-    """Return the option of a parameter."""
+    """Return the decorator of a parameter's option."""
     settings: dict[str, Any] = {"required": True} if needed else {}
     if not needed and p.omitted is not None:
         default, count = f"{p.omitted:g}", len(p.names)
@@ -496,7 +496,7 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
 
 
 def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
-    """Yield the parameters, as kernels or as balls take them."""
+    """Yield the arguments of a family's class in their order, exact numbers if `exact`, else floats."""
     if family.takes("coupling"):
         if given_otherwise(options):
             top = chosen_top(options)
@@ -516,9 +516,9 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
-    """Return a matrix or a vector at a time; where the precision of the moment can't be had, at the last that could.
+    """Return a matrix or a vector at time t; if the current precision is out of reach, the best one so far.
 
-    So one time, whose numbers may be too small or which may be too far, never loses the others.
+    So one time, whose numbers may be too small or too far away, never spoils the other times.
     """
     try:
         best[s.name, t] = s.method_of(motion)(t)
@@ -532,7 +532,7 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
 
 
 def _quaternion(motion: Any, t: Any, R: Any, quaternion_near: Any) -> Any:
-    """Return the quaternion of a motion in balls, near to doubles; not certified where the matrix R is not."""
+    """Return the quaternion in balls whose sign is that of the doubles; "not certified" where R is."""
     from flint import fmpq
 
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED
@@ -584,7 +584,7 @@ def _printout(
     worth: str,
     more_lines: Iterable[Line],
 ) -> Printout:
-    """Lay the certified texts out, with lines that stand beside the quantities, and three rows a time."""
+    """Return the certified texts as a `Printout`: lines of quantities, and three rows for each time."""
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED
 
     uncertain_rows = False
@@ -615,7 +615,7 @@ def _printout(
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
-    """Return the names of units, where they are known."""
+    """Return the names of units where they are known, by dimension; else {}."""
     if family.takes("coupling"):
         return top_units(options)
     if family.takes("c"):
@@ -634,7 +634,7 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
 
 
 def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
-    """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits, where units tell."""
+    """Yield lines of the rates in hertz and of Larmor's frequency, rounded to six digits, if units are known."""
     if not _units(family, options):
         return
     texts_of_rates = {q.name: texts[q.name] for q in family.quantities if q.unit == RATE and q.name in texts}

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 
 class FigureCommand(Command):
-    """A command whose help goes on with the parameters of the recipes that are named beside --help."""
+    """A command whose help also lists the parameters of the recipes that are named beside --help."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Note the words that may be recipes: --help is obeyed before they are read."""
+        """Note the words that may be recipes: click obeys --help before it reads them."""
         ctx.obj = [word for word in args if not word.startswith("-")]
         return super().parse_args(ctx, args)
 
@@ -163,7 +163,7 @@ def command(
 
 
 def _gallery(names: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> int:
-    """Build a gallery of the recipes and print its place; return the exit status."""
+    """Build the gallery of the recipes and print its path; return the exit status."""
     from atlas.book.building.gallery import build_gallery
 
     with bar("gallery") as tell:
@@ -175,7 +175,7 @@ def _gallery(names: tuple[str, ...], out: Path, style: str | None, jobs: int | N
 
 
 def _check(names: tuple[str, ...], target: str | None) -> None:
-    """Raise click.UsageError for a parameter in the place of a name, AtlasError for a target that is not known."""
+    """Raise click.UsageError for KEY=VALUE in the place of a name, AtlasError for an unknown target."""
     if target is not None:
         find(target)
     for name in names:

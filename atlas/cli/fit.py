@@ -93,7 +93,7 @@ def fitted(file: Path, options: dict[str, Any]) -> Any:
 
 
 def arguments(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the arguments of `fit_file` that the options stand for. Raises click.UsageError for a name given twice."""
+    """Return the keyword arguments of `fit_file` from the options. Raises click.UsageError for a name given twice."""
     given_values: dict[str, dict[str, float]] = {"fix": {}, "start": {}}
     for option, values in given_values.items():
         for name, value in map(_pair, options[option]):

@@ -66,14 +66,14 @@ def command(**options: Any) -> None:
 
 
 def curve_of(options: dict[str, Any]) -> Any:
-    """Return the curve in floats."""
+    """Return the `Hyperbola` of the options, in doubles."""
     from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 
     return Hyperbola(chosen_body(options), chosen_field(options))
 
 
 def sampled(curve: Any, count: int) -> list[float]:
-    """Return omega2 of points on both branches; for B3 = 0 on the line omega3 = 0, without its crossing, the pole."""
+    """Return omega2 at points of both branches; for B3 = 0 on the line omega3 = 0, except at the pole."""
     if curve.B3:
         return [float(x) for x in curve.sample(count)[0]]
     return [float(x) for x in curve.branches(2 * count)[0][0] if x != curve.pole]

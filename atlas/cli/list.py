@@ -130,7 +130,7 @@ def _tables(_: list[str]) -> Listing:
 
 
 def _keys_of(kinds: Iterable[type]) -> Iterator[tuple[str, dict[str, bool]]]:
-    """Yield the keys of a table by the types of its arguments, each with whether it is needed."""
+    """Yield (kind's keys, whether each is required) for the argument types of a table."""
     from msgspec.structs import fields
 
     from atlas.book.schema import StrictStruct
@@ -211,7 +211,7 @@ def _marked(keys: dict[str, dict[str, Any]]) -> str:
 
 
 def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
-    """Return the parameters of a recipe by name, each with its default and its range."""
+    """Return the default and, if there is one, the range of each parameter of a recipe, by name."""
     return {
         name: {"default": default} | ({"range": recipe.ranges[name]} if name in recipe.ranges else {})
         for name, default in recipe.parameters.items()

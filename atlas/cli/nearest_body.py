@@ -21,9 +21,9 @@ LENGTH, ROUNDED = 1e-3, 1e-6
 
 
 def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio, moved to those of a plane body if they are next to it.
+    """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio; those of a plane body if within their last digits.
 
-    Each moves in proportion to the unit of its last digit, by less than that.
+    Each moves in proportion to the unit of its last digit, and by less than that.
     """
     if value is None:
         return None
@@ -52,7 +52,7 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
 
 
 def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed tensor I11 I22 I33 I12 I13 I23, moved to that of a plane body if it is next to it."""
+    """Return a typed tensor I11 I22 I33 I12 I13 I23; that of a plane body if within its last digits."""
     if value is None:
         return None
     import numpy as np
@@ -74,7 +74,7 @@ def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
 
 
 def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed quaternion, divided by its length if that differs from 1 in its last digits."""
+    """Return a typed quaternion, normalised if its length differs from 1 by rounding of the typed digits."""
     if value is None or not ROUNDED < abs((length := math.hypot(*value)) - 1) < LENGTH:
         return value
     new = tuple(_with_value(x, float(x) / length, None) for x in value)
@@ -83,7 +83,7 @@ def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any
 
 
 def _exact(x: Typed) -> Fraction:
-    """Return a typed number in SI, exactly; its double where it has pi in it, or a standard deviation."""
+    """Return a typed number in SI as a fraction: exact, except if it involves pi or a standard deviation."""
     return Fraction(float(x)) if x.sigma or (x.unit and x.exact is None) else x.exactly()
 
 
@@ -98,7 +98,7 @@ def _unit(x: Typed) -> Fraction:
 
 
 def _with_value(x: Typed, value: float, exact: Fraction | None) -> Typed:
-    """Return a typed number with another value."""
+    """Return a typed number with the given value, other attributes unchanged."""
     exact = Fraction(value) if exact is None else exact
     return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
 

@@ -17,10 +17,10 @@ ENDINGS = (".svg", ".pdf", ".png", ".pgf", ".csv", ".gif", ".mp4", ".apng", ".ht
 
 
 class Place(click.Path):
-    """Where a file or a folder is to be written: in a folder that is there, or that can be made."""
+    """Path for output, in a folder that exists or can be made."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path. Raises click.UsageError for one that cannot be written, before any work is done."""
+        """Return the path. Raises click.UsageError, before any work is done, for a path that cannot be written."""
         place = Path(os.fsdecode(super().convert(value, param, ctx)))
         folder_present = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
         if not folder_present.is_dir():
@@ -35,7 +35,7 @@ class Place(click.Path):
 
 
 def pair(text: str, takes: str) -> tuple[str, str]:
-    """Return key and value of a parameter. Raises click.UsageError for another text, and for several in one word."""
+    """Return (key, value) of KEY=VALUE. Raises click.UsageError for another text, and for several in one word."""
     key, equals, value = text.partition("=")
     if not (key and equals and value):
         raise click.UsageError(f"--set takes {takes}, not {text!r}.")
@@ -61,7 +61,7 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
 
 
 def numbers(name: str, says: str, metavar: str = "", **settings: Any) -> Callable[[F], F]:
-    """Return the option of a number, or of as many as there are words in `metavar`."""
+    """Return the decorator of an option with one number, or with one for each word of `metavar`."""
     vector_settings: dict[str, Any] = {"nargs": len(metavar.split()), "metavar": metavar} if metavar else {}
     return click.option(f"--{name}", type=REAL, help=says, **vector_settings, **settings)
 
@@ -113,12 +113,12 @@ times_options: Callable[[F], F] = stack(
 
 
 def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
-    """Return those of some options that were given, by name."""
+    """Return the given options among `names`, by name."""
     return {name: options[name] for name in names if options.get(name) is not None}
 
 
 def chosen_times(options: dict[str, Any]) -> list[float]:
-    """Return the times of --times or --grid, with their exact values, none when neither is given.
+    """Return the times of --times or --grid, exact values attached; [] if neither is given.
 
     Raises click.UsageError when both are given or the count is not a natural number.
     """

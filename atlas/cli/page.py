@@ -39,7 +39,7 @@ OWN = {"out", "digits", "title", "name", "jobs", "note"}
 
 
 def page_options(out: str) -> Callable[[Any], Any]:
-    """Return the options of a page, whose folder is `out` if none is given."""
+    """Return the decorator of a page's options; `out` is the default folder."""
     return stack(
         out_option(out),
         click.option("--title", help="Title of the page."),
@@ -64,7 +64,7 @@ def command_of(family: Family, name: str, action: Action, out: str, makes: str) 
 
 
 def commands_of(action: Action, out: str, makes: str = "Make a page") -> dict[str, click.Command]:
-    """Return the commands of all families that do this with a request; their help begins with what it `makes`."""
+    """Return the commands of all families, by name, that pass their request to `action`; help begins with `makes`."""
     return {one.page: command_of(one, one.page, action, out, makes) for one in FAMILIES.values() if one.command}
 
 
@@ -98,7 +98,7 @@ def of_fit(file: Path, **options: Any) -> int:
 
 
 def motion_of(made: Any) -> Any:
-    """Return the request of a page for a motion, in the axes of its class."""
+    """Return the request of a page for a motion, along the axes of its class."""
     own = in_principal_axes(made, fitted=True)
     with COMMANDS[own.family.page].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)
@@ -111,7 +111,7 @@ class ByOptions(click.Group):
     """A group that finds the command by the options, where none is named."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Put the command in front of its options, and that of its family where several have one name."""
+        """Insert the command before its options, of the family to which they belong."""
         if args and args[0] in GONE:
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
         if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
@@ -153,7 +153,7 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
 
 
 def best(words: Words) -> str:
-    """Return the command to which options belong: the fewest are strange to it, and the fewest of its own missing."""
+    """Return the command that fits the options: with fewest unknown, then fewest missing options."""
     option_by_name = {option.name: option for option in words.options}
 
     def misfit(name: str) -> tuple[int, int]:
@@ -254,7 +254,7 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
 
 
 def _typed_options(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
-    """Return the typed options among these names, each with its words as typed."""
+    """Return the options typed at the command line among `names`, each with its words."""
     context = click.get_current_context()
     words_by_option: dict[str, tuple[str, ...]] = {}
     for param in context.command.params:
@@ -268,7 +268,7 @@ def _typed_options(names: Collection[str], options: dict[str, Any]) -> dict[str,
 
 
 def _file_name(options: dict[str, Any]) -> str:
-    """Return the name of the files, empty if none was given. Raises click.UsageError for other characters."""
+    """Return the files' name from --name, or "". Raises click.UsageError for other characters."""
     if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
         raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
     return called
@@ -283,7 +283,7 @@ def _plain(value: Any) -> Any:
 
 
 def _exact(x: Any) -> float | str:
-    """Return a number as a report file has it: a float or, where no float is the number, a fraction as text."""
+    """Return a number for a report file: a float, or text of a fraction where no float equals it."""
     from atlas.arithmetic.certified_inputs import rational
     from atlas.arithmetic.given import as_float_or_fraction
 
@@ -310,7 +310,7 @@ def _body(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _field(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the field as a report file has it: as B where its axes are those of the report, else as B'."""
+    """Return the record of the field for a report file: as B in the plane of the report's axes, else as B'."""
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
         return {
@@ -333,14 +333,14 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _field_words(field: Any, unit: str = "") -> str:
-    """Return a field in words: its strength and angle as they were typed, or its components."""
+    """Return a field in words: strength and angle if so typed, else components."""
     if isinstance(field, Inclined):
         return " at ".join(x.text for x in field.parts)
     return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"
 
 
 def make(wanted: Any, out: Path, jobs: int | None) -> int:
-    """Write the report file of a page, build it, and print where it is; return the exit status."""
+    """Write the report file of a page, build it, and print the paths; return the exit status."""
     built = build(
         wanted.name, wanted.sources(lambda name: (out / f"{name}.html").exists()), out, jobs, ("single", "pdf")
     )
@@ -350,7 +350,7 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
 
 
 def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, formats: Sequence[str]) -> "Built":
-    """Write the sources of a page and build it. Raises AtlasError where a file was changed since it was made."""
+    """Write the sources of a page and build it. Raises AtlasError where a source was edited by the user."""
     from atlas import processes
 
     file, recipe = (out / f"{name}{suffix}" for suffix in (".md", ".py"))

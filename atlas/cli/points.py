@@ -24,7 +24,7 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 
 
 class Masses(NamedTuple):
-    """Point masses, their places (N, 3) and mass matrix (3, 3) about their centre, and charges, if the file has any.
+    """Point masses, positions (N, 3), mass matrix (3, 3) about the centre of mass, and charges or None.
 
     `exact` is the mass matrix in rational numbers.
     """
@@ -44,7 +44,7 @@ class Masses(NamedTuple):
 
 
 def point_masses(path: Path) -> Masses:
-    """Read point masses, and charges if there are any. Raises click.UsageError for a file that has no such columns."""
+    """Read point masses, and charges if given. Raises click.UsageError for a file without the columns."""
     import numpy as np
 
     from atlas.arithmetic.numbers import nearest
@@ -63,7 +63,7 @@ def point_masses(path: Path) -> Masses:
 
 
 def points(path: Path) -> Any:
-    """Return the body of point masses that are symmetric about the axis z. Raises click.UsageError for others."""
+    """Return the symmetric body of point masses, axis z. Raises click.UsageError if they are not symmetric about z."""
     import numpy as np
 
     from atlas.arithmetic.given import exact_number
@@ -92,7 +92,7 @@ def points(path: Path) -> Any:
 
 
 def oblique_tensor(path: Path) -> Any:
-    """Read the inertia tensor (3, 3) of points; None where x, y, z are their principal axes."""
+    """Return the inertia tensor (3, 3) of point masses; None where x, y, z are principal axes."""
     import numpy as np
 
     inertia = point_masses(path).inertia
@@ -106,7 +106,7 @@ def exact_inertia(path: Path) -> list[Any]:
 
 
 def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
-    """Read the moments of points. Raises click.UsageError where x, y, z are not principal axes, and says which are."""
+    """Return the moments of point masses. Raises click.UsageError unless x, y, z are principal axes."""
     import numpy as np
 
     from atlas.arithmetic.given import as_float_or_fraction
@@ -127,7 +127,7 @@ def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
 
 
 def ratio_of_points(path: Path) -> Fraction:
-    """Return the charge-to-mass ratio of points. Raises click.UsageError where they have no charges, or several."""
+    """Return the charge-to-mass ratio of points. Raises click.UsageError without charges, or with several ratios."""
     read = point_masses(path)
     if read.charges is None:
         raise click.UsageError(f"--magnetic needs the charges of the points: {path} has no column charge.")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Line:
-    """One quantity: its symbol, its meaning, its value as text, its unit, the equation it comes from."""
+    """One printed quantity: symbol, meaning, value as text, unit, and the label of its equation."""
 
     symbol: str
     says: str
@@ -45,7 +45,7 @@ class Printout:
 
 
 def explained(reasons: Sequence[Sequence[str]]) -> Printout:
-    """Return a table with the reason why each part of a build was made or taken from the cache."""
+    """Return a table of reasons why each part of a build was made or taken from the cache."""
     return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
 
 
@@ -60,7 +60,7 @@ def explain_build(built: Any) -> None:
 
 
 def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
-    """Draw the result into the file that was asked for, if any, and print its path."""
+    """Draw the result into `file` and print its path unless `silent`; nothing if `file` is None."""
     if file is None:
         return
     from atlas.pictures.drawing.files import save
@@ -71,7 +71,7 @@ def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
 
 
 def show(printout: Printout) -> None:
-    """Print a printout as wide as the terminal, and wider where digits would be cut; in a pipe as wide as it needs."""
+    """Print a printout in the terminal's width, or wider where digits would be cut; in a pipe in its natural width."""
     from rich.console import Console
 
     console = Console(emoji=False, highlight=False, soft_wrap=True)
@@ -99,7 +99,7 @@ def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _tables(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the table of rows, which come one after the other, some hundred rows at a time."""
+    """Yield the table as texts, some hundred rows at a time."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -124,14 +124,14 @@ def _notes(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _text(console: "Console", count: Any, **how: Any) -> str:
-    """Return the output as text for this console."""
+    """Return a renderable as the text that this console would print."""
     with console.capture() as printed:
         console.print(count, **how)
     return printed.get()
 
 
 def _uncut_table(console: "Console", table: "Table") -> str:
-    """Return a table with none of its numbers cut: where they need more room than there is, the lines get longer."""
+    """Return a table as text, wider than the terminal where its numbers would be cut."""
     from rich.measure import Measurement
 
     measurement = Measurement.get(console, console.options.update_width(1_000_000), table)
@@ -152,7 +152,7 @@ def dump(record: dict[str, Any]) -> None:
 
 
 def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
-    """Return the value in lists, dictionaries, strings and Python numbers; tell where and why a float is left out."""
+    """Return the value as plain JSON types; a float that is not finite becomes None, with its reason in `reasons`."""
     if isinstance(value, float):
         if math.isfinite(value):
             return float(value)
@@ -189,10 +189,10 @@ def answer(
     balls: Callable[[], dict[str, Any]],
     spare: int = 1 << 16,
 ) -> dict[str, Any] | None:
-    """Print the JSON that was asked for and return None, or return the quantities as certified texts for a table.
+    """Print the requested JSON and return None, or return the quantities as certified texts for a table.
 
-    ``floats`` computes the quantities with the kernels, ``balls`` with proven radii; they have the same keys.
-    ``spare`` goes to `certified`.
+    ``floats`` computes the quantities with the kernels, ``balls`` with proven radii; both have the same keys.
+    ``spare`` is passed to `certified`.
     """
     if options["as_json"] and options["digits"] is None:
         if options["decimal"]:
@@ -229,19 +229,19 @@ NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 
 def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
-    """Evaluate a method of a kernel at all times at once."""
+    """Return the values of a kernel's method at all times, in one call."""
     import numpy as np
 
     return method(np.array([float(t) for t in times]))
 
 
 def samples(times: Sequence[float], **columns: Any) -> list[dict[str, Any]]:
-    """Return a record for each time, of ``t`` and of each quantity under its name."""
+    """Return one record for each time: ``t`` and the value of each quantity by name."""
     return [dict(zip(("t", *columns), row, strict=True)) for row in zip(times, *columns.values(), strict=True)]
 
 
 def in_threes(records: Iterable[dict[str, Any]]) -> Iterator[list[str]]:
-    """Yield three rows of a table for each record of texts: the rows of its matrix, the components of its vectors."""
+    """Yield three table rows for each record of texts: the rows of its matrix, the components of its vectors."""
     for t, *values in (record.values() for record in records):
         for i in range(3):
             cells = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
@@ -253,10 +253,10 @@ Progress = Callable[[int, int, str], None]
 
 @contextmanager
 def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
-    """Yield a function to be called with the count of parts done, their number, and the name of the next.
+    """Yield a progress function of (parts done, number of parts, name of the next part).
 
     The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
-    terminal nothing is shown, or a line `every` so many seconds, for the log of a batch job.
+    terminal nothing is shown, or one line every `every` seconds, for the log of a batch job.
     """
     if not sys.stderr.isatty():
         yield _lines(title, every) if every else lambda _done, _total, _part: None

@@ -17,10 +17,10 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|F
 
 
 class ReportCommand(Command):
-    """A command whose help goes on with the inputs of the reports that are named beside --help."""
+    """A command whose help also lists the inputs of the reports that are named beside --help."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Note the words that may be reports: --help is obeyed before they are read."""
+        """Note the words that may be reports: click obeys --help before it reads them."""
         ctx.obj = Words(args).loose
         return super().parse_args(ctx, args)
 

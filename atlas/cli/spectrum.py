@@ -26,14 +26,14 @@ def check_spectrum(options: dict[str, Any]) -> None:
 
 
 def spectrum_of(motion: Any, options: dict[str, Any]) -> Any:
-    """Return the lines of a motion that are asked for, None where they are not."""
+    """Return the requested `Spectrum` of a motion, or None."""
     if not options.get("spectrum"):
         return None
     return motion.spectrum(options["spectrum"], least=options["least"])
 
 
 def recorded(lines: Any) -> dict[str, Any]:
-    """Return lines for JSON: an amplitude as its real and its imaginary part."""
+    """Return {"spectrum": ...} of lines for JSON, an amplitude as real and imaginary part; {} for None."""
     if lines is None:
         return {}
     line = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
@@ -45,7 +45,7 @@ def recorded(lines: Any) -> dict[str, Any]:
 
 
 def show_lines(lines: Any, unit: str) -> None:
-    """Print lines with frequencies in a unit, one a row, those of negative frequencies left out."""
+    """Print the lines with frequencies >= 0, in a unit, one a row."""
     rows = [
         [*map(str, c), f"{f:.10g}", f"{size:.6g}"]
         for f, c, size in zip(lines.frequencies, lines.combinations, lines.power**0.5, strict=True)

@@ -44,12 +44,12 @@ MAX_RECIPE_SIZE = 10**7
 
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
-    """Where a table goes: a file; a folder, if the name ends in /; or an address."""
+    """Destination of a table: a file; a folder, if the name ends in /; or an address."""
 
     name = "path"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the place as it was written, if something can be written there."""
+        """Return the destination as typed. Raises click.UsageError where nothing can be written."""
         from atlas.sweeps.store import MEMORY
 
         text = str(value)
@@ -65,7 +65,7 @@ OUT = Out()
 
 
 def options_of(*of_body: Any) -> Callable[[Any], Any]:
-    """Return the options of a sweep, with those of body, field and start."""
+    """Return the decorator of a sweep's options, including those of body, field and start."""
     return stack(
         click.argument("family", required=False),
         click.option(
@@ -116,9 +116,9 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
 
 
 class Request(NamedTuple):
-    """A sweep as it was asked for, with the values of its parameters as they were typed.
+    """A sweep as requested, with the values of its parameters as typed.
 
-    `axes` are the principal axes of a tensor in those given, where they differ, else "".
+    `axes` are the principal axes of a tensor in terms of the given ones, "" where they are equal.
     """
 
     family: str
@@ -253,7 +253,7 @@ def _parameter_values(values: Any) -> Any:
 
 
 def _plain(x: float | Fraction) -> float | Fraction:
-    """Return a number that was typed as a float, and one that no float holds as it is."""
+    """Return a typed number as a float; a Fraction, which no float equals, unchanged."""
     return x if isinstance(x, Fraction) else float(x)
 
 
@@ -308,7 +308,7 @@ def read(path: Path) -> Any:
     import msgspec
 
     class Recipe(msgspec.Struct, forbid_unknown_fields=True):
-        """A sweep as it stands in a TOML file."""
+        """A sweep as written in a TOML file."""
 
         family: str
         quantities: list[str]
@@ -350,13 +350,13 @@ def _once(names: Sequence[str], source: str) -> None:
 
 
 def _options(family: str) -> dict[str, tuple[str, str]]:
-    """Return the option and the unit of each parameter of a family, then of the others, by its name in a table."""
+    """Return (option, unit) of each parameter by column name: of the family first, then of all families."""
     parameters = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
     return {name: (p.name, p.unit) for p in parameters for name in p.names} | {"t": ("times", TIME)}
 
 
 def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
-    """Return the columns of a list, and the units of SI in its heading; those of tables without such stay."""
+    """Return the columns of a list by name, in SI where the heading has units, and the units used."""
     options = _options(family)
     plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in options.items()}
     columns, units = measured_columns(path, {name: option for name, (option, _) in options.items()}, plain)

@@ -43,7 +43,7 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
 
 
 def parameters_of(motion: Any) -> dict[str, list[str]]:
-    """Return the inputs of a motion by the names of a trajectory's head, each number in its shortest digits."""
+    """Return the inputs of a motion by name for a trajectory's head, as lists of shortest decimal texts."""
     if getattr(motion, "is_placed", False):
         J, field, _, omega = motion.given
         moments = [J[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]

@@ -47,7 +47,7 @@ top_options: Callable[[F], F] = stack(
 
 
 def given_otherwise(options: Mapping[str, Any]) -> bool:
-    """Say whether the top is given by a way of its own."""
+    """Whether the top is given by --heavy, --magnetic or another option that replaces its coefficients."""
     return bool(given(options, WAYS))
 
 
@@ -57,7 +57,7 @@ def top_units(options: Mapping[str, Any]) -> dict[str, str]:
 
 
 def needs_no_way(options: Mapping[str, Any]) -> None:
-    """Raise click.UsageError where an option stands alone that goes with --heavy or --magnetic."""
+    """Raise click.UsageError for an option that needs --heavy or --magnetic, and for a missing required option."""
     for name in top_parameters(options):
         if name != "inertia":
             raise click.UsageError(f"--{name} goes with --heavy or --magnetic.")
@@ -67,7 +67,7 @@ def needs_no_way(options: Mapping[str, Any]) -> None:
 
 
 def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options that describe the body and its forces, as they were given."""
+    """Return the given options of the body and its forces, by name."""
     names = (*WAYS, *BODY, *SIZES, *OF_HEAVY, *OF_CHARGED)
     return given(options, dict.fromkeys(names)) | ({"points": str(options["points"])} if options["points"] else {})
 
@@ -96,7 +96,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 
 
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
-    """Return the top under its weight, with upwards as a direction."""
+    """Return the heavy top; `direction` points upwards."""
     from atlas.motions.nutation.kernel_top import TopMotion
 
     if options["points"] is None:
@@ -107,7 +107,7 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
 
 
 def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
-    """Return the charged top, which may be held at a point and have a weight along the field."""
+    """Return the charged top; it may be held at a point, with its weight along the field."""
     from atlas.bodies.body import SymmetricBody
     from atlas.motions.nutation.kernel_top import TopMotion
 
@@ -144,7 +144,7 @@ def _body(options: Mapping[str, Any]) -> Any:
 
 
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
-    """Return the moments of the charges of --charged, --coat or --points, of a body held so far from its centre."""
+    """Return the charge moments from --charged, --coat or --points; `length` is the distance of the fixed point."""
     from atlas.bodies.charge import ChargeMoments
 
     one_of(options, "charge", CHARGES)
@@ -169,7 +169,7 @@ def _points(path: Path) -> dict[str, Any]:
 
 
 def _centred(columns: Mapping[str, Any], axis: float = 0.0) -> Any:
-    """Return the places of points whose centre of mass lies so far along the axis."""
+    """Return the positions of points, shifted so that the centre of mass is at distance `axis` along the axis."""
     import numpy as np
 
     places, masses = np.transpose([columns[name] for name in "xyz"]), np.array(columns["mass"])
@@ -182,7 +182,7 @@ def _needs(options: Mapping[str, Any], name: str, option: str) -> None:
 
 
 def _goes_with(options: Mapping[str, Any], names: Sequence[str], other_options: Sequence[str]) -> None:
-    """Refuse options that say nothing without one of some others."""
+    """Raise click.UsageError for options that have no meaning without one of `other_options`."""
     if not given(options, other_options):
         for name in given(options, names):
             raise click.UsageError(f"--{name} goes with {' or '.join(f'--{option}' for option in other_options)}.")

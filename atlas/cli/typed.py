@@ -50,9 +50,9 @@ class Typed(float):
     exact: Fraction | None = None
 
     def __new__(cls, text: str, option: str | None = None, place: int = 0) -> Self:
-        """Read a decimal, a fraction such as 2/3, a hexadecimal float such as 0x1.8p0; for an option also with a unit.
+        """Return the number in a text: a decimal, a fraction 2/3, a hexadecimal float 0x1.8p0; or one with a unit.
 
-        Raises ValueError for all else, AtlasError for a unit that does not fit the option, at this place of it.
+        Raises ValueError for other text, AtlasError for a unit that does not fit number `place` of the option.
         """
         form = NUMBER.fullmatch(text) if len(text) <= LONGEST else None
         unit, exact = "", None
@@ -67,13 +67,13 @@ class Typed(float):
         return number
 
     def moved(self, value: float, **attributes: Any) -> Self:
-        """Return another value with the other attributes of this one."""
+        """Return another value with the attributes of this number."""
         number = float.__new__(type(self), value)
         vars(number).update(vars(self) | attributes)
         return number
 
     def exactly(self) -> Fraction:
-        """Return the number that was typed, not the nearest double. Raises click.UsageError for one with pi in it."""
+        """Return the typed number as a fraction, not the nearest double. Raises click.UsageError if it involves pi."""
         if not self.unit:
             return Fraction(float(self) if "0x" in self.text.lower() else self.text)
         if self.exact is None:
@@ -82,7 +82,7 @@ class Typed(float):
 
 
 class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
-    """A finite real number, the one at a place of an option whose numbers have different units."""
+    """Parameter type of a finite real number; `place` is its index in an option whose numbers have different units."""
 
     name = "number"
 
@@ -119,7 +119,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         return number
 
     def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> list[Typed]:
-        """Return the numbers of a range START:STOP:COUNT[:log], both ends among them, or the one that a word is."""
+        """Return the numbers of a range START:STOP:COUNT[:log], ends included, or a list of the single number."""
         fields = word.split(":")
         log = fields[3:] == ["log"]
         if len(fields) != 3 + log:
@@ -143,7 +143,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
     def _with_sigma(
         self, text: str, match: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
     ) -> Typed:
-        """Read a number with its standard deviation."""
+        """Return a number with its standard deviation. Fails where uncertainties are not carried."""
         is_carried = getattr(ctx.command if ctx else None, "carries", False)
         if not is_carried or (param and param.name in {"times", "grid", "least"}):
             self.fail(
@@ -165,7 +165,7 @@ REAL = Real()
 
 
 class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
-    """Components of a field across and along the axis, each rounded once; `parts` are its strength and its angle."""
+    """Components of a field across and along the axis, each rounded once; `parts` are (strength, angle) as typed."""
 
     parts: tuple[Typed, Typed]
 
@@ -183,17 +183,17 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
 
 
 def parts_of(value: Any) -> tuple[Any, ...]:
-    """Return the numbers of an option, one or several."""
+    """Return the numbers of an option as a tuple."""
     return value if isinstance(value, tuple) else (value,)
 
 
 def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
-    """Return the numbers that were typed with a unit, each with the name of its option."""
+    """Return (option, number) for each number typed with a unit."""
     return [(name, x) for name, value in options.items() for x in parts_of(value) if isinstance(x, Typed) and x.unit]
 
 
 def exactly(value: Any, options: dict[str, Any]) -> Any:
-    """Return a typed number, or several, as the certified floor takes them: doubles, or decimals with --decimal."""
+    """Return typed numbers for certified classes: doubles, or with --decimal exact fractions."""
     if isinstance(value, tuple | list):
         return [exactly(item, options) for item in value]
     return value.exactly() if options["decimal"] and isinstance(value, Typed) else value

@@ -14,14 +14,14 @@ FIRST_ORDER = "In brackets one standard deviation, in the last digits; of first 
 
 @dataclass(frozen=True)
 class UncertainAnswer:
-    """Answer of a command, and the standard deviations of its numbers."""
+    """Answer of a command, with the standard deviations of its numbers."""
 
     answer: dict[str, Any]
     spread: Spread
 
     @classmethod
     def of(cls, answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> "UncertainAnswer":
-        """Return the answer to options with uncertainties, which are independent of one another."""
+        """Return the answer for options with independent uncertainties."""
         inputs, middle = uncertain(options), answer(options)
         with bar("draws") as tell:
             deviations = spread(middle, lambda steps: answer(_moved_options(options, inputs, steps)), len(inputs), tell)
@@ -29,7 +29,7 @@ class UncertainAnswer:
 
     @property
     def notes(self) -> list[str]:
-        """Sentences on the deviations."""
+        """Sentences on the standard deviations."""
         return [FIRST_ORDER, *self.spread.notes]
 
     def texts(self) -> Any:
@@ -47,14 +47,14 @@ class UncertainAnswer:
         }
 
     def record(self) -> dict[str, Any]:
-        """Return the answer, and under sigma the same with the standard deviations in the place of its numbers."""
+        """Return the answer, with a copy under "sigma" in which standard deviations replace the numbers."""
         deviations = {place: x for place, x in self.spread.sigma.items() if x < math.inf}
         sigma = mapped(self.answer, lambda _, place: deviations.get(place))
         return self.answer | {"sigma": sigma, "notes": self.notes}
 
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
-    """Return the numbers that have an uncertainty, each with the name of its option and its place in it."""
+    """Return (option, index in the option, number) for each number with an uncertainty."""
     values = ((name, _typed_numbers(value)) for name, value in options.items())
     return [(name, i, x) for name, numbers in values for i, x in enumerate(numbers) if getattr(x, "sigma", 0.0)]
 
@@ -72,7 +72,7 @@ def _typed_numbers(value: Any) -> tuple[Any, ...]:
 
 
 def _moved_options(options: dict[str, Any], inputs: list[tuple[str, int, Typed]], steps: Any) -> dict[str, Any]:
-    """Return the options with uncertain numbers moved by steps of their standard deviations."""
+    """Return the options with uncertain numbers changed by `steps` standard deviations."""
     new_options = dict(options)
     for (name, i, x), step in zip(inputs, steps, strict=True):
         new, numbers = x.moved(x + step * x.sigma), _typed_numbers(before := new_options[name])

@@ -101,7 +101,7 @@ def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int
 
 
 def _script(verdict: Any) -> int:
-    """Print the script of one entry, with the exit status 1 if its verdict differs from the recorded one."""
+    """Print the script of one entry; return 1 if its verdict differs from the recorded one, else 0."""
     from atlas.errors import AtlasError
     from atlas.trial import proofs as proof
 
@@ -162,7 +162,7 @@ def _proof(verdict: Any) -> list[str]:
 
 
 def _totals(verdicts: Any) -> None:
-    """Show how many verdicts and slips of each kind there are."""
+    """Print how many verdicts and slips of each kind there are."""
     from atlas.trial.proofs.verdict import slips
 
     totals = Counter(verdict.verdict for verdict in verdicts)

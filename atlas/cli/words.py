@@ -52,7 +52,7 @@ SECTIONS = {
 
 
 class Option(NamedTuple):
-    """An option as it was typed, --field=1 2, its name --field, and the values 1 and 2 after it."""
+    """An option as typed, such as --field=1 2, its name --field, and its values ["1", "2"]."""
 
     typed: str
     name: str
@@ -60,24 +60,24 @@ class Option(NamedTuple):
 
     @property
     def components(self) -> list[str]:
-        """The values, each vector in one word as its components."""
+        """Values of the option; a vector in one word, such as 1,2, as its components."""
         return [component for word in self.values for component in apart(word)]
 
 
 def apart(word: str) -> list[str]:
-    """Return the components of a vector in one word, 1,2 or (1, 2), or the one number that a word is."""
+    """Return the components of a vector in one word, 1,2 or (1, 2); of any other word the word itself, in a list."""
     return [x.strip() for x in (word[1:-1] if word[:1] in {"(", "["} else word).split(",")]
 
 
 def is_number(word: str, *, is_wanted: bool = True) -> bool:
-    """Whether a word was meant as a number and is no file; a bare number is none where more numbers are wanted."""
+    """Whether a word is a number, not an existing file; a plain number that is a file counts only if `is_wanted`."""
     return bool(
         LIKE_A_NUMBER.fullmatch(word) and ((is_wanted and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK))
     )
 
 
 def check_units(option: str, value: Any) -> None:
-    """Raise click.UsageError where one number of an option has a unit, and another that is not zero has none."""
+    """Raise click.UsageError where some numbers of an option have units and other nonzero ones have none."""
     numbers = [x for x in parts_of(value) if isinstance(x, Typed) and x]
     bare, units = [x for x in numbers if not x.unit], [x for x in numbers if x.unit]
     if bare and units:
@@ -87,7 +87,7 @@ def check_units(option: str, value: Any) -> None:
 
 
 class Words:
-    """Words of a command: `loose` stand before all options, `options` are in the order in which they were typed."""
+    """Words of a command line: `loose` precede all options, `options` are in the order of typing."""
 
     def __init__(self, words: Sequence[str]) -> None:
         self.loose, self.options = list[str](), list[Option]()
@@ -102,7 +102,7 @@ class Words:
 
     @property
     def names(self) -> set[str]:
-        """Names of the options."""
+        """Names of the typed options."""
         return {option.name for option in self.options}
 
     def is_three(self, name: str) -> bool:
@@ -141,7 +141,7 @@ class Command(click.Command):
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """Let the command to which the words belong read them."""
+        """Return the context of the command to which the words belong."""
         command = self.other(Words(args))
         return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
 
@@ -158,7 +158,7 @@ class Command(click.Command):
                     formatter.write_dl(sections[title])
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the words; where help is asked for, nothing else is read."""
+        """Parse the words; with --help nothing else is parsed."""
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
             return super().parse_args(ctx, [*help_names][:1])
@@ -178,7 +178,7 @@ class Command(click.Command):
 
 
 def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the field of a strength and --angle as its option. Raises click.UsageError where no strength is given."""
+    """Return the field from a strength and --angle. Raises click.UsageError without a strength."""
     name = next((name for name in ("magnetic", "field") if options[name] is not None), "")
     if not name:
         raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
@@ -187,13 +187,13 @@ def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def zero_field(options: Mapping[str, Any], size: int) -> dict[str, Any]:
-    """Return the field zero, of `size` components, where a start is given without a field: that of a free body."""
+    """Return {"field": zeros} where a start is given without a field, a free body; else {}."""
     is_free = given(options, START) and not given(options, OF_FIELD)
     return {"field": (Typed("0"),) * size} if is_free else {}
 
 
 class Reader:
-    """Reader of the words of a command by its click parameters; `plain` yields them as click takes them."""
+    """Translator of a command's words by its click parameters; `plain` yields them in the form that click expects."""
 
     def __init__(self, words: Words, params: Sequence[click.Parameter]) -> None:
         self.words, self.params = words, params
@@ -242,7 +242,7 @@ class Reader:
 
     @staticmethod
     def _repeated_options(option: Option, param: click.Option) -> Iterator[str]:
-        """Yield the option before each of its values; numbers in one word, since click's time is quadratic in words."""
+        """Yield the option before each value; numbers in one word, since click's time is quadratic in words."""
         if not option.values:
             raise click.UsageError(f"{option.name} takes {param.metavar or 'a value'}; found none.")
         if param.type is REAL:
@@ -254,7 +254,7 @@ class Reader:
             )
 
     def _vector(self, option: Option, param: click.Option) -> tuple[list[str], list[str]]:
-        """Return the components of a vector, and the words after it, which a command with arguments may have."""
+        """Return (components of a vector, words after it); such words occur in commands with arguments."""
         components, words = list[str](), list(option.values)
         while words and (
             not self.places or all(is_number(x, is_wanted=len(components) < param.nargs) for x in apart(words[0]))

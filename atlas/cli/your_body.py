@@ -61,7 +61,7 @@ def places_of(built: "Built") -> list[Path]:
 
 
 class YourBody(ByOptions):
-    """A group that finds the family by the options, which a file of inputs may hold."""
+    """Command group that selects the family by the options, which may come from a file of inputs."""
 
     def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the usage with the name of the report."""

@@ -12,7 +12,7 @@ RATE, TIME = "1/time", "time"
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter of both classes, by the name that both give it.
+    """A parameter of a family's two classes, double and certified, under its name in both.
 
     name      as `--name` and, of a number, as a column; `columns` names the components of a vector
     unit      in which it is given, "" of a pure number
@@ -36,7 +36,7 @@ class Parameter:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its columns in a table."""
+        """Names of the parameter's columns in a table: its components, or its own name."""
         return self.columns or (self.name,)
 
 
@@ -81,7 +81,7 @@ class Quantity:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its columns in a table."""
+        """Names of the quantity's columns in a table; () where it is not `tabled`."""
         return (self.columns or (self.name,)) if self.tabled else ()
 
 
@@ -105,13 +105,13 @@ class Sampled:
     uncertified: bool = False
 
     def method_of(self, motion: Any) -> Callable[[Any], Any]:
-        """Return the function of time."""
+        """Return the method of a motion that computes the function at times t."""
         method: Callable[[Any], Any] = getattr(motion, self.method)
         return method
 
     @property
     def heading(self) -> list[str]:
-        """Heads of the columns in which a command prints it, three rows a time."""
+        """Headings of the columns in which a command prints the function, three rows for each time."""
         if self.matrix:
             return [f"{self.name}_i{j}" for j in (1, 2, 3)]
         symbol = self.symbol or f"{self.name}_i"
@@ -152,16 +152,16 @@ class Command:
 
 @dataclass(frozen=True)
 class Family:
-    """A family: parameters in the order that both classes take them in, quantities, and functions of time.
+    """A family of motions or surfaces: parameters in the order of both classes, quantities, functions of time.
 
     `source` is the class with its module, where "{}" stands for "kernel" or "certified". `promises` holds the largest
-    errors, in ulps, by the names of a stress run: of quantities and of other checked values. Tables make so many
-    motions `at_once`. `figures` are recipes that draw one, from parameters by the same names. `typed` are the words
-    that ask for one at the command line, before its parameters, where the family has no `command` of its own. Of
-    `instead` other options may stand for a parameter. `last_axis` describes the last of the class's axes. With
-    `is_sensitive` derivatives in the inputs take milliseconds; with `in_given_axes` commands take any axes of the body
-    and an attitude. `axis_rate` is the rate at which the third axis goes round, where it does not nutate. `in_plane`
-    makes of arguments those in axes in which the field has two components, and the turn to these axes, if any.
+    errors, in ulps, by the names of a stress run: of quantities and of other checked values. Tables compute `at_once`
+    motions in one array. `figures` are recipes that draw one, from parameters of the same names. `typed` are the words
+    that ask for one at the command line, before its parameters, where the family has no `command` of its own. Options
+    in `instead` may stand for a parameter. `last_axis` describes the last of the class's axes. With `is_sensitive`
+    derivatives in the inputs take milliseconds; with `in_given_axes` commands take any axes of the body and an
+    attitude. `axis_rate` names the rate at which the third axis precesses, where it does not nutate. `in_plane`
+    converts arguments to axes in which the field has two components, and returns the rotation to these axes, if any.
     """
 
     name: str
@@ -188,7 +188,7 @@ class Family:
 
     @property
     def page(self) -> str:
-        """Name of the command of its page: its own name where several families share one command."""
+        """Name in `atlas page NAME`: the command's, or the family's where several families share a command."""
         return self.command.name if self.command and self.command.summary else self.name
 
     @property

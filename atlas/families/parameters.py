@@ -42,7 +42,7 @@ PRINCIPAL_FIELD = Parameter(
 
 
 def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
-    """Return the rotation matrix of a family, its quaternion, and how the body turns as the laboratory sees it."""
+    """Return the functions of time R, quaternion and angular velocity in the laboratory, as `Sampled`."""
     return (
         Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, checked=checked),
         Sampled("q", "quaternion", "unit quaternion of R, continuous", components=tuple("xyzw"), uncertified=True),
@@ -54,7 +54,7 @@ def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
 
 
 def nutation(axis: str) -> tuple[Quantity, ...]:
-    """Return the period of a motion that nutates, its turns in one and its mean rates."""
+    """Return the quantities of nutation: its period, precession and spin per period, and their mean rates."""
     turns = (("precession", axis), ("spin", "the body's axis"))
 
     def of(words: str) -> dict[str, Any]:

@@ -12,7 +12,7 @@ SLIDER_STEPS = 300
 
 @dataclass(frozen=True)
 class Slider:
-    """A number to choose: its name, its meaning, its ends, its step, its start, and its symbol if it has one."""
+    """A slider: its name, meaning, ends, step, start and, if it has one, symbol."""
 
     name: str
     says: str
@@ -27,7 +27,7 @@ TIME = Slider("t", "time", 0.0, 60.0, 0.05, 0.0)
 
 
 def sliders_of(family: Family) -> list[Slider]:
-    """Return the sliders of all parameters that have a start in the register, and of the time, if it has any."""
+    """Return the sliders of all parameters with a default in the register, and of the time if the family has R."""
     sliders = [
         Slider(name, p.says, *p.range, step_of(*p.range), start, letters(name))
         for p in family.parameters
@@ -42,7 +42,7 @@ def step_of(low: float, high: float) -> float:
 
 
 def letters(name: str) -> str:
-    """Return a name as the atlas writes it: omega2 is ω₂, ratio I, field.1 B₂; other words stay."""
+    """Return a parameter's name as a symbol, omega2 as ω₂, ratio as I, field.1 as B₂; other words unchanged."""
     name = {"ratio": "I", "field.1": "B2", "field.2": "B3"}.get(name, name)
     stem, _, index = re.sub(r"(?<=\D)\.?(\d*)$", r" \1", name).partition(" ")
     greek = {"omega": "ω", "Omega": "Ω", "phi": "ϕ", "mu": "μ", "nu": "ν", "beta": "β", "gamma": "γ"}

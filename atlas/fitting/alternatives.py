@@ -96,7 +96,7 @@ def _biases(parameters: Parameters, values: Values) -> str:
 
 
 def _differences(parameters: Parameters, values: Values) -> list[str]:
-    """Return the values that differ from those of the fit by more than a standard error, as name = value."""
+    """Return texts "name = value" for the values that differ from the fit's by more than a standard error."""
     return [
         f"{name} = {values[name]:.5g}"
         for name, p in parameters.items()
@@ -144,7 +144,7 @@ class _Turned:
 def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bool) -> list[Alternative]:
     """Return the other parameters that predict the same data by a symmetry, each once.
 
-    With `signs` only axes are reversed, none permuted. Fixed values, bounds and expressions are kept.
+    With `signs` axes are only reversed, not permuted. Fixed values, bounds and expressions are respected.
     """
     motion, values = problem.model.make(problem.values(x)), problem.values(x)
     data, kind, identity = problem.data, problem.data.kind, np.eye(3)
@@ -183,7 +183,7 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
 
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
-    """Yield an elementary motion in the opposite field whose axis goes the same way, if the axis alone is seen."""
+    """Yield the elementary motion in the opposite field with the same axis, if the data are axes alone."""
     if not problem.model.is_on_hyperbola or problem.data.kind != "axis":
         return
     new = dict(values) | {name: -values[name] for name in (*B, "omega2")}
@@ -199,7 +199,7 @@ def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Itera
 def _turned_parameters(
     problem: Problem, values: Values, S: FloatArray, body_turn: FloatArray, omega: FloatArray
 ) -> Iterator[dict[str, float]]:
-    """Yield the parameters of the motion S R S', none where they are none of the family; of tops both signs of n."""
+    """Yield the parameters of the motion S R S' where the family has it; for tops with both signs of n."""
     model = problem.model
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
     turned_moments = moments @ abs(body_turn)
@@ -227,7 +227,7 @@ def _same(problem: Problem, values: Values, others_values: Values) -> bool:
 
 
 def other_minima(problem: Problem, tried: list[tuple[float, Any]], freedom: float) -> list[Alternative]:
-    """Return the other minima where starts ended, each once; `free` makes their chi square a reduced one."""
+    """Return the other minima found from other starts, each once; chi square over `freedom` is the reduced one."""
     out: list[Alternative] = []
     for chi, x in tried[1:]:
         chi_squares = [tried[0][0] / freedom, *(minimum_found.redchi for minimum_found in out)]
@@ -241,10 +241,10 @@ def other_minima(problem: Problem, tried: list[tuple[float, Any]], freedom: floa
 def wider_families(
     problem: Problem, x: FloatArray, parameters: Parameters, scale: float
 ) -> list[tuple[float, Alternative]]:
-    """Return the fits of wider families that are good and have other values, each with its fall of chi square.
+    """Return pairs (fall of chi square, alternative) for good fits of wider families with other values.
 
-    Good is a reduced chi square that is no surprise, other a value off by more than `BIASED` standard errors. `scale`
-    is the noise that was found, in units of the given one.
+    A fit is good if its reduced chi square is no surprise; another value is one off by more than `BIASED` standard
+    errors. `scale` is the estimated noise in units of the given one.
     """
     alternatives = []
     values, chi_square = problem.values(x), problem.chi_square(x)
@@ -270,7 +270,7 @@ def wider_families(
 
 
 def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
-    """Return the parameters at x, those of a top with the ratio and the field k2 n that a general motion calls so."""
+    """Return the parameters at x; of a top also ratio I3 and field k2 n, the names of a general motion."""
     values = problem.values(x)
     if problem.model.has_direction:
         field = values["k2"] * direction_of(values)
@@ -289,7 +289,7 @@ def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dic
 
 
 def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:
-    """Return the problem of a wider family, and the start at which this has the same motion."""
+    """Return the problem of a wider family, and the start there that gives the present motion."""
     parameters = problem.params
     inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}
     if model.has_direction:

@@ -24,9 +24,9 @@ HELD = (
 def other_conventions(
     problem: Problem, parameters: Callable[[Data], tuple[Parameters, Values]], *, quaternions: bool
 ) -> Iterator[tuple[str, Problem]]:
-    """Yield sentences and problems: the direction of a top's field free, then the data read in other conventions.
+    """Yield (sentence, problem): first a top's direction set free, then the data read in other conventions.
 
-    `parameters` gives those of the fit for other data; `quaternions` says that the data are no matrices.
+    `parameters` returns the parameters for other data; `quaternions` says that the data are quaternions.
     """
     data = problem.data
     is_held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
@@ -41,7 +41,7 @@ def other_conventions(
 
 
 def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatArray]]:
-    """Yield the other conventions of matrices or quaternions, each in words with the rotations that they give."""
+    """Yield (words, rotations (N, 3, 3)) for each other convention of matrices, or of quaternions."""
     if not quaternions:
         yield "as matrices that are transposed, for R takes the body to the laboratory", R.swapaxes(1, 2)
         return

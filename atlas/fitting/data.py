@@ -210,7 +210,7 @@ def of_arrays(
 
 
 def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
-    """Return the measured numbers of a kind, the times first, and the function of a signal."""
+    """Return the measured values of a kind, times along the first axis, and the function of a signal or None."""
     if kind != "signal":
         values, shape = measured(value, f"The {kind}", nan_policy), (times.size, *KINDS[kind])
         if values.shape != shape:

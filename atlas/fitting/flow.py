@@ -50,10 +50,10 @@ class Flow:
         return round(float(np.interp(-np.log(self.error), -np.log([ERROR, FINE]), ORDERS)))
 
     def at(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return R (S, N, 3, 3) and Omega in the body (S, N, 3) at times (N,), nan where there are too many steps.
+        """Return R (S, N, 3, 3) and Omega in the body (S, N, 3) at times (N,), NaN beyond the limit of steps.
 
-        The fastest 5 % of the motions are too fast for the common step: wrong, without nan.
-        Times before t = 0 are computed together with the later ones, as motions whose time runs backwards.
+        The fastest 5 % of the motions are too fast for the common step: their values are wrong, not NaN.
+        Times before t = 0 are computed together with the later ones, as motions with time reversed.
         """
         signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], self.order, abs(t).max(initial=0.0)
         S, sides = len(self.omega), len(signs)

@@ -32,9 +32,9 @@ TURNING = 0.3
 
 
 def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
-    """Return the minima, a free body first if no field is seen beyond noise, and the sentence that says so, or "".
+    """Return the minima, a free body first if the field is below the noise, and a sentence on that, or "".
 
-    Nothing is changed where a field is given or seen.
+    The minima are unchanged where a field is given or significant.
     """
     if not set(B) <= set(problem.names):
         return tried, ""

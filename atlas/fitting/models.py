@@ -27,7 +27,7 @@ IN_BODY = ("angular_velocity", "field_in_body")
 
 
 def vector(p: Values, names: Sequence[str]) -> FloatArray:
-    """Return the components by these names, zero where there are none."""
+    """Return the parameters of these names as an array, zero for a missing name."""
     return np.array([p.get(name, 0.0) for name in names])
 
 
@@ -42,7 +42,7 @@ def _general(p: Values) -> Any:
 
 
 def _elementary(p: Values) -> Any:
-    """Return an elementary motion: e2 is where the field is at the start, so that omega1 = 0."""
+    """Return an elementary motion, with e2 in the plane of e3 and the field at the start, so that omega1 = 0."""
     return ElementaryMotion.in_laboratory(p["ratio"], vector(p, B), attitude(p), omega2=p["omega2"])
 
 
@@ -70,7 +70,7 @@ def _started(p: Values) -> dict[str, FloatArray]:
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
-    """Return the component of a field across e3, and the turn about e3 that brings it to e2."""
+    """Return the component of a field perpendicular to e3, and the rotation about e3 that brings it to e2."""
     size = float(np.hypot(K[0], K[1]))
     c, s = (K[1] / size, K[0] / size) if size else (1.0, 0.0)
     return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
@@ -101,7 +101,7 @@ def _asymmetric(p: Values) -> Any:
 
 
 def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
-    """Return the motions of parameters (S,), as a body or top to be integrated; without one they are no numbers."""
+    """Return a `Flow` of the motions with parameters (S,) each, to be integrated; NaN where there is no motion."""
     size = max(np.size(x) for x in p.values())
     parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
 
@@ -129,7 +129,7 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 
 @dataclass(frozen=True)
 class Model:
-    """A family: its parameters with those that stand unless they are freed, and the function that makes its motion."""
+    """A family in a fit: names of its parameters, those fixed by default, and the function that makes its motion."""
 
     name: str
     names: tuple[str, ...]
@@ -201,7 +201,7 @@ class Model:
         return inputs, chain
 
     def _near_motion(self, p: Values, name: str, step: float) -> tuple[Any, float]:
-        """Return a motion beside another, and the step; the other itself where there is none."""
+        """Return (motion at a parameter changed by `step`, step); (motion at p, 0.0) where there is none."""
         try:
             return self.make({**p, name: p[name] + step}), step
         except AtlasError:
@@ -256,7 +256,7 @@ def field_of(model: Model, p: Values) -> FloatArray:
 
 
 def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
-    """Return parameters with R and Omega as they are at another time, as data of a kind see them."""
+    """Return the parameters with R and Omega as the state at t = 0, in the gauge of data of this kind."""
     field = vector(p, B)
     if model.has_direction and kind in IN_BODY:
         R = upright(R.T @ direction_of(p)).T
@@ -294,7 +294,7 @@ def units_of(model: Model, rate: float) -> dict[str, float]:
 
 
 def unseen(model: Model, kind: str) -> dict[str, float]:
-    """Return the parameters of the attitude that these data do not see, with the values that they are given."""
+    """Return the parameters of the attitude that data of this kind do not determine, with the values they get."""
     if kind in IN_BODY:
         return {"a3": 0.0} if model.has_direction else dict.fromkeys(ATTITUDE, 0.0)
     return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

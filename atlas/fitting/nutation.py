@@ -109,7 +109,7 @@ def with_small_nutations(
 
 
 def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
-    """Return the minima, a body of ratio 1 first if only the axis is seen and a ratio of 1 follows the data as well.
+    """Return the minima; a body of ratio 1 is put first if only the axis is measured and the fit is as good.
 
     The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
     derivatives at one place do not show how far the field goes with the ratio.
@@ -166,7 +166,7 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
 
 
 def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
-    """Return the direction about which axes (N, 3) go round, their rate, and the shortest turn to where they start."""
+    """Return the centre of the circle of axes (N, 3), the rate, and the shortest rotation from e3 to their start."""
     n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
     e1 = np.cross(np.cross(n, axes[0]), n)
     e1 /= np.linalg.norm(e1) or 1.0
@@ -209,7 +209,7 @@ class _Modes(NamedTuple):
     spin: FloatArray
 
     def part(self, places: Any) -> "_Modes":
-        """Return some of them."""
+        """Return the modes at some indices."""
         return _Modes(*(x[places] for x in self))
 
 
@@ -224,7 +224,7 @@ class _Steady:
         self.rate = (K[:2] @ self.omega[:2]) / self.sine**2
 
     def modes(self, ratio: FloatArray, omega3: FloatArray | None = None) -> _Modes:
-        """Return the nutation of each ratio, of another spin if one is given, nan where there is none."""
+        """Return the small nutation for each ratio (and, if given, spin omega3); NaN where it is not stable."""
         r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
         k, u, s = self.rate, self.cosine, self.sine
         b = k * (u * k - r * w) / (r * w + (r - 2) * u * k)
@@ -244,7 +244,7 @@ class _Steady:
         return np.concatenate([c * n[:, None] + s * pace, s * n[:, None] - c * pace], 1)
 
     def beside(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
-        """Return the parameters of a motion with one nutation, of two amplitudes."""
+        """Return the parameters of the steady motion plus a small nutation with two amplitudes `size`."""
         h = 1e-4 / problem.rate
         back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
         R, steady = Rotation.from_rotvec(here).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
@@ -256,7 +256,7 @@ class _Steady:
 
 
 def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> tuple[int, list[tuple[float, Values]]]:
-    """Return how many nutations were tried and the best, by how much chi square is to fall, and where they start.
+    """Return the number of nutations tried, and the best as pairs (expected fall of chi square, parameters).
 
     `J` are the derivatives of the residuals in the parameters of the elementary motion, which follow a nutation.
     """
@@ -297,7 +297,7 @@ def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
 def _periodogram(
     problem: Problem, steady: _Steady, modes: _Modes, x: FloatArray, J: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return by how much each nutation lowers chi square (M,), and its amplitudes (M, 2)."""
+    """Return the expected fall of chi square for each nutation (M,), and its amplitudes (M, 2)."""
     data, M = problem.data, modes.ratio.size
     r = problem.residuals(x)
     weight = np.sqrt(SCORE[problem.loss](r * r))

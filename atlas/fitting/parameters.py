@@ -20,7 +20,7 @@ KEYS = ("value", "vary", "min", "max", "expr")
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter as lmfit has it; `stderr` and `correl` are None where the data do not determine the parameter."""
+    """A parameter with the attributes of lmfit's; `stderr` and `correl` are None if the data leave it undetermined."""
 
     value: float
     vary: bool = True
@@ -56,11 +56,11 @@ class Parameters(Mapping[str, Parameter]):
         return self.__dict__ | {"_lmfit": None}
 
     def changed(self, **parameters: Mapping[str, Any]) -> "Parameters":
-        """Return a copy in which the named parameters have other attributes."""
+        """Return a copy with new attributes for the named parameters."""
         return Parameters(self._by_name | {name: replace(self[name], **new) for name, new in parameters.items()})
 
     def values_with(self, free_values: Values) -> dict[str, float]:
-        """Return the values of all parameters, with those of `free` in place of their own."""
+        """Return the values of all parameters, with `free_values` in the place of those named there."""
         values = {name: free_values.get(name, p.value) for name, p in self.items()}
         tied = [name for name, p in self.items() if p.expr]
         if tied == ["b"] and self["b"].expr == LENGTH:
@@ -145,7 +145,7 @@ def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str
 
 
 def _attributes(name: str, p: Any) -> dict[str, Any]:
-    """Return the attributes of a number, of a mapping such as lmfit.create_params takes, or of an lmfit.Parameter."""
+    """Return the attributes of a parameter, from a number, a mapping as lmfit.create_params takes, or lmfit's own."""
     if isinstance(p, Mapping):
         if unknown := sorted({*p} - {*KEYS, "brute_step", "is_init_value"}):
             raise AtlasError(f"{name} has no attribute {unknown[0]!r}: there are {', '.join(KEYS)}.")

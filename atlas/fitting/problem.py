@@ -35,7 +35,7 @@ def lag(t: FloatArray, r: FloatArray) -> float:
 
 
 class Problem:
-    """Least squares of a family on data: the parameters say which of them are varied, and between which bounds."""
+    """Least-squares problem of a family on data; the parameters say which are varied, and within which bounds."""
 
     def __init__(
         self, model: Model, data: Data, params: Parameters, loss: str, rate: float, given: Values | None = None
@@ -55,13 +55,13 @@ class Problem:
         self._latest_slopes: tuple[Any, Any] = (None, None)
 
     def shifted(self, centre: float, rate: float) -> "Problem":
-        """Return the same with times from another one on, and another typical rate."""
+        """Return the problem with t = 0 moved to `centre`, and another typical rate."""
         data = replace(self.data, t=self.data.t - centre)
         return Problem(self.model, data, self.params, self.loss, rate, self.given)
 
     @cached_property
     def pinned(self) -> bool:
-        """Whether something is known of the state at t = 0, from which the search must start then."""
+        """Whether a parameter of the state at t = 0 is given, fixed or bounded: the search must then start at t = 0."""
         state = {*OMEGA, *ATTITUDE, *(B if "a1" in self.gauge else ())} - self.gauge.keys()
         return any(
             p.expr is not None or not p.vary or np.isfinite([p.min, p.max]).any() or name in self.given
@@ -70,7 +70,7 @@ class Problem:
 
     @cached_property
     def gauge(self) -> dict[str, float]:
-        """Parameters that the data never show, with the values that they are given."""
+        """Parameters that data of this kind do not determine, with the values they get."""
         return unseen(self.model, self.data.kind)
 
     @cached_property
@@ -84,7 +84,7 @@ class Problem:
         return tuple(np.array([getattr(self.params[name], x) for name in self.names]) for x in ("min", "max"))  # type: ignore[return-value]
 
     def values(self, x: Vector) -> dict[str, float]:
-        """Return all parameters, of those that are varied."""
+        """Return the values of all parameters by name, from those of the varied ones."""
         return self.params.values_with(dict(zip(self.names, map(float, x), strict=True)))
 
     def values_of_all(self, X: FloatArray) -> dict[str, FloatArray]:
@@ -108,7 +108,7 @@ class Problem:
         return self.inner(np.array([values.get(name, self.params[name].value) for name in self.names]))
 
     def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
-        """Return the motion, and all parameters."""
+        """Return the motion at x, and the values of all parameters by name; the latest is cached."""
         key = tuple(x)
         if self._latest[0] != key:
             values = self.values(x)
@@ -127,13 +127,13 @@ class Problem:
         return flow(self.model, {name: np.array([values[name]]) for name in self.model.names}, self.error)
 
     def alone(self) -> "Problem":
-        """Return the same for one motion at a time, with closed forms where they are fast."""
+        """Return a copy that evaluates one motion at a time, in closed form where that is fast."""
         copy = self.shifted(0.0, self.rate)
         copy.together = False
         return copy
 
     def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
-        """Return the residuals of motions, (M, N k), huge ones where there is none."""
+        """Return the residuals (M, N k) of M motions; HUGE where there is no motion."""
         if not (self.together or self.followed):
             return np.stack([self.residuals(x, places) for x in X])
         data = self.data.part(places)
@@ -153,7 +153,7 @@ class Problem:
         return r[:, 0], (r[:, 1:] - r[:, :1]) / h[:, None]
 
     def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
-        """Return the derivatives (n, N k), zero where there is no motion."""
+        """Return the derivatives of the residuals, (n, N k); zero where there is no motion."""
         try:
             return np.asarray(self.jacobian(x, places).T)
         except AtlasError:
@@ -176,7 +176,7 @@ class Problem:
         return out
 
     def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
-        """Return the differences in standard errors, (N k,); huge ones where there is no motion."""
+        """Return the residuals in units of the standard errors, (N k,); HUGE where there is no motion."""
         if self.followed:
             return self._integrated(x, places)[0]
         data = self.data.part(places)
@@ -187,7 +187,7 @@ class Problem:
             return np.full(data.sigma.size * self.width, HUGE)
 
     def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
-        """Return residuals and derivatives, which one integration gives; those of all data are kept till the next."""
+        """Return residuals and their derivatives from one integration; the latest at all data is cached."""
         key = tuple(x) if isinstance(places, slice) else None
         if key is None or self._latest_slopes[0] != key:
             r, J = self.turned(np.array([x]), places)
@@ -220,7 +220,7 @@ class Problem:
         return np.asarray(-(slopes @ chain[indices]) / data.sigma[:, :, None])
 
     def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
-        """Return the turns of R, (N, P, 3), or their derivatives in time where rates are seen."""
+        """Return the rotation vectors d R by parameters, (N, P, 3); for angular velocities their time derivatives."""
         if self.data.kind != "angular_velocity":
             return self.model.vectors(values, names, t, self.units, motion)
         h = 1e-4 / self.rate
@@ -249,13 +249,13 @@ class Problem:
         return float(np.sum(RHO[self.loss](z)))
 
     def noise(self, chi: float) -> float:
-        """Return the unit of differences of chi square: 1, or its least value a number where sigma is a guess."""
+        """Return the unit of differences of chi square: 1, or the least reduced chi square where sigma is estimated."""
         is_known = self.data.known and self.loss == "linear"
         return 1.0 if is_known else chi / (self.data.t.size * self.width - len(self.names))
 
 
 def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[FloatArray, FloatArray]:
-    """Return the least squares nearest to a start, or the start itself if it is steady, and the Jacobian there.
+    """Return the least squares solution nearest to a start (if `steady` the start itself), and the Jacobian there.
 
     With a robust loss SciPy has weighted the Jacobian.
     """

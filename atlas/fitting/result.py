@@ -129,7 +129,7 @@ class Fit:
     def of(
         cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
     ) -> "Fit":
-        """Return the fit at the lowest of the minima (chi square, x); an elementary motion stays where it was found."""
+        """Return the fit at the lowest of the minima `tried`, pairs (chi square, x); a steady motion is not refined."""
         data = problem.data
         x, jac = minimum(problem, tried[0][1], steady=bool(steady))
         motion = problem.model.make(problem.values(x))
@@ -164,7 +164,7 @@ class Fit:
         raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the attributes that a pickle holds: lmfit's objects are made again when they are read."""
+        """Return the attributes for pickle, without lmfit's objects, which are made again on loading."""
         return {name: value for name, value in self.__dict__.items() if name != "params"}
 
     def __repr__(self) -> str:
@@ -312,7 +312,7 @@ class Fit:
             raise AtlasError(f"There are no confidence intervals of these parameters: {error}".strip()) from error
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows of the parameters."""
+        """Return heading and rows of the table of parameters, as texts."""
         heading, rows = ["parameter", "value", "standard error", ""], []
         for name, p in self.parameters.items():
             note = "" if p.free else f"= {p.expr}" if p.expr else "fixed"
@@ -349,7 +349,7 @@ class Fit:
 
     @property
     def others(self) -> list[str]:
-        """The alternatives, in sentences."""
+        """The alternatives, one sentence each."""
         return [alternative.sentence(self.family, self.parameters) for alternative in self.alternatives]
 
     def _sentences(self) -> list[str]:
@@ -458,7 +458,7 @@ class Fit:
 
 
 def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, freedom: int) -> list[str]:
-    """Return sentences on signs that the family is not the right one."""
+    """Return sentences on evidence against the family."""
     out = []
     data, wider = problem.data, problem.model.wider
     cause = "the family is not that of the motion ("

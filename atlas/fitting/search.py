@@ -55,7 +55,7 @@ def turns(data: Data, i: Any, j: Any) -> FloatArray:
 
 
 def rate_of(data: Data, least: float = TURN) -> float:
-    """Return a typical rate at which the data change, by so much, in sorted times."""
+    """Return a typical rate in rad/time, at which sorted data change by `least` or more."""
     rate, n = 0.0, data.t.size
     for k in np.unique(np.geomspace(1, max(n // 6, 1), 24).astype(int)):
         gap = data.t[k:] - data.t[:-k]
@@ -70,7 +70,7 @@ def rate_of(data: Data, least: float = TURN) -> float:
 
 
 def centre_of(data: Data, rate: float, share: float) -> float:
-    """Return the time of a datum with most of the others within parts of a turn, near a part of them all."""
+    """Return the time of a datum with many others within a fraction of a turn, near the fraction `share` of all."""
     t, count = data.t, np.zeros(data.t.size)
     for width in (WINDOW / rate, 2 * ARC / rate):
         count += np.searchsorted(t, t + width, "right") - np.searchsorted(t, t - width)
@@ -79,7 +79,7 @@ def centre_of(data: Data, rate: float, share: float) -> float:
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
-    """Return the measured quantity at t = 0 and its rate of change, by a parabola; for rotations R and Omega."""
+    """Return the measured quantity and its derivative at t = 0, by a parabola; for rotations R and Omega."""
     order = np.argsort(abs(data.t), kind="stable")
     rows = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
     t, x = data.t[rows], data.values[rows]
@@ -176,9 +176,9 @@ def _unit_across(K: FloatArray) -> FloatArray:
 
 
 def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield the best motions about some time, the problem from then on, and how many data they follow; and others.
+    """Yield (time, problem shifted there, parameters x, count of data fitted) for promising starts.
 
-    A start that is given in full is tried first on all data, as it stands.
+    A complete start given by the user comes first, on all data.
     """
     if set(problem.names) <= problem.given.keys():
         yield 0.0, problem, problem.inside(problem.given), problem.data.t.size
@@ -187,7 +187,7 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
 
 
 def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield starts as `tries` does, about the k-th of the times PARTS."""
+    """Yield the starts of `tries` about the k-th of the times PARTS."""
     # a fast nutation of small size, as in a strong field, is not seen in larger turns
     small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
     rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
@@ -201,7 +201,7 @@ def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, Floa
 def motions_of_arc(
     problem: Problem, starts: int, seed: int, largest: float, *, is_last: bool
 ) -> Iterator[tuple[FloatArray, int]]:
-    """Yield the best motions of an arc about t = 0, and how many data it has; none if all are lost, but the last."""
+    """Yield (x, count) for the best motions on an arc about t = 0 of `count` data; nothing if all are lost."""
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate
     count_at_start = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
@@ -256,5 +256,5 @@ def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
 
 
 def _allowed(problem: Problem) -> float:
-    """Return by how much a motion may be off, in standard errors, while its phases are right."""
+    """Return the residual, in standard errors, up to which a motion's phases count as correct."""
     return float(LOST * problem.data.spread / np.median(problem.data.sigma))

@@ -68,7 +68,7 @@ class Seen:
         return (by * UNSEEN > errors[:, None]) & (by > NULL * np.linalg.norm(scaled, axis=1)[:, None])
 
     def parameters(self) -> Parameters:
-        """Return the parameters with values, standard errors and correlations, None where there are none."""
+        """Return the `Parameters` with standard errors and correlations, None where the data determine none."""
         problem, names = self.problem, self.problem.names
         is_lost, errors = self.is_moved.any(1), self.errors
         marked: dict[str, dict[str, Any]] = {
@@ -113,7 +113,7 @@ class Seen:
 
 
 def _separated(directions: FloatArray) -> FloatArray:
-    """Return combinations (n, count) that span the same, each with a parameter that none of the others has."""
+    """Return combinations (n, count) that span the same space, each with a parameter that no other one has."""
     if directions.shape[1] < 2:
         return directions
     _, _, order = qr(directions.T, mode="economic", pivoting=True)
@@ -122,7 +122,7 @@ def _separated(directions: FloatArray) -> FloatArray:
 
 
 def gauge(problem: Problem) -> list[str]:
-    """Return sentences on parameters that data of this kind never show."""
+    """Return sentences on the parameters that data of this kind do not determine."""
     hidden = unseen(problem.model, problem.data.kind)
     if not hidden:
         return []

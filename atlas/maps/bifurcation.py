@@ -82,7 +82,7 @@ MAX_BISECTIONS, STRETCH_PLACES = 60, 400
 
 @dataclass(frozen=True)
 class Stretch:
-    """Elliptic motions from one place z of an oval to another, v of the sign `branch`, all stable or all unstable."""
+    """Elliptic motions with z from `low` to `high` on one oval and sign `branch` of v: all stable or all unstable."""
 
     oval: Oval
     branch: int
@@ -93,7 +93,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Spin:
-    """A spin about a principal axis, 0 to 2, along the field: its constants, and the motions near it."""
+    """A spin about principal axis 0, 1 or 2 along the field: its constants (F, H), and the kind of motions near it."""
 
     axis: int
     F: float
@@ -138,7 +138,7 @@ class Bifurcation:
         return (np.maximum(x1 * x2 * x3, 0.0), x1 * x2 + x2 * x3 + x3 * x1, x)
 
     def _roots(self, axis: int) -> NDArray[np.complex128]:
-        """Return the places (2,), complex perhaps, at which the curve has the values of a spin about an axis."""
+        """Return the z (2,), perhaps complex, at which the curve meets the point (F, H) of a spin about an axis."""
         entry, (j, k), fourth = self.a[axis], (self.a[axis - 1], self.a[axis - 2]), self.b**4
         return np.asarray(np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * entry]), complex)
 
@@ -155,7 +155,7 @@ class Bifurcation:
         return tuple(spins)
 
     def stretches(self) -> Iterator[Stretch]:
-        """Yield the parts of both ovals on which K is real."""
+        """Yield the parts of both ovals on which K is real, as `Stretch`."""
         low, middle, high = np.sort(-self.a)
         if not self.c:
             yield Stretch("bounded", 1, float(low), float(middle), stable=True)
@@ -192,7 +192,7 @@ class Bifurcation:
             yield int(axis), max(start, border), float("inf"), after
 
     def _borders(self, start: float, stop: float, branch: int) -> list[float]:
-        """Return the places between two others where stability changes: the cusps of the curve."""
+        """Return the values z between start and stop where stability changes: the cusps of the curve."""
         z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, STRETCH_PLACES + 2)[1:-1]) ** 2
         stable = self.splitting(z, branch) > 0
         borders = []
@@ -209,7 +209,7 @@ class Bifurcation:
 
     @property
     def rest(self) -> FloatArray | None:
-        """Values (F, H) of the body at rest, c > 0, or with Omega = -2 K, c < 0; None without one at this c."""
+        """Values (F, H), shape (2,), at rest for c > 0, or of Omega = -2 K for c < 0; None where c is out of range."""
         moment = abs(self.c) / self.b**2
         if not self.inertia.min() <= moment <= self.inertia.max():
             return None

@@ -181,7 +181,7 @@ def on_loop(
     Where a value belongs to two tori, that of the deeper well is carried.
     Raises DomainError for a value that no motion has, or that is critical, and for a loop so coarse that an angle
     changes by more than a quarter of a turn in one step: give it more points, or keep it from critical values.
-    NotCertifiedError where the balls tell nothing.
+    Raises NotCertifiedError where the balls are too wide.
     """
     wells = Wells.at(M3, I, coupling, linear, quadratic)
     whole(len(loop), "The number of points", 3)
@@ -225,7 +225,7 @@ def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
 
 
 def _room(depth: FloatArray) -> float:
-    """Return an energy less the highest critical one of its well; 0 without a well, and where there are two."""
+    """Return the depth of a well above its highest barrier; 0 without a well, and where there are two."""
     ends = np.flatnonzero(np.diff(depth > 0, prepend=False, append=False))
     if len(ends) != 2:
         return 0.0

@@ -26,7 +26,7 @@ END_TOLERANCE = 2.0**-48
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """Critical values of steady precessions at one M3: arrays (N,) over their rate `w` in 1/time, less -k2."""
+    """Critical values of steady precessions at one M3: arrays (N,) over w, the rate plus k2 in 1/time."""
 
     w: FloatArray
     r: FloatArray
@@ -67,7 +67,7 @@ class Wells:
         return plain(self.energy(nu, 0.0) + (p - self.M3 * nu) ** 2 / ((1 - nu) * (1 + nu)))
 
     def energy(self, nu: Any, w: Any) -> Any:
-        """Return g where theta is at rest at nu, and the axis goes round with the rate w - k2."""
+        """Return g where theta is at rest at nu = cos theta, and the axis precesses at the rate w - k2."""
         return self.A * nu * nu + w * w * (1 - nu) * (1 + nu) + 2 * self.a * nu
 
     def spin(self, end: int) -> tuple[float, float, float]:
@@ -124,7 +124,7 @@ class Wells:
                 yield Branch(np.full(points, w), r, p, self.energy(r, w), stable)
 
     def cusps(self, nu: Any, k2: float = 0.0) -> tuple[Any, Any]:
-        """Return p and g of the motion whose axis stops at the cosine nu, a cusp of its trace, theorem-cusp."""
+        """Return (p, g) of the motion whose axis stops at the cosine nu, a cusp of its trace, theorem-cusp."""
         return self.M3 * nu + k2 * (1 - nu) * (1 + nu), self.energy(nu, k2)
 
 
@@ -136,7 +136,7 @@ def nutation_squared(A: Any, a: Any, w: Any, r: Any) -> Any:
 
 
 def rest(M3: float, p: float, nu: FloatArray) -> FloatArray:
-    """Return a + A nu for which the axis can rest at the cosine nu, theorem-top-precession: a line of (a, A)."""
+    """Return a + A nu for which theta can be constant at cosine nu, theorem-top-precession: a line of (a, A)."""
     w = (p - M3 * nu) / ((1 - nu) * (1 + nu))
     return M3 * w - nu * w * w
 

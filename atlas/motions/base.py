@@ -91,7 +91,7 @@ class Motion(Shown, Generic[Single]):
         self._make, self._inputs, self._made, self.shape = make, inputs, singles, shape
 
     def _single(self, i: int = 0) -> Single:
-        """Return the i-th motion, made by itself."""
+        """Return the evaluator of the i-th motion alone, cached; i counts the array flattened."""
         single = self._made.get(i)
         if single is None:
             if len(self._made) >= MOTION_CACHE_SIZE:
@@ -105,7 +105,7 @@ class Motion(Shown, Generic[Single]):
         return [element(x, index) for x in self._inputs]
 
     def _of_each(self, value: Callable[[Single], Value]) -> Value | NDArray[Any]:
-        """Return a value of each motion made by itself: plain for one motion, else an array."""
+        """Return value(single) for each motion: plain for one motion, else an array of shape (*shape, ...)."""
         if not self.shape:
             return value(self._single())
         values = np.array([value(self._single(i)) for i in range(prod(self.shape))])
@@ -128,7 +128,7 @@ class Motion(Shown, Generic[Single]):
 
     @property
     def _sides(self) -> tuple[FloatArray, FloatArray]:
-        """Rotations L and C beside that of the class, R(t) = L R_class(t) C."""
+        """Constant rotations (L, C), (..., 3, 3), with R(t) = L R_class(t) C; unit matrices without a placement."""
         return (np.eye(3), np.eye(3)) if self._placement is None else self._placement.sides
 
     @property
@@ -146,7 +146,7 @@ class Motion(Shown, Generic[Single]):
 
     @cached_property
     def _unplaced(self) -> Self | None:
-        """The motion along the axes of its class, None for one that is given along these."""
+        """Motion along the axes of its class; None if the motion is already given along them."""
         if self._placement is None:
             return None
         own = type(self)(**self._placement.arguments)
@@ -154,7 +154,7 @@ class Motion(Shown, Generic[Single]):
         return own
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let it be copied, and sent to another process, as the call that makes it."""
+        """Return the call that makes the motion again, for copy and pickle."""
         return super().__reduce__() if self._placement is None else (made, (self._placement.make, dict(self.arguments)))
 
     def rotation(self, t: RealArrayLike, out: FloatArray | None = None) -> FloatArray:
@@ -388,7 +388,10 @@ class Motion(Shown, Generic[Single]):
 
     @classmethod
     def _from_start(cls, start: Any, **parameters: Any) -> Any:
-        """Return the motion of this class from a `Start`, and its axes, as rows, in those of the body; None if none."""
+        """Return (motion, axes) of this class for a `Start`; None where the class has no motion from there.
+
+        The rows of `axes` (..., 3, 3) are the axes of the class, along those of the body.
+        """
         raise NotImplementedError
 
     @staticmethod
@@ -563,11 +566,11 @@ class Motion(Shown, Generic[Single]):
         return actions(self)
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion, the twin made of them, and its scalars."""
+        """Return the `Inputs` of the i-th motion: exact inputs by name, the certified counterpart, and scalars."""
         raise NotImplementedError
 
     def _dynamics(self) -> Any:
-        """Return moments, coupling, and the potential's linear and quadratic part, of one motion along its axes."""
+        """Return (moments, coupling, linear, quadratic) of one motion along the axes of its class; see `Inputs`."""
         return self._inputs_of(0).dynamics
 
     def _wheels(self) -> Wheels:
@@ -693,7 +696,7 @@ class Motion(Shown, Generic[Single]):
     def _evaluate_rows(
         self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
     ) -> None:
-        """Write values of motions of shape `own`, at times that broadcast with them, into (m, ...), by blocks."""
+        """Write values of motions of shape `own` into `out` (m, ...), by blocks; `times` broadcast with `own`."""
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
         for start in range(0, times.size, BLOCK):
             block = slice(start, start + BLOCK)
@@ -736,7 +739,7 @@ class DoubleTurn(Motion[Rotation]):
         }
 
     def _groups(self) -> list[Group]:
-        """Return the motions by the formulas that hold for them."""
+        """Return the motions grouped by the formulas that hold for them, as a list of `Group`."""
         raise NotImplementedError
 
     def _vectors(self) -> Mapping[str, Any]:
@@ -748,7 +751,7 @@ class DoubleTurn(Motion[Rotation]):
         fill_grid(single, start, step, out)
 
     def _wheels(self) -> Wheels:
-        """Return one motion as two turns."""
+        """Return the `Wheels` of one motion: a rotation about the axis of precession and one about the body's axis."""
         single, (L, C), e3 = self._single(), self._sides, np.array([0.0, 0.0, 1.0])
         n = np.array([nearest(x) for x in single.axis])
         k, phi = (nearest(x) for x in single.frequencies)

@@ -71,7 +71,7 @@ def _ones(motion: Any) -> list["One"]:
 
 
 class One:
-    """The i-th motion of an array, its inputs, and how names move them."""
+    """The i-th motion of an array, its inputs, and the change of the inputs with each name of a derivative."""
 
     def __init__(self, motion: Any, i: int) -> None:
         self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same folder
@@ -197,7 +197,7 @@ class One:
         return out
 
     def _weighted(self, names: Sequence[str]) -> tuple[Any, ...]:
-        """Return derivatives in the inputs that names move, how, and what gives v of names; kept for the next times."""
+        """Return derivatives in the inputs that the names change, weights of these inputs, and the function for v."""
         key = tuple(names)
         if key not in self._cache:
             inputs = self._inputs_behind(names)

@@ -17,7 +17,7 @@ from atlas.lazy import cached_property
 
 @dataclass(frozen=True)
 class Placement:
-    """Constant rotations beside a motion, R(t) = left R_class(t) right, and its state as it was given.
+    """Constant rotations of a placed motion, R(t) = left R_class(t) right, and its state as it was given.
 
     `left` and `right` (..., 3, 3), None for the unit matrix, are rounded: they add an error of 1e-15 at any time, since
     the inputs of the motion are turned exactly. The rows of `right` are the axes of the class in those of the body.
@@ -36,12 +36,15 @@ class Placement:
 
     @property
     def sides(self) -> tuple[FloatArray, FloatArray]:
-        """Both rotations as matrices."""
+        """Matrices (left, right), (..., 3, 3) each; the unit matrix in the place of None."""
         left, right = (np.eye(3) if x is None else x for x in (self.left, self.right))
         return left, right
 
     def matrices(self, R: FloatArray, *, between: int = 0) -> FloatArray:
-        """Turn matrices (..., 3, 3) of the class in place; `between` axes stand between those of motions and theirs."""
+        """Return left R right for matrices R (..., 3, 3) of the class, R overwritten.
+
+        `between` is the number of axes of R, such as times, between the shape of the motions and (3, 3).
+        """
         left, right = (x if x is None or not between else x[..., None, :, :] for x in (self.left, self.right))
         if right is not None:
             np.matmul(R, right, out=R)
@@ -52,7 +55,7 @@ class Placement:
         return v if self.right is None else np.asarray(np.vecmat(v, self.right))
 
     def along_class(self, v: FloatArray) -> FloatArray:
-        """Return vectors along the axes of the body, (..., 3), along those of the class."""
+        """Return vectors (..., 3) along the axes of the class from their components along the axes of the body."""
         return v if self.right is None else np.asarray(np.matvec(self.right, v))
 
     def quaternions(self, q: FloatArray, t: Any) -> FloatArray:
@@ -62,7 +65,7 @@ class Placement:
 
     @cached_property
     def _quaternions(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Quaternions of both turns, and that of R(0) with w >= 0, whose sign their product has."""
+        """Quaternions (..., 4) of left, right and R(0), w >= 0 for R(0); the sign of left makes left right = R(0)."""
         left, right, start = map(of_matrix, (*self.sides, self.attitude))
         start = start * np.where(start[..., 3:] < 0, -1.0, 1.0)
         along = (product(left, right) * start).sum(-1, keepdims=True)

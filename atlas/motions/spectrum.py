@@ -131,7 +131,7 @@ class Wheels(NamedTuple):
 
     @property
     def rates(self) -> FloatArray:
-        """All rates."""
+        """All basic frequencies: the phases' ones, then p and s."""
         return np.array([*self.phases, self.p, self.s])
 
 
@@ -157,7 +157,7 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
 
 
 def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
-    """Return lines in the order of their frequencies, those of one frequency added."""
+    """Return a `Spectrum` of lines by ascending frequency; amplitudes of equal frequencies are added."""
     frequencies, unit = combinations @ wheels.rates, _size(amplitudes)
     size = _power(amplitudes, unit)
     lines = np.flatnonzero(size > (MIN_AMPLITUDE * 1e-3) ** 2 * size.max())
@@ -193,7 +193,7 @@ def _size(amplitudes: Array) -> float:
 
 
 def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
-    """Return the amplitudes of the turn about n, by Rodrigues: of the frequencies -1, 0 and 1, of 0 if it stands."""
+    """Return matrices (3, 3) of the rotation about n at frequencies -1, 0, 1 times `rate`; only 0 if rate = 0."""
     if not rate:
         return {0: np.eye(3, dtype=complex)}
     parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
@@ -224,7 +224,7 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
 
 
 def function_of(motion: Any, of: str) -> Any:
-    """Return the function of time that is wanted, of which R stands for the axis."""
+    """Return the method of the motion that `of` names; `rotation` for "axis" too."""
     names = {"angular_velocity": "angular_velocity", "field": "field_in_body"}
     return getattr(motion, names.get(of, "rotation"))
 

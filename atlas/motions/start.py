@@ -47,7 +47,7 @@ class Body(NamedTuple):
 
 
 class Start:
-    """Body, field in the laboratory, angular velocity, by components, and attitude, as they were given.
+    """Initial data as given: body, field B' in the laboratory and angular velocity as components, attitude R(0).
 
     The angular velocity is along the axes of the body, or where `outside` along those of the laboratory.
     """
@@ -59,7 +59,7 @@ class Start:
         self.shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
 
     def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
-        """Return the components of field and angular velocity along axes of the body, its rows, without rounding."""
+        """Return the components of field and of angular velocity along `axes`, rows in the body, without rounding."""
         back = np.swapaxes(self.R, -1, -2) if self._turn is None else np.array(self._turn) * (-1.0, -1.0, -1.0, 1.0)
         return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
 
@@ -82,7 +82,7 @@ class Start:
 
     @cached_property
     def symmetric(self) -> tuple[Any, FloatArray, list[Any], list[Any]]:
-        """Body with two equal moments, or its ratio; axes with that of symmetry last; field and velocity along them."""
+        """Tuple (body or ratio, axes with the symmetry axis last, field, velocity), both vectors along these axes."""
         I = self.body.moments
         if self.body.exact is not None:
             return self.body.exact, np.broadcast_to(self.body.axes, (*I.shape, 3)), *self.along(self.body.axes)
@@ -100,7 +100,7 @@ class Start:
     def place(
         self, own: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
     ) -> Any:
-        """Return a motion along axes of its class, rows in those of the body, in the axes that were given."""
+        """Return a motion in the given axes from `own`, along its class's axes; `axes` are these, rows in the body."""
         outer = self.R @ np.swapaxes(axes, -1, -2)
         before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (outer, axes))
         B, R, omega = frozen((joined_columns(self.B), self.R, self.omega))
@@ -152,7 +152,7 @@ def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
 
 
 def _copied(value: Any) -> Any:
-    """Return an argument with copies of its arrays, so that a change of the user's does not reach the motion."""
+    """Return an argument with its arrays copied: later changes by the user leave the motion unchanged."""
     if isinstance(value, tuple | list):
         return type(value)(map(_copied, value))
     return frozen(value.copy()) if isinstance(value, np.ndarray) else value
@@ -246,12 +246,12 @@ def joined_columns(v: list[Any]) -> FloatArray:
 
 
 def argument(value: Any, parts: list[Any]) -> Any:
-    """Return vectors for storage: an array, or the value as given where no floats hold the components."""
+    """Return vectors for storage: one array, or the value as given where floats do not hold the components."""
     return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
 
 
 def exactly(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return the numbers of one motion as rational ones."""
+    """Return the inputs of one motion as exact rational numbers."""
     return exact(*(element(x, ()) for x in numbers))
 
 

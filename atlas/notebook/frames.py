@@ -18,7 +18,7 @@ from atlas.sweeps.families import FAMILIES, Swept
 
 
 def frame(subject: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
-    """Return the data frame, see `Shown.to_dataframe`."""
+    """Return the pandas data frame of an object, see `Shown.to_dataframe`."""
     swept = FAMILIES.get(subject.family)
     if swept is None:
         raise AtlasError(f"The register has no table of a {type(subject).__name__}.")
@@ -49,7 +49,7 @@ def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> It
 
 
 def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
-    """Yield names and columns of the samples of an object at each time, all or those with these names."""
+    """Yield (name, column) for the functions of time of an object; all, or those in `names`."""
     swept = FAMILIES[subject.family]
     if getattr(subject, "shape", ()):
         raise AtlasError(f"Rows by time are of one {type(subject).__name__}: make one with numbers in place of arrays.")
@@ -72,7 +72,7 @@ def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -
 
 
 def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> tuple[FloatArray, FloatArray]:
-    """Return times and points, see `Motion.trace`."""
+    """Return times (N,) and points (N, 3) of the axis, see `Motion.trace`."""
     name = type(motion).__name__
     if motion.shape:
         raise AtlasError(f"A trace is of one {name}, not of several: make one with numbers in place of arrays.")

@@ -26,7 +26,7 @@ def plot(
     target: str | None,
     parameters: dict[str, Any],
 ) -> Figure:
-    """Draw an object, see `Shown.plot`; without axes all panels, or the one asked for."""
+    """Draw an object, see `Shown.plot`: on `ax` one panel; without `ax` all panels, or panel number `panel`."""
     scene = scene_of(subject, figure, parameters)
     if panel is not None and panel not in range(1, len(scene.panels) + 1):
         raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel!r}.")
@@ -69,7 +69,7 @@ def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> 
 
 
 def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
-    """Return the scene of a flight, which is made of a particle and a motion and is no family of the register."""
+    """Return the scene of a `Flight`, which has no family in the register."""
     known = signature(flight.scene_of).parameters
     for key in parameters:
         if key not in known or key == "flight":
@@ -78,14 +78,14 @@ def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
 
 
 def alone(scene: Scene, panel: int) -> Scene:
-    """Return a scene of one panel."""
+    """Return a scene with one panel of a scene, at that panel's size."""
     rows = -(-len(scene.panels) // scene.columns)
     size = scene.size[0] / min(scene.columns, len(scene.panels)), scene.size[1] / rows
     return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())
 
 
 def _object_parameters(subject: Shown, family: Family) -> dict[str, Any]:
-    """Return the parameters of an object by the names of its family: as it was given them, or as it has them."""
+    """Return the parameters of an object by their names in its family: its arguments, or its attributes."""
     if not subject.made_by and len(subject.arguments) == len(family.parameters):
         arguments = dict(zip((p.name for p in family.parameters), subject.arguments.values(), strict=True))
     else:

@@ -71,12 +71,12 @@ def body(subject: SymmetricBody) -> str:
 
 
 def picture(subject: Shown) -> str:
-    """Return the first panel of the figure of an object, small; nothing where there is none."""
+    """Return the first panel of an object's figure as a small HTML image; "" where there is none."""
     return _image(lambda: plot(subject, None, 1, None, None, None, {}))
 
 
 def _image(draw: Callable[[], Any]) -> str:
-    """Return a figure as an image of few colours; nothing where it can't be drawn."""
+    """Return a figure as an HTML image of few colours; "" where it cannot be drawn."""
     from PIL import Image
 
     with suppress(AtlasError):

@@ -69,7 +69,7 @@ _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
 
 @dataclass(frozen=True)
 class Upright:
-    """The vector that stands upright, in the laboratory, its letter for a formula and for plain words, its role."""
+    """The vector drawn upright, in the laboratory: its letter in TeX and in plain words, and its role."""
 
     vector: Sequence[float]
     letter: str
@@ -78,7 +78,7 @@ class Upright:
 
     @classmethod
     def of_motion(cls, motion: Any) -> "Upright":
-        """Return the direction of a top, else the field; without one the angular momentum; of a body at rest e3."""
+        """Return a top's direction, else the field; without a field the angular momentum, for a body at rest e3."""
         if hasattr(motion, "direction"):
             return cls((0.0, *motion.direction), r"\mathbf{n}", "n", "direction")
         field = getattr(motion, "field", (abs(getattr(motion, "larmor", 0.0)),))
@@ -102,11 +102,11 @@ def picture(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Return the figure of a motion over so many `periods` of its `period`, as far as `MAX_AXIS_TURNS` turns.
+    """Return the figure of a motion over `periods` times its `period`, at most `MAX_AXIS_TURNS` turns.
 
-    `setting` says whose motion it is and from where, for a caption and in plain words; `word` names the motion of that
+    `setting` names the body and the start, for a caption and in plain words; `word` names the motion of that
     period, empty if there is none. An infinite or zero period is replaced by one turn at the start.
-    `upright` is that of the motion. Where the axis would not be seen to move, it is followed for one precession.
+    `upright` replaces the motion's own upright vector. An axis that would not visibly move is shown for one precession.
     """
     upright = upright or Upright.of_motion(motion)
     turn_rate = turns(motion, 0.0)
@@ -149,7 +149,7 @@ def picture(
 
 
 def slow_turn(motion: Any, length: float) -> float:
-    """Return the time of one precession, where nothing is seen of the axis for a `length` of time; 0 elsewhere."""
+    """Return the time of one precession if the axis would not visibly move in a time `length`, else 0."""
     rate = _number(motion, "precession_rate")
     looks = motion.third_axis(np.linspace(0.0, length, 65))
     return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < MIN_SEEN_LENGTH else 0.0
@@ -194,7 +194,7 @@ def scene_at(motion: Any, t: float, begin: float) -> Scene:
 
 
 def period(motion: Any) -> float:
-    """Return the time after which a motion is back but for a turn: its period, of a symmetric free body 2 pi/k.
+    """Return the drawn time unit of a motion: the period of the axis, or the time of one turn without such a period.
 
     Raises AtlasError for an array of motions.
     """
@@ -205,7 +205,7 @@ def period(motion: Any) -> float:
 
 
 def axis_period(motion: Any) -> float:
-    """Return the time after which the axis of one motion is back but for a turn, 0 where there is none."""
+    """Return the time after which the axis of one motion repeats up to a rotation, 0 where there is none."""
     if name := FAMILIES[motion.family].axis_rate:
         rate = getattr(motion, name)
         return float(2 * pi / rate) if rate else 0.0
@@ -213,7 +213,7 @@ def axis_period(motion: Any) -> float:
 
 
 def _number(motion: Any, name: str) -> float:
-    """Return a number of a motion, 0 where it has none."""
+    """Return an attribute of a motion as a float, 0 where it has no value."""
     try:
         return float(getattr(motion, name, 0.0))
     except DomainError:
@@ -232,5 +232,5 @@ def turns(motion: Any, stop: float) -> float:
 
 
 def pieces(count: float) -> int:
-    """Return the number of pieces into which the path of an axis over `count` turns is first cut."""
+    """Return the number of pieces into which an axis' path over `count` turns is first divided."""
     return max(32, ceil(min(8 * count, 2.0 * MAX_POINTS)))

@@ -37,9 +37,9 @@ class Arrangement:
 
 
 def arranged(scene: Scene, target: Target) -> Scene:
-    """Return a scene as wide as a target, its panels in the rows and columns that leave them largest.
+    """Return a scene as wide as a target, its panels in the arrangement that makes them largest.
 
-    Panels that the scene can spare are left out where all would be too small, and its caption says so.
+    `spare` panels are left out where all would be too small, and the caption says so.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def arranged(scene: Scene, target: Target) -> Scene:
 
 
 def _reduced(scene: Scene) -> Scene:
-    """Return a scene without the panels that can be spared, the others in a row with all their labels."""
+    """Return a scene without its spare panels, the others in a row with all their labels."""
     remaining = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
     letters = listed([scene.panels[k].title.partition(" ")[0] for k in scene.spare])
@@ -71,7 +71,7 @@ def _reduced(scene: Scene) -> Scene:
 
 
 def _arranged(scene: Scene, target: Target) -> Scene:
-    """Return a scene with all its panels in the rows and columns that leave them largest."""
+    """Return a scene with all its panels, in the arrangement that makes them largest."""
     width = target.width / target.zoom
     if width < scene.narrowest:
         wide = [name for name, option in TARGETS.items() if option.width / option.zoom >= scene.narrowest]
@@ -96,7 +96,7 @@ def _arranged(scene: Scene, target: Target) -> Scene:
 
 
 def suited(scene: Scene, targets: Sequence[Target]) -> Target:
-    """Return the first of some targets, the narrowest first, where a scene is not much smaller than by itself."""
+    """Return the first target, narrowest first, at which a scene is not much smaller than its own size."""
     for target in targets[:-1]:
         if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):
             return target
@@ -104,7 +104,7 @@ def suited(scene: Scene, targets: Sequence[Target]) -> Target:
 
 
 def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrangement]:
-    """Yield the ways to lay out a scene in so much room; panels for a narrow screen are another set to choose from."""
+    """Yield the arrangements of a scene in a width and height; with panels for a narrow screen, those too."""
     count = len(scene.panels)
     before = scene.size[0] / scene.columns, scene.size[1] / -(-count // scene.columns)
     for columns in range(1, count + 1):
@@ -115,9 +115,9 @@ def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrange
 
 
 def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
-    """Return the panels with the labels that their axes shared with a neighbour who will stand elsewhere.
+    """Return the panels with the axis labels that they shared with a neighbour now placed elsewhere.
 
-    Without columns each panel has both labels.
+    With columns = 0 each panel has both labels.
     """
     panels = list(scene.panels)
     for k, plane in enumerate(scene.panels):
@@ -135,7 +135,7 @@ def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
 def _fitted(
     panels: Sequence[Panel], columns: int, before: tuple[float, float], room: tuple[float, float]
 ) -> Arrangement:
-    """Return an arrangement in so many columns, in a room (width, height)."""
+    """Return the arrangement of panels in `columns` columns, in a room (width, height)."""
     wide = room[0] / columns
     image_width = wide - _BAR if any(map(_has_bar, panels)) else wide
     rows = [
@@ -154,7 +154,7 @@ def _fitted(
 
 
 def _has_bar(panel: Panel) -> bool:
-    """Return whether a panel of equal scales has a bar of colours beside it, which takes width from all panels."""
+    """Return whether a panel with equal scales has a colour bar, which takes width from all panels."""
     layers = panel.layers if isinstance(panel, Plane) and panel.equal else ()
     return any(isinstance(layer, Image) and layer.label for layer in layers)
 
@@ -172,14 +172,14 @@ def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
 
 
 def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float]) -> float:
-    """Return the size of a panel in this cell over its size in the cell of the scene, without the room of its words."""
+    """Return the ratio of a panel's size in a cell to its size in the original cell, words excluded."""
     words = _AXES if isinstance(panel, Plane) else (0.0, 0.0)  # names go along with a drawing
     sizes = zip(cell, (before[0], _high(panel, before[0], before)), words, strict=True)
     return max(min((now - word) / (then - word) for now, then, word in sizes), _LEAST)
 
 
 def _words(panel: Panel) -> tuple[float, float]:
-    """Return the millimetres beside and below a panel for labels, which do not shrink with the panel."""
+    """Return the millimetres beside and below a panel for labels, whose size is fixed."""
     return _AXES if isinstance(panel, Plane) else _NAMES
 
 
@@ -188,10 +188,10 @@ WIDTH = 90.0
 
 
 def narrowed(scene: Scene) -> Scene | None:
-    """Return a scene with its panels in as few columns as leave them no smaller, or None if it has them already.
+    """Return a scene in as few columns as leave its panels no smaller; None if that is its own arrangement.
 
-    Wide panels of curves that stand below one another are made narrower alone: their words stay readable. A scene that
-    has panels for a narrow screen is drawn with these.
+    A column of wide panels of curves is only made narrower: words stay readable. A scene with `narrow` panels is drawn
+    with these.
     """
     panels, (width, height) = len(scene.panels), scene.size
     rows = -(-panels // scene.columns)
@@ -211,9 +211,9 @@ def narrowed(scene: Scene) -> Scene | None:
 def stacked(
     cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0, title: str = ""
 ) -> tuple[Space, ...]:
-    """Return groups of layers that stand side by side in space as so many panels at one scale, the first with a title.
+    """Return groups of layers, side by side in space, as panels at one scale in `rows` rows; the first has the title.
 
-    Each group has at least so much ``room`` to the right.
+    Each group has at least ``room`` to the right.
     """
     row_count = -(-len(cells) // rows)
     panels = [

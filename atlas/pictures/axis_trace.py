@@ -22,10 +22,10 @@ def sphere(
     elevation: float,
     role: str = "field",
 ) -> Space:
-    """Return one sphere, turned so that the vector `upright` stands upright, under that label.
+    """Return a panel with the unit sphere and the trace of the axis, the vector `upright` upwards.
 
-    `upright` has its components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
-    to `length` in so many pieces at first.
+    `upright` has components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
+    to `length`, first in `pieces` pieces.
     """
     sag = tolerance(1.4)
     trace = curve(lambda t: erected(third_axis(t), upright), 0.0, length, sag, pieces=pieces)
@@ -33,7 +33,7 @@ def sphere(
 
 
 def erected(points: FloatArray, upright: Sequence[float]) -> FloatArray:
-    """Return points (N, 3) turned so that a vector, of components along e2 and e3 or all three, stands upright."""
+    """Return points (N, 3) rotated so that `upright`, given along e2 and e3 or by three components, points upwards."""
     return np.asarray(points @ _turn(*(upright if len(upright) == 3 else (0.0, *upright))).T)
 
 

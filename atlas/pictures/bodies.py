@@ -65,7 +65,7 @@ def drawn_body(
 
 
 def body_of(motion: Any, R: FloatArray, tolerance: float) -> list[Layer]:
-    """Return the body of a motion, turned by R: a shell with its I, or a brick with its three moments."""
+    """Return the layers of a motion's body, rotated by R: a shell with its I, or a brick with its three moments."""
     inertia = getattr(motion, "inertia", None)
     if inertia is None or np.ndim(inertia) == 0:
         return drawn_body(quotient(getattr(motion, "ratio", 1.0)), R, _CENTRE, 1.0, tolerance)
@@ -83,7 +83,7 @@ def body_of(motion: Any, R: FloatArray, tolerance: float) -> list[Layer]:
 
 
 def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:
-    """Return the layers of an open cylindrical shell with I3/I2 = I < 2, its windings and its painted seam.
+    """Return the layers of an open cylindrical shell with I3/I2 = I < 2, with windings and a seam.
 
     Arguments are those of `drawn_body`.
     """

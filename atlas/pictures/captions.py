@@ -87,5 +87,5 @@ def plain_setting(ratio: Any, field: Sequence[float]) -> str:
 
 
 def lasting(time: float, unit: str) -> str:
-    """Return a time with its unit, in words: '2.21 s', or '2.21 units of time' where that has no name."""
+    """Return a time with its unit as text: '2.21 s', or '2.21 units of time' for an unnamed unit."""
     return f"{time:.3g} {'units of time' if unit == 'time' else unit}"

@@ -57,7 +57,7 @@ def section(
 def _spans(
     point: Callable[[FloatArray], FloatArray], start: float, stop: float, half_spaces: FloatArray
 ) -> list[tuple[float, float]]:
-    """Return the stretches of the parameter in which the curve ``point`` lies in every half space."""
+    """Return the intervals of the parameter in which the curve ``point`` lies in every half space."""
     s = np.linspace(start, stop, _LOOKS)
     ends = [start, stop]
     for *n, d in half_spaces:

@@ -53,7 +53,7 @@ def _heading(scene: Scene) -> Iterator[str]:
 
 
 def _pieces(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:
-    """Return the pieces of a layer, each with its rows x, y, z, value."""
+    """Yield the pieces of a layer: (name, rows of x, y, z, value)."""
     match layer:
         case Curve() | Points() | Region():
             yield "", _rows(layer.points)

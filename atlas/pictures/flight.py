@@ -26,9 +26,9 @@ Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit: str = "length") -> Scene:
-    """Return the figure of a flight, over so many turns of its centre of mass or up to `stop`.
+    """Return the figure of a flight, over `turns` turns of its centre of mass or until `stop`.
 
-    Raises AtlasError for several flights at once, DomainError where nothing makes the centre of mass turn.
+    Raises AtlasError for several flights at once, DomainError where the centre of mass moves without turns.
     """
     particle = flight.particle
     if particle.shape or flight.point.ndim > 1 or flight.motion.rotation(0.0).ndim > 2:
@@ -110,14 +110,14 @@ def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def panel_axes(flight: Flight, B: FloatArray) -> FloatArray:
-    """Return the axes of panel (b) as columns: x along the drift [E, B], or along e1 where there is none."""
+    """Return the axes of panel (b) as columns, (3, 2): x along the drift [E, B], or along e1 without a drift."""
     drifts = bool(flight.particle.drift.any())
     x_axis = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
     return np.stack([x_axis, np.cross(B / np.linalg.norm(B), x_axis)], axis=1)
 
 
 def side_view(flight: Flight, stop: float) -> Space:
-    """Return the view of panel (a): nearly across the way that the centre of mass goes, so that it fills the panel."""
+    """Return the view of panel (a), nearly perpendicular to the displacement of the centre of mass."""
     way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
     return (
         replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + VIEW_DEGREES) if way[:2].any() else VIEW
@@ -125,9 +125,9 @@ def side_view(flight: Flight, stop: float) -> Space:
 
 
 def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
-    """Return the path of the centre of mass, that of the point, and the arms between them, (M, 2, 3), for both panels.
+    """Return the paths of the centre of mass and of the point, and arms between them, (M, 2, 3), for both panels.
 
-    They are as fine as the panel asks for in which they are larger.
+    The sampling is as fine as the larger panel requires.
     """
     rough = flight.position(np.linspace(0.0, stop, 257))
     extents = (np.ptp(rough @ plane, axis=0) / [WIDTH / 2, HEIGHT] for plane in (frame(view)[:2].T, axes))
@@ -177,7 +177,7 @@ def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) 
 def bundle(
     centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), suffix: str = ""
 ) -> list[Layer]:
-    """Return the layers of the two paths and the arms between them."""
+    """Return the layers of both paths and the arms."""
     return [
         *(Curve(arm, "guide") for arm in arms),
         Curve(centre, "fourth", names[0]),

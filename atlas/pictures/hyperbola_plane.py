@@ -27,7 +27,7 @@ class Window:
 
     @property
     def half(self) -> tuple[float, float]:
-        """Half the width and half the height."""
+        """Half the width and half the height of the window."""
         return (self.x[1] - self.x[0]) / 2, (self.y[1] - self.y[0]) / 2
 
     @property
@@ -53,7 +53,7 @@ class Window:
 
 
 def components(field: Any) -> tuple[float, float]:
-    """Return B2 and B3 of B', of which one at least must not vanish."""
+    """Return (B2, B3) of B'. Raises DomainError if both vanish."""
     B2, B3 = map(number, parts(field, NAMES, "The field"), NAMES)
     if B2 == 0 and B3 == 0:
         raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
@@ -118,7 +118,7 @@ def graph(
 
 
 def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
-    """Tell which points (N, 2) of a polyline are in the window, or next to one that is."""
+    """Return a mask (N,) of the points of a polyline in the window, or adjacent to one that is."""
     low, high = view.box
     inside = np.asarray(((points >= low) & (points <= high)).all(axis=1))
     chosen = inside.copy()
@@ -128,7 +128,7 @@ def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
 
 
 def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
-    """Return the intervals of omega2 on which the family is unstable against nutation: none, one, or one a branch."""
+    """Return the intervals of omega2 with motions unstable against nutation: none, one, or one for each branch."""
     B2, _ = components(field)
     band = Hyperbola(ratio, field).unstable_band if B2 else None
     if band is None:
@@ -142,7 +142,7 @@ def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
 
 
 def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
-    """Return the asymptote through the centre -B' along I^-1 B' as far as the window goes, shape (2, 2)."""
+    """Return two points (2, 2) of the asymptote through -B' along I^-1 B', at the window's border."""
     I, _, _ = shape_factors(ratio)
     B2, B3 = components(field)
     direction = np.array([I * B2, B3])
@@ -153,7 +153,7 @@ def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
 
 @dataclass(frozen=True)
 class Place:
-    """A named point of the family: its name in a figure and in a sentence, where it is, and its role."""
+    """A named point of the family: its name in a figure and in a sentence, position and role."""
 
     text: str
     words: str
@@ -164,8 +164,8 @@ class Place:
 def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     """Return the named points of the hyperbola (67): at rest, -2 B', and -(2-I) B2, where omega3 = 0 again.
 
-    The last is the state of rest for I = 2 and lies at the pole for I = 1: then it is left out, as it is for B2 = 0 or
-    B3 = 0, where nothing singles it out.
+    The last is the state of rest for I = 2 and lies at the pole for I = 1. It is left out in these cases, and for B2 =
+    0 or B3 = 0, where it is not distinguished.
     """
     B2, B3 = components(field)
     special = Hyperbola(ratio, field).special
@@ -180,7 +180,7 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
 
 
 def marked(named: Sequence[Place], field: Any) -> list[Layer]:
-    """Return the centre -B' and some named points as marks with their names."""
+    """Return layers that mark and name the centre -B' and some named points."""
     centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
     return [
         Points(centre[None], "centre"),

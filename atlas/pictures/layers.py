@@ -43,7 +43,7 @@ class Points:
 class Arrow:
     """A vector drawn from ``tail`` to ``tip``, with its name ``offset`` printer's points away from the tip.
 
-    Without an offset the name stands just beyond the tip. Where it would cover something it is moved a little.
+    Without an offset the name stands just beyond the tip. It is moved a little where it would cover something.
     """
 
     tail: FloatArray
@@ -56,10 +56,10 @@ class Arrow:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text at a place, ``offset`` printer's points away from it; with offset (0, 0) it is centred there and stays.
+    """Text at a position, ``offset`` printer's points away; with offset (0, 0) it is centred there and fixed.
 
-    ``at`` may hold several places (N, 2) or (N, 3), the first the best, the others for when it is taken. In a panel
-    with two axes it is also the label, for a legend, of the last curve or points of its role before it without one.
+    ``at`` may hold several positions (N, 2) or (N, 3), the best first. In a panel with two axes it is also the legend's
+    label of the last preceding unlabelled curve or points of its role.
     """
 
     at: FloatArray
@@ -157,18 +157,17 @@ Panel: TypeAlias = Plane | Space
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """One figure: its panels row by row, its size in millimetres, and the words that go with it.
+    """One figure: its panels row by row, its size in millimetres, and its words.
 
-    ``title`` is that of the recipe, the first line of its docstring, where there is none; ``caption`` and ``alt``,
-    which each has as it has panels, are complete sentences, ``alt`` without TeX. ``parameters`` are those that the
-    figure was made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
-    {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
-    ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
-    the other, each as high as a row of the figure, where those of the figure would only become smaller. ``paths`` tell
-    how the layers move in time that ride on one, by its name in their ``rides``, for a time that ``lasts``.
-    ``narrowest`` is the width in millimetres below which it can't be read, as its recipe declares it; ``rows`` are the
-    heights of the rows, of which all have one if it is empty. ``spare`` holds the indices of panels that are left out
-    of a slide or a column in which all would be too small.
+    ``title`` is by default the recipe's, the first line of its docstring. ``caption`` and ``alt`` are complete
+    sentences, ``alt`` without TeX; each figure with panels has both. ``parameters`` are those that the figure was made
+    with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in {"dashed":
+    "asymptote"}: a line that a caption names must be visible. ``commands`` make tables of the numbers that are drawn.
+    ``narrow`` holds the panels for a narrow screen, one below the other, each as high as a row of the figure, where the
+    figure's own would only become smaller. ``paths`` are functions of time, by name, that move the layers with this
+    name in ``rides``, for a time ``lasts``. ``narrowest`` is the width in millimetres below which it can't be read, as
+    its recipe declares it; ``rows`` are the heights of the rows, equal ones if it is empty. ``spare`` holds the indices
+    of panels that are left out of a slide or a column in which all would be too small.
     """
 
     title: str = ""

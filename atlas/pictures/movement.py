@@ -44,12 +44,12 @@ def translations(places: FloatArray, start: FloatArray) -> tuple[FloatArray, Flo
 
 
 def riding(layers: list[Layer], path: str) -> list[Layer]:
-    """Return layers that ride on a path."""
+    """Return copies of layers that ride on the path of this name."""
     return [replace(layer, rides=path) for layer in layers]  # type: ignore[arg-type]  # no map or region rides
 
 
 def closes(scene: Scene) -> bool:
-    """Return whether all that rides is back where it began at the end, within `SEAM` of its extent in each panel."""
+    """Return whether all moving layers return to their start at the end, within `SEAM` of their extent."""
     end = scene_at(scene, scene.lasts)
     for before, after in zip(map(_riders, scene.panels), map(_riders, end.panels), strict=True):
         if np.abs(after - before).max(initial=0.0) > SEAM * np.ptp(before, axis=0).max(initial=0.0):

@@ -53,11 +53,10 @@ COUNTS = {2: "two", 3: "three", 4: "four"}
 
 
 def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tuple[float, float]] = RANGES) -> Any:
-    """Return the value of a parameter in the type of its annotation, or of its default where it has none.
+    """Return the value of a parameter converted to its annotation, or to the type of its default.
 
-    A list becomes a tuple, a whole number a float, one number a list of one where any length will do, and a list is
-    cut into lists of the length that is meant. Raises AtlasError, which names the parameter and the value that would be
-    right.
+    A list becomes a tuple, an integer a float, one number a tuple of one where any length is allowed, and a flat list
+    is divided into tuples of the annotated length. Raises AtlasError, which names the parameter and the expected value.
     """
     kind = _kind(default) if hint is None else hint
     try:
@@ -89,7 +88,7 @@ def described(hint: Any, default: Any) -> str:
 
 
 def typed(value: Any) -> str:
-    """Write a value as it is typed after ``--set``, the numbers of a list of lists one after the other."""
+    """Return a value as it is typed after ``--set``; nested lists are flattened."""
     if isinstance(value, tuple | list):
         return ",".join(map(typed, value)) + ("," if len(value) == 1 and not isinstance(value[0], tuple | list) else "")
     if isinstance(value, bool):
@@ -98,18 +97,18 @@ def typed(value: Any) -> str:
 
 
 class _Unfit(Exception):  # noqa: N818  it carries the remedy, and never leaves this file
-    """Expected kind of value, in words."""
+    """A value does not fit; the message is the expected kind, in words."""
 
 
 def _kind(default: Any) -> Any:
-    """Return the annotation that a default suggests."""
+    """Return the annotation inferred from a default."""
     if isinstance(default, tuple) and default:
         return GenericAlias(tuple, tuple(map(_kind, default)))
     return Any if default is None or default == () else type(default)
 
 
 def _fit(value: Any, kind: Any) -> Any:
-    """Return a value in its kind, NumPy's as Python's; raises _Unfit."""
+    """Return a value converted to an annotation, NumPy's types to Python's. Raises _Unfit."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     origin, inner = get_origin(kind), get_args(kind)
@@ -156,7 +155,7 @@ def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _drawable(value: Any) -> bool:
-    """Tell whether a value is a number that can be drawn."""
+    """Return whether a value is a number of a size that can be drawn."""
     return (
         isinstance(value, Real)
         and not isinstance(value, bool)

@@ -44,7 +44,7 @@ def in_plane(second: float, third: float) -> FloatArray:
 
 
 def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) -> Scene:
-    """Return the figure that one panel fills, seen from azimuth and elevation, with room for names around it.
+    """Return a figure with one panel, seen from `view` = (azimuth, elevation), with room for names.
 
     It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
@@ -63,9 +63,9 @@ def tolerance(reach: float) -> float:
 
 
 def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
-    """Return two lengths of a sheet along its axis from -B', in 1/time: on the side of the origin and on the other.
+    """Return the drawn lengths of a sheet along its axis from -B', in 1/time: towards the origin, and away.
 
-    On its side a sheet goes past the origin, towards the tip of B'; a tube no further than it is wide, on either side.
+    On the origin's side a sheet extends past the origin, towards the tip of B'; a tube is at most as long as wide.
     """
     b = float(np.hypot(*field))
     w = quadrics.sheet_axis(quadric)
@@ -97,7 +97,7 @@ def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
 
 
 def planes(field: tuple[float, float]) -> list[Layer]:
-    """Return the two planes omega_3 = 0 and omega_2 = -B2 into which the quadric (51) falls apart for B3 = 0."""
+    """Return layers of the planes omega_3 = 0 and omega_2 = -B2, to which the quadric (51) reduces for B3 = 0."""
     B2, reach = field[0], 1.6 * abs(field[0])
     corner = in_plane(-B2, 0.0)
     layers: list[Layer] = []

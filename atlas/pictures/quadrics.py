@@ -82,9 +82,9 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
 
 
 def profile(constant: float, slope: float, sign: float) -> tuple[_Line, _Line, Callable[[float], float]]:
-    """Return radius and height along a sheet by its parameter s, and s at a height; radius^2 = rest - slope height^2.
+    """Return radius(s) and height(s) along a sheet, and s(height); radius^2 = constant - slope height^2.
 
-    Of two sheets it is the one on the side of ``sign``; where it is within rounding of its vertex, s is 0.
+    Of two sheets it is the one on the side of ``sign``; within rounding of its vertex, s is 0.
     """
     r, h = float(np.sqrt(abs(constant))), float(np.sqrt(abs(constant / slope)))
     if constant < 0.0:
@@ -130,7 +130,7 @@ def centre_value(Q: FloatArray, centre: FloatArray) -> float:
 
 
 def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatArray]:
-    """Return the part of the hyperbola (67), omega_1 = 0, that lies on a drawn surface, as polylines (N, 3)."""
+    """Return the part of the hyperbola (67), omega_1 = 0, on a drawn surface, as polylines (N, 3)."""
     points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
@@ -138,7 +138,7 @@ def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatAr
 
 
 def placed(surfaces: Sequence[Surface], Q: FloatArray, shift: FloatArray, tolerance: float) -> list[Layer]:
-    """Return surfaces of a quadric moved by ``shift`` (3,), each with its part of the hyperbola."""
+    """Return surfaces of a quadric moved by ``shift`` (3,), each followed by its part of the hyperbola."""
     layers: list[Layer] = []
     for surface in surfaces:
         layers.append(moved_surface(surface, np.eye(3), shift))

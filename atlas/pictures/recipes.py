@@ -61,7 +61,7 @@ class Recipe:
     row: str = ""
 
     def scene(self, **parameters: Any) -> "Scene":
-        """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
+        """Return the scene for these parameters, defaults for the others; all are noted in the scene."""
         from atlas.pictures.layers import Scene
 
         for name in parameters:
@@ -87,7 +87,7 @@ class Recipe:
         return replace(scene, title=title, caption=caption, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:
-        """Return the annotations of its parameters; its file is run for them."""
+        """Return the annotations of the recipe's parameters by name; its file is executed."""
         try:
             return _function(self.source)[1]
         except Exception as error:
@@ -100,7 +100,7 @@ def names() -> list[str]:
 
 
 def source(name: str) -> Path:
-    """Return the file of a recipe. Raises AtlasError where there is none."""
+    """Return the file of a recipe. Raises AtlasError for an unknown name."""
     if name.endswith(".py"):
         file = Path(name)
         if not file.is_file():
@@ -118,13 +118,13 @@ def title(name: str) -> str:
 
 
 def load(name: str) -> Recipe:
-    """Read title, constants and parameters of a recipe without running it; again when its file has changed."""
+    """Return a recipe, its title, constants and parameters read without running it; cached until its file changes."""
     file = source(name)
     return _load(file, _stamp(file))
 
 
 def _stamp(source: Path) -> tuple[int, int]:
-    """Return time and size of a file, which change when a recipe is edited between two calls."""
+    """Return (modification time, size) of a file, to detect edits."""
     status = source.stat()
     return status.st_mtime_ns, status.st_size
 
@@ -153,7 +153,7 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
 
 
 def _tree(source: Path) -> ast.Module:
-    """Parse a recipe, without the body of its function where all constants stand above that: in a seventh of the time.
+    """Return the syntax tree of a recipe, without the function's body if all constants precede it, to save time.
 
     Raises AtlasError for a file that is no Python.
     """
@@ -176,7 +176,7 @@ def _title(source: Path, tree: ast.Module) -> str:
 
 
 def _declared(constant: str, source: Path, tree: ast.Module, standard: Any) -> Any:
-    """Return a constant of a recipe, written out once on a line of its own at the top; the standard where none is.
+    """Return a constant of a recipe, assigned once on a line of its own at the top; `standard` if there is none.
 
     Raises AtlasError for another kind of value, for a second assignment, and for one that assigns other names too.
     """
@@ -204,7 +204,7 @@ _KINDS = {
 
 
 def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
-    """Return the default of a parameter."""
+    """Return the default of a parameter. Raises AtlasError if it is missing or not a literal."""
     if value is None:
         raise AtlasError(f"the parameter {parameter!r} of {_short(source)} has no default; every parameter needs one")
     try:
@@ -216,7 +216,7 @@ def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
 
 
 def _function(source: Path) -> tuple[Callable[..., "Scene"], dict[str, Any]]:
-    """Run a recipe's file and return its function with the annotations of its parameters."""
+    """Return the function of a recipe, its file executed, and the annotations of its parameters by name."""
     return _run(source, _stamp(source))
 
 
@@ -248,6 +248,6 @@ def _short(source: Path) -> str:
 
 
 def _unknown(noun: str, name: str, choices: Iterable[str], owner: str) -> AtlasError:
-    """Say which names there are, and which one is meant most likely."""
+    """Return an error that lists the known names, with the most similar one."""
     options = list(choices)
     return AtlasError(f"no {noun} {name!r} in {owner}{nearest(name, options)}; known: {', '.join(options) or 'none'}")

@@ -45,7 +45,7 @@ def curve(
 
 
 def room(values: Collection[float], share: float) -> tuple[float, float]:
-    """Return limits with all the values between them, and so much of their extent free on either side."""
+    """Return limits that hold all values, with the fraction ``share`` of their extent free on either side."""
     low, high = min(values), max(values)
     margin = share * (high - low)
     return float(low - margin), float(high + margin)
@@ -85,7 +85,7 @@ def _cut(
     box: tuple[FloatArray, FloatArray] | None,
     scale: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return parameters and points; the sag of an arc falls with the square of its parts, which tells their number."""
+    """Return parameters and points of an adaptively divided curve; the sag falls with the square of the division."""
     if pieces > MAX_POINTS:
         raise DomainError(
             f"A curve over that many turns needs more than {MAX_POINTS} points: ask for a shorter part of it."
@@ -152,9 +152,9 @@ def cuts(
     stop: float,
     tolerance: float,
 ) -> FloatArray:
-    """Return the parameters (N,), common to some ``lines`` on a quadric, at which its mesh is cut across them.
+    """Return parameters (N,), common to several ``lines`` on a quadric, at which its mesh is divided.
 
-    Between two cuts no chord of these lines leaves the quadric by more than ``tolerance``, and the unit normal is
+    Between two of them no chord of these lines leaves the quadric by more than ``tolerance``, and the unit normal is
     linear to `SHADE`: turning by an angle d it departs by d^2/8, so that the light on a face is right to its last bit.
     """
 
@@ -169,7 +169,7 @@ def cuts(
 
 
 def normals(quadric: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the unit normals of a quadric at points (..., 3), zero where it has none: in the apex of a cone."""
+    """Return the unit normals of a quadric at points (..., 3); zero in the apex of a cone, where there is none."""
     gradient = points @ quadric[:3, :3] + quadric[:3, 3]
     length = np.linalg.norm(gradient, axis=-1, keepdims=True)
     return np.asarray(gradient / np.where(length > 0.0, length, 1.0))

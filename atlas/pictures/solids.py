@@ -40,7 +40,7 @@ def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable
 def around(
     quadric: FloatArray, centre: FloatArray, east: FloatArray, north: FloatArray, tolerance: float
 ) -> FloatArray:
-    """Return the angles (N,) at which a round surface is cut along its axis; the ellipse given is its widest."""
+    """Return the angles (N,) of the meridians of a round surface; the ellipse given is its widest section."""
     return sample.cuts(quadric, [ellipse(centre, east, north)], 0.0, TURN, tolerance)
 
 

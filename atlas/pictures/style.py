@@ -192,7 +192,7 @@ def readable(colour: str, ground: str = WHITE) -> str:
 
 @cache
 def style(role: str) -> Style:
-    """Return the look of a role, or say which roles there are."""
+    """Return the look of a role. Raises AtlasError for an unknown role."""
     if role in STYLES:
         return STYLES[role]
     raise AtlasError(f"no style for the role {role!r}{nearest(role, STYLES)}; known: {', '.join(STYLES)}")

@@ -12,16 +12,17 @@ GRAZE = 1e-9
 
 
 def on_torus(u: FloatArray, v: FloatArray) -> FloatArray:
-    """Return the point (..., 3) of the torus with these angles, round its axis e3 and round its tube."""
+    """Return points (..., 3) of the torus at angles u around its axis e3 and v around its tube."""
     distance = RADII[0] + RADII[1] * np.cos(v)
     return np.stack([distance * np.cos(u), distance * np.sin(u), RADII[1] * np.sin(v)], axis=-1)
 
 
 def hidden(points: FloatArray) -> FloatArray:
-    """Tell which points x (N, 3) of the torus lie behind a part of it, as seen along the unit vector d to the eye.
+    """Return a mask (N,) of the points x of the torus that lie behind a part of it, seen from the view `VIEW`.
 
-    On the ray x + t d its equation (|x|^2 + R^2 - r^2)^2 = 4 R^2 (x_1^2 + x_2^2) has the root t = 0 and those of a
-    cubic, of which one is positive if its value at t = 0, or the least one after that, is negative.
+    With R, r = `RADII` and d the unit vector to the eye, the ray x + t d meets the torus where
+    (|x|^2 + R^2 - r^2)^2 = 4 R^2 (x_1^2 + x_2^2). The root t = 0 leaves a cubic; one of its roots is positive if its
+    value at t = 0, or the least value after that, is negative.
     """
     (R, r), d = RADII, frame(Space((), *VIEW))[2]
     G, b = np.sum(points**2, axis=1) + R * R - r * r, points @ d
@@ -32,7 +33,7 @@ def hidden(points: FloatArray) -> FloatArray:
 
 
 def visible(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
-    """Return the visible parts of a line on the torus, and in the role `behind`, if any, those that it hides."""
+    """Return the visible parts of a line on the torus, and the hidden parts in the role `behind` if given."""
     gone = hidden(points)
     pieces = np.split(np.arange(len(points)), np.flatnonzero(np.diff(gone)) + 1)
     roles = [behind if gone[piece[0]] else role for piece in pieces]

@@ -78,7 +78,7 @@ class Quadric:
 
     @property
     def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
-        """I2 = 1, I3 = I and the field, as formulas take them."""
+        """Arguments (I2, I3, B2, B3) of the formulas, with I2 = 1 and I3 = I."""
         return fmpq(1), self.I, self.B2, self.B3
 
     def residual(self, omega: Any) -> fmpq:

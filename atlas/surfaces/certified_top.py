@@ -47,7 +47,7 @@ class TopQuadric(Quadric):
 
     @property
     def _excess(self) -> Surd:
-        """N3 D, exactly."""
+        """Product n3 D, exactly; its sign with that of n3 tells the kind."""
         return self.top[3].of(top.excess(*self.top))
 
     @property
@@ -80,7 +80,7 @@ class TopQuadric(Quadric):
 
     @property
     def centre(self) -> tuple[Real, Real, Real]:
-        """The centre, w = v = 0."""
+        """Centre (omega1, omega2, omega3) of the quadric, where w = v = 0."""
         second, third = top.centre(*self.top)
         return fmpq(0), second.value, third.value
 
@@ -105,17 +105,17 @@ class TopHyperbola:
 
     @property
     def pole(self) -> Real:
-        """The omega2 at which w = 0."""
+        """Pole of the curve: the omega2 at which w = 0."""
         second: Surd = top.centre(*self.top)[0]
         return second.value
 
     def omega3(self, omega2: Any) -> Real:
-        """Return the ordinate omega3."""
+        """Return omega3 on the curve at omega2."""
         omega3: Surd = top.omega3(*self.top, self._off_the_pole(omega2))
         return omega3.value
 
     def frequencies(self, omega2: Any) -> tuple[Real, Real]:
-        """Return the rates about n and about the body's axis."""
+        """Return the rates k of precession about n and phi of the turn about the body's axis."""
         k, phi = top.frequencies(*self.top, self._off_the_pole(omega2))
         return k.value, phi.value
 
@@ -137,7 +137,7 @@ class TopHyperbola:
 
     @property
     def _leading(self) -> fmpq:
-        """A, the leading coefficient."""
+        """Leading coefficient A = A0 + k3^2/I - k2^2 of the top's quartic."""
         I, k2, k3, _, _, _, A0 = self.top
         return A0 + k3 * k3 / I - k2 * k2
 
@@ -153,7 +153,7 @@ class TopHyperbola:
     def unstable_bands(self) -> list[tuple[Real, Real]]:
         """Intervals of omega2, ascending, in which the motions are unstable; the ends are roots of a quartic.
 
-        The ends belong to them, but for a fourfold root; one may be a single point. The pole may lie inside.
+        The intervals are closed, except at a fourfold root; one may be a single point. The pole may lie inside.
         """
         I, k2, k3, n2, *_ = self.top
         quartic, x = self._quartic, (n2.of(k3 / I - k2), n2.of(1))
@@ -190,5 +190,5 @@ class TopHyperbola:
 
 
 def _real_roots(p: Polynomial) -> list[arb]:
-    """Return the real roots of a polynomial that has no double one."""
+    """Return the real roots, ascending, of a polynomial with simple roots."""
     return [z.real for z in roots(p) if z.imag == 0] if len(p) > 1 else []

@@ -11,7 +11,10 @@ from atlas.surfaces import formula as quadric
 
 
 def of_given(formula: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a formula of I2, I3, k2, k3, n2, n3, a0, A0 as they are given, n of any length, and of what follows."""
+    """Return a function of the inputs as given that scales by I2 and |n|, then applies a formula.
+
+    The inputs are I2, I3, k2, k3, n2, n3, a0, A0, n of any length, and further arguments of the formula.
+    """
 
     def of(*numbers: Number) -> Any:
         I2, I3, k2, k3, n2, n3, a0, A0, *arguments = numbers

@@ -262,7 +262,7 @@ class Quadric(Shown):
 
 
 def _replaced(numbers: Any, places: Any) -> Any:
-    """Return numbers without rounding, with 1 at the places of a mask."""
+    """Return numbers without rounding, replaced by 1 where a mask is true."""
     if not np.any(places):
         return numbers
     if not isinstance(numbers, Given):
@@ -272,7 +272,7 @@ def _replaced(numbers: Any, places: Any) -> Any:
 
 
 def _exactly(row: Any) -> "Exact":
-    """Return one quadric in exact numbers, from its eight inputs."""
+    """Return the certified `TopQuadric` of one row of eight inputs."""
     from atlas.surfaces.certified_top import TopQuadric as Exact
 
     I2, I3, k2, k3, n2, n3, a0, A0 = (float(x) for x in row)
@@ -354,7 +354,7 @@ class TopQuadric(Quadric):
         return values
 
     def _over(self, formula: Any, exact: Any, *points: Any, degree: Any = 1, upright: bool = False) -> Any:
-        """Return the values of a formula in double-double, or exactly where these leave a doubt; each rounded once."""
+        """Return a formula in double-double, or exactly where rounding is in doubt, each value rounded once."""
         inputs = list(self._top)
         if upright:
             inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])

@@ -39,14 +39,14 @@ class Column:
 
 @dataclass(frozen=True)
 class Swept:
-    """A family in a table, with columns `beside` those of the register."""
+    """A family as a table: its parameters and quantities as columns, and columns `beside` the register's."""
 
     family: Family
     beside: Mapping[str, Column] = field(default_factory=dict)
 
     @cached_property
     def needed(self) -> tuple[str, ...]:
-        """Parameters that every row has."""
+        """Names of the parameters that every row must have."""
         return tuple(name for p in self.family.parameters if p.needed for name in p.names)
 
     @cached_property
@@ -113,7 +113,7 @@ class Swept:
 
     @staticmethod
     def _ball(column: Column, motion: Any, row: Row) -> Any:
-        """Return a quantity as a ball, or as text where it is infinite or has no value."""
+        """Return a quantity as a ball; as text where it is infinite or has no value."""
         from flint import arb
 
         try:
@@ -125,7 +125,7 @@ class Swept:
         return "inf" if isinstance(value, arb) and value == arb("inf") else value
 
     def _explained(self, columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-        """Return the quantities, and beside those that may have no value a column that says why they have none."""
+        """Return the columns, and where a quantity may have no value a column "missing" with the reason."""
         reasons_by_name = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
         if reasons_by_name:
             reasons = np.zeros(next(iter(columns.values())).shape, dtype=NAME)
@@ -164,7 +164,7 @@ def empty(column: NDArray[Any]) -> NDArray[np.bool]:
 
 
 def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
-    """Go through the columns of a quantity: one, or one for each of its components."""
+    """Yield (name, `Column`) for a quantity, or for each of its components."""
     details = q.unit, q.certified, q.missing
     for i, name in enumerate(q.names):
         place = i if q.columns else None

@@ -130,7 +130,7 @@ class Plan:
 
     @property
     def _names(self) -> list[str]:
-        """Parameters, quantities, and why one of these has no value, if one may have none."""
+        """Names of parameters and quantities, and "missing" if a quantity may have no value."""
         # an input that is also asked for, as omega3, stands once
         names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
         return names + [MISSING] * any(FAMILIES[self.family].quantities[name].missing for name in self.quantities)
@@ -152,7 +152,7 @@ class Plan:
         return replace(self, parameters=arrays, listed=True, first=self.first + start)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
-        """Return the table or some rows of it. An AtlasError names the first that it is in, and its parameters."""
+        """Return rows start to stop of the table, by default all. An AtlasError names the failing row and inputs."""
         stop = self.count if stop is None else stop
         try:
             return self._columns(start, stop)
@@ -163,14 +163,14 @@ class Plan:
             raise type(error)(f"In row {self.first + row + 1} of the table, {values}: {reason}") from error
 
     def _failing(self, low: int, high: int) -> int:
-        """Return the first of some rows for which there is no answer, as there is none for all of them together."""
+        """Return the index of the first failing row, in a range with at least one."""
         while high - low > 1:
             middle = (low + high) // 2
             low, high = (low, middle) if self._refusal(low, middle) else (middle, high)
         return low
 
     def _refusal(self, low: int, high: int) -> AtlasError | None:
-        """Return why there is no answer for some rows, if there is none."""
+        """Return the error raised by rows low to high, or None."""
         try:
             self._columns(low, high)
         except AtlasError as error:
@@ -233,7 +233,7 @@ def _nominal(parameters: Mapping[str, Any], digits: int | None) -> tuple[dict[st
 
 @dataclass(frozen=True)
 class Range:
-    """So many numbers from `start` to `stop`, both among them, at even steps or, with `log`, at those of the logarithm.
+    """`count` numbers from `start` to `stop`, both included, in even steps; with `log` in even steps of the logarithm.
 
     `str` writes START:STOP:COUNT or START:STOP:COUNT:log, as `atlas sweep` takes it.
     """
@@ -252,7 +252,7 @@ class Range:
 
     @property
     def values(self) -> FloatArray:
-        """The numbers, (count,)."""
+        """All numbers, ascending from `start`, shape (count,)."""
         return (np.geomspace if self.log else np.linspace)(self.start, self.stop, self.count)
 
     def __str__(self) -> str:

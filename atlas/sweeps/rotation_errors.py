@@ -62,7 +62,7 @@ def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
 
 
 def _rows(motion: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
-    """Return the parameters of rows whose phases are within the limit, and which rows these are."""
+    """Return the parameters of the rows with phases up to MAX_PHASE, and a mask of these rows."""
     is_near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= MAX_PHASE
     names = ("ratio", "B2", "B3", "omega2", "t", *(name for name in ("omega3",) if name in p))
     return [p[name][is_near] for name in names], is_near
@@ -77,7 +77,7 @@ def _against_balls(R: FloatArray, rows: list[FloatArray], is_near: Any) -> Float
 
 @lru_cache(maxsize=1)
 def _true(*parameters: bytes) -> FloatArray:
-    """Return the true matrices of rows in two words, (2, m, 9); for both errors of the same rows."""
+    """Return the exact R of rows as two words, (2, m, 9), cached for the second error of the same rows."""
     words = []
     for ratio, B2, B3, omega2, t, *omega3 in zip(*(np.frombuffer(x).tolist() for x in parameters), strict=True):
         motion = exact.ElementaryMotion(ratio, (B2, B3), omega2, *omega3)

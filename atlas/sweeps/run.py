@@ -151,7 +151,7 @@ def write_plan(
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Path | str:
-    """Write the table of a plan in parts and return its place; the arguments are those of `sweep`."""
+    """Write the table of a plan in parts and return its path; the arguments are those of `sweep`."""
     table = Table(out, key(plan, rows))
     with table.held():
         try:
@@ -171,7 +171,7 @@ def write_plan(
 def _compute(
     plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
 ) -> list[str]:
-    """Compute the parts that are not there yet, and keep each as soon as it is done; return all names in order."""
+    """Compute the missing parts, each stored as soon as it is done; return the names of all parts in order."""
     names = table.whole_parts()
     spans = Spans(plan, names, rows, workers)
     done = plan.count - spans.rows_left
@@ -189,7 +189,7 @@ def _compute(
 
 
 class Spans(Iterator[Span]):
-    """Rows of the parts that are missing, one part after the other, as many as the last one tells."""
+    """Iterator over the row ranges of missing parts, each sized by the time that the last part took."""
 
     def __init__(self, plan: Plan, spans: Iterable[Span], rows: int | None, workers: int) -> None:
         ends = [0, *(row for span in spans for row in span), plan.count]
@@ -211,7 +211,7 @@ class Spans(Iterator[Span]):
         return start, end
 
     def _size(self) -> int:
-        """Return the rows of the next part: PART_SECONDS of work, less at the end, where all workers need some."""
+        """Return the number of rows of the next part: PART_SECONDS of work, less at the end to occupy all workers."""
         least = self.least << min(self.count_given // EQUAL_PARTS, 40)
         share = self.rows_left / (PARTS_PER_WORKER * self.workers)
         return min(
@@ -219,7 +219,7 @@ class Spans(Iterator[Span]):
         )
 
     def learn(self, span: Span, seconds: float) -> None:
-        """Take a part's time for that of the next ones."""
+        """Note the time of a part, from which the next ones are sized."""
         self.pace = max(seconds, 1e-9) / (span[1] - span[0])
 
     @property
@@ -303,7 +303,7 @@ def _workers_lost() -> Iterator[None]:
 
 
 def key(plan: Plan, rows: int | None) -> str:
-    """Return the digest of everything that the rows of a plan depend on, and of how many a part has."""
+    """Return a digest of everything on which the rows of a plan and the size of its parts depend."""
     sha = hashlib.sha256(json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode())
     for array in plan.parameters.values():
         sha.update(np.ascontiguousarray(array).tobytes() + b"|")

@@ -35,14 +35,14 @@ Span = tuple[int, int]
 
 
 def span_of(name: str) -> Span:
-    """Return the rows of a part."""
+    """Return the row range (start, stop) of a part from its name."""
     _, start, stop, *_ = name.split("-")
     return int(start), int(stop)
 
 
 @dataclass(frozen=True)
 class Folder:
-    """A folder that holds parts and nothing else. Raises AtlasError where fsspec has no way there."""
+    """A folder that holds only parts of a table. Raises AtlasError where fsspec cannot reach the address."""
 
     address: str
 
@@ -67,7 +67,7 @@ class Folder:
         return system, str(path).rstrip("/")
 
     def names(self) -> set[str]:
-        """Return the names of the parts that it holds. Raises AtlasError for other files and for a link."""
+        """Return the names of the parts in the folder. Raises AtlasError for other files and for a link."""
         path = Path(self.address)
         if self.is_local and (path.is_symlink() or (path.exists() and not path.is_dir())):
             kind = "a symbolic link" if path.is_symlink() else "no folder"
@@ -92,7 +92,7 @@ class Folder:
         return part_names
 
     def holds(self, name: str) -> bool:
-        """Return whether a part is there and its rows and key have the digest that its name bears."""
+        """Return whether a part exists and its content has the digest in its name."""
         rows, _, digest = name.rpartition(".")[0].rpartition("-")
         with suppress(OSError), self.open(name) as file:
             return hashlib.file_digest(file, partial(hashlib.sha256, rows.encode())).hexdigest()[:32] == digest  # type: ignore[arg-type]  # a file
@@ -112,13 +112,13 @@ class Folder:
             system.pipe_file(f"{path}/{name}", data)
 
     def delete(self, name: str) -> None:
-        """Delete a file, if it is there."""
+        """Delete a file, if it exists."""
         system, path = self._place
         with suppress(FileNotFoundError):
             system.rm_file(f"{path}/{name}")
 
     def move(self, name: str, to: "Folder") -> None:
-        """Move a file into another folder of the same system, in place of one of that name."""
+        """Move a file into another folder of the same file system; a file of that name is overwritten."""
         system, path = self._place
         target = to._place[1]  # noqa: SLF001  of its own kind
         system.makedirs(target, exist_ok=True)
@@ -134,11 +134,11 @@ class Folder:
 
 
 class Table:
-    """Where a table goes: a file .csv, .npz or .parquet; or a folder of Parquet files that is read as one table.
+    """Destination of a table: a file .csv, .npz or .parquet, or a folder of Parquet files that is read as one table.
 
-    `place` is where, `ending` that of its parts, `parts` their folder until the table is whole, and `whole` the folder
-    of a table that is one, else None; `key` is that of its sweep. Raises AtlasError for a format that there is not or
-    that cannot be written here.
+    `place` is its path, `ending` the suffix of its parts, `parts` their folder until the table is complete. `whole` is
+    the folder of a table made of files, else None; `key` is the digest of its sweep. Raises AtlasError for an unknown
+    format, and for a format that cannot be written here.
     """
 
     def __init__(self, out: str | os.PathLike[str], key: str) -> None:
@@ -169,13 +169,13 @@ class Table:
         return f"{rows}-{hashlib.sha256(rows.encode() + data).hexdigest()[:32]}.{self.ending}"
 
     def path(self, name: str) -> Path:
-        """Return where a part of a table on this machine is."""
+        """Return the path of a part of a table on this machine."""
         return Path(self.parts.address, name)
 
     def whole_parts(self) -> dict[Span, str]:
-        """Return the complete parts by their rows, in order; other files among them are removed.
+        """Return the names of the complete parts by row range, in order; other files in their folder are removed.
 
-        Those of a data set may be in its place already, if a sweep was stopped in its last steps.
+        Parts of a data set may already be in its place, if a sweep was stopped in its last steps.
         """
         parts_by_rows: dict[Span, str] = {}
         end = 0
@@ -188,14 +188,14 @@ class Table:
         return parts_by_rows
 
     def move(self, names: list[str]) -> None:
-        """Put all parts of a data set into its place, after those of the old one went."""
+        """Move all parts of a data set to its place, after the parts of the old one are removed."""
         if self.whole is not None:
             self.whole.clear(self.whole.names() - {*names})
             for name in sorted(self.parts.names() & {*names}):
                 self.parts.move(name, self.whole)
 
     def seen(self) -> bool:
-        """Return whether this process sees the folder that the sweep sees: the lock beside it is the same.
+        """Return whether this process sees the folder that the sweep sees: the lock file has the same text.
 
         Files at memory:// are seen by the process of the sweep alone.
         """
@@ -208,10 +208,10 @@ class Table:
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Hold the table's lock, that of the system, which ends with this process; `mark` is the text of its file.
+        """Hold the table's lock, a lock of the system that ends with this process; `mark` is the text of its file.
 
-        The file is removed at the end; one that a killed sweep left behind is no hindrance. Raises AtlasError that says
-        who holds it, that the file is of another kind, or that none can be written there.
+        The file is removed at the end; one left behind by a killed sweep is ignored. Raises AtlasError that says which
+        process holds the lock, that the file is of another kind, or that none can be written there.
         """
         if self.lock.is_symlink() or self._record() is None:
             raise AtlasError(f"{self.lock} is needed for the lock of the sweep, but is something else.")
@@ -232,7 +232,7 @@ class Table:
             os.close(lock)
 
     def _locked(self) -> int:
-        """Return the lock's file, opened and locked: one that its holder removed meanwhile is made anew."""
+        """Return the file descriptor of the lock, opened and locked; a file removed meanwhile is made again."""
         while True:
             lock = os.open(self.lock, os.O_RDWR | os.O_CREAT, 0o644)
             try:
@@ -255,7 +255,7 @@ class Table:
         return record if isinstance(record, dict) and MARK in record else None
 
     def _holder(self) -> str:
-        """Return who holds the lock, as far as it is known: its record is written a moment after it is taken."""
+        """Return the process that holds the lock, as text; "" if its record is missing or not yet written."""
         for _ in range(10):
             record = self._record() or {}
             here = record.get("host") == socket.gethostname() and os.name == "posix"

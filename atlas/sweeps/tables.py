@@ -36,7 +36,7 @@ def csv_part(columns: Columns, _: str = "") -> bytes:
 
 
 def _quoted(text: str) -> str:
-    """Return a name as it stands in a CSV file, between quotes if it holds a comma."""
+    """Return a name for a CSV file, in quotes if it holds a comma."""
     return f'"{text}"' if "," in text else text
 
 
@@ -123,7 +123,7 @@ def write_parquet(out: Path, _: Plan, part_files: Parts) -> None:
 
 @contextmanager
 def _pyarrow() -> Iterator[tuple[Any, Any]]:
-    """Give pyarrow and its module of Parquet. An error of theirs that is none of Python's becomes AtlasError."""
+    """Yield pyarrow and pyarrow.parquet; pyarrow's own exceptions become AtlasError."""
     arrow, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     try:
         yield arrow, parquet

@@ -51,5 +51,5 @@ else:
 
 
 def kind_of(block: Block) -> str:
-    """Return the kind of a block, as it is written in the file."""
+    """Return the name of a block's kind, as in the report file."""
     return str(block.__struct_config__.tag)

@@ -12,7 +12,7 @@ from atlas.trial.ledger.equation import slug
 
 @dataclass(frozen=True)
 class Use:
-    """A place of the report that cites an entry of the ledger: page, anchor, and kind of place."""
+    """A citation of an entry of the ledger: its page, anchor, and a word for the citing item."""
 
     page: str
     file: str
@@ -59,7 +59,7 @@ class Composer:
         return int(self.document.texts.add(markdown, self.place, anchors=anchors))
 
     def caption(self, markdown: str, anchor: str, words: str) -> int:
-        """Add a caption; its citations count as uses by its figure or table."""
+        """Add a caption and return the number of its text; its citations count as uses by the figure or table."""
         for name in citations(markdown):
             if name in EQUATIONS:
                 self.use(name, anchor, words)
@@ -72,7 +72,7 @@ class Composer:
         return sentence if new else ""
 
     def anchors(self, names: Iterable[str]) -> list[str]:
-        """Return the anchors of names in the PDF, without those of other reports. Raises for an unknown name."""
+        """Return the anchors of names in the PDF, except those of other reports. Raises AtlasError for other names."""
         find, targets = self.document.cite("typst"), self.document.targets
         anchors = (targets[name][1] if name in targets else find(name, self.place).anchor for name in names)
         return [anchor for anchor in anchors if anchor]
@@ -84,14 +84,14 @@ class Composer:
             self.uses[name].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
-        """Let a name lead to an anchor of this page; return whether it is the first to do so."""
+        """Link a name to an anchor of this page, unless linked already; return whether it was not."""
         is_first = name not in self.document.targets
         if is_first:
             self.document.targets[name] = (f"{self.slug}.html", anchor, words)
         return is_first
 
     def anchor(self, kind: str, ident: str | None, word: str, number: int) -> str:
-        """Return the anchor of a figure or table, by its id or else its number, and let citations lead there."""
+        """Return the anchor of a figure or table, from its id or number, and link citations to it."""
         name = ident or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"

@@ -129,7 +129,7 @@ class _Letters:
         return f"{self.factor(node.left)} {self.factor(node.right)}"
 
     def entry(self, name: str, indices: list[ast.expr]) -> str:
-        """Return the TeX of a letter with indices; the first one of x is a particle's, a second one stands above."""
+        """Return the TeX of a letter with indices; the first index of x is the particle, a second one is set above."""
         example, *alternatives = map(self.tex, indices)
         if name == "x":
             return f"{self.letter(name, bold=not alternatives)}_{{{example}}}" + "".join(

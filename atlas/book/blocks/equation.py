@@ -12,7 +12,7 @@ from atlas.trial.ledger.equation import slug
 
 
 class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
-    """A displayed equation: by its ``name`` in the ledger, such as ``(72)``, or with ``tex`` one of its own."""
+    """A displayed equation: ``name`` of an entry in the ledger, such as ``(72)``, or an own one with ``tex``."""
 
     name: EquationName
     tex: str | None = None

@@ -15,7 +15,7 @@ from atlas.trial.ledger.citation import marked
 
 
 class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
-    """A recipe with its parameters; ``both`` sets the shaded picture beside the line drawing."""
+    """A figure block: recipe with parameters; renderer ``both`` shows shaded picture and line drawing side by side."""
 
     recipe: str
     id: Id | None = None
@@ -62,7 +62,7 @@ class Picture:
 
     @property
     def called(self) -> str:
-        """The recipe as it stands in the report: its name, or that of its file beside the report."""
+        """Name of the recipe as shown in the report: in figures/, or of its file beside the report."""
         return Path(self.recipe).name
 
     @property
@@ -82,7 +82,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class FigureView:
-    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters."""
+    """A figure with its pictures; `width` and `height` of each in millimetres, `given` the text of its parameters."""
 
     number: int
     id: str
@@ -105,7 +105,7 @@ class FigureView:
 
 
 def view(block: Figure, composer: Composer) -> FigureView:
-    """Give a figure its number and take in its caption; where it could not be drawn, the view says why."""
+    """Return the view of a figure, with its number and caption, or with the reason of its failure."""
     composer.figures += 1
     pictures = tuple(composer.document.pictures_of(block))
     picture = pictures[0]

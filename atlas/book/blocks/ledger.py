@@ -17,9 +17,9 @@ GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint
 
 @dataclass(frozen=True)
 class EntryView:
-    """An entry of the ledger, the finding of the trial, and the numbers of its texts, None for a text that it lacks.
+    """An entry of the ledger, the trial's finding, and the numbers of its texts; None for a missing text.
 
-    `uses` fills while the report is gone through.
+    `uses` grows while the report is composed.
     """
 
     equation: Equation
@@ -40,7 +40,7 @@ class EntryView:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the entry."""
         return self.equation.name
 
     @property
@@ -60,9 +60,9 @@ class EntryView:
 
 
 def entries(composer: Composer, names: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
-    """Return the entries that are wanted, in the paper's order, their texts taken in.
+    """Return the views of the entries for which `names` holds, in the paper's order.
 
-    An entry that the trial has no finding on is undecided.
+    An entry without a finding of the trial is undecided.
     """
     nothing = Finding("undecided", "not tried", "")
     pairs = ((entry, composer.recorded.findings.get(name, nothing)) for name, entry in EQUATIONS.items())
@@ -98,7 +98,7 @@ def _reading(phrase: str, line: str) -> str:
 
 
 def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
-    """Return entries with a slip, the grave ones first; those that share a slip stand together, its own one first."""
+    """Return entries with a slip, grave ones first; entries that share a slip are adjacent, its origin first."""
     place = {entry.name: number for number, entry in enumerate(entries)}
 
     def order(entry: EntryView) -> tuple[int, int, bool, int]:
@@ -124,14 +124,14 @@ class Errata(StrictStruct, frozen=True, tag_field="kind", tag="errata"):
 
 @dataclass(frozen=True)
 class LedgerView:
-    """The entries of one section of the paper."""
+    """Views of the entries of one section of the paper."""
 
     entries: tuple[EntryView, ...]
 
 
 @dataclass(frozen=True)
 class ErrataView:
-    """The entries with a slip, the grave ones first."""
+    """Views of the entries with a slip, grave ones first."""
 
     entries: tuple[EntryView, ...]
 

@@ -22,7 +22,7 @@ class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
 
 
 class Note(StrictStruct, frozen=True, tag_field="kind", tag="note"):
-    """A remark set apart from the text."""
+    """A remark in a frame, with a title."""
 
     text: str
     title: str = "Remark"
@@ -36,14 +36,14 @@ class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
 
 @dataclass(frozen=True)
 class ProseView:
-    """The number of its text, and of its heading if it has one."""
+    """Number of a text, and of its heading or None."""
 
     text: int
     title: int | None = None
 
 
 def view_prose(block: Prose, composer: Composer) -> ProseView:
-    """Take in the text."""
+    """Return the view of a text."""
     return ProseView(composer.paragraphs(block.text))
 
 

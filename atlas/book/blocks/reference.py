@@ -15,7 +15,7 @@ class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliograph
 
 
 def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
-    """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
+    """Link citations of works to this page. Raises AtlasError without a bibliography, and for a second list."""
     document = composer.document
     if not document.report.bibliography:
         raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
@@ -34,14 +34,14 @@ _TABLES = frozenset({"Parameters", "Attributes", "Returns", "Raises", "Warns"})
 
 
 class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
-    """Public names of the package, such as "Quadric", in their order."""
+    """Public names of the package, such as "Quadric", in the order of the reference."""
 
     names: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class DescribedView:
-    """A name with its arguments, the number of its text, and the names inside it."""
+    """A public name with its arguments, the number of its text, and its members."""
 
     name: str
     arguments: str

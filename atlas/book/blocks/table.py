@@ -53,7 +53,7 @@ class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
 
 
 class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
-    """A table of recorded results, by its name there."""
+    """A table of recorded results: the record `source`, and the table's name in that record."""
 
     source: Literal["trial", "bench", "stress", "machines"]
     table: str
@@ -63,7 +63,7 @@ class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell: words (the number of their text), or a number cut at its decimal point."""
+    """A table cell: the number of a text, or a number split at its decimal point."""
 
     text: int | None = None
     whole: str = ""
@@ -102,14 +102,14 @@ class TableView:
 
     @property
     def tight(self) -> bool:
-        """Whether its rows are single lines, of numbers or in a long table."""
+        """Whether the rows are set close: of a computed or long table, or with numbers in all columns but the first."""
         return (
             bool(self.name) or len(self.rows) > MAX_UNBROKEN_ROWS or all(column.numeric for column in self.columns[1:])
         )
 
     @property
     def tall(self) -> bool:
-        """Whether it may be broken over pages: it would leave a hole where it does not fit."""
+        """Whether the table may break across pages: it has more than MAX_UNBROKEN_ROWS rows."""
         return len(self.rows) > MAX_UNBROKEN_ROWS
 
     @property
@@ -119,12 +119,12 @@ class TableView:
 
     @property
     def flows(self) -> bool:
-        """Whether it stands in its place in the text; others may go to the head or the foot of a page."""
+        """Whether the table stands at its place in the text; other tables float to the head or foot of a page."""
         return self.tall or self.words or not self.name
 
 
 def view_computed(block: Table, composer: Composer) -> TableView:
-    """Compute a table."""
+    """Return the view of a computed table."""
     request = Request(chosen(block, composer.parameters), block.parameters, block.digits)
     data, named = compute(block.table, request), composer.parameters.fields.get(block.field or "")
     if named and not block.caption and named.title not in data.caption:
@@ -150,7 +150,7 @@ def view_recorded(block: Recorded, composer: Composer) -> TableView:
 
 
 def outline(block: Table | Recorded, composer: Composer) -> None:
-    """Give a table its number, and let citations lead to it."""
+    """Count a table, and link citations to it, without computing it."""
     composer.tables += 1
     composer.anchor("tab", block.id, "Table", composer.tables)
 
@@ -196,7 +196,7 @@ def _view(
 
 
 def _cell(value: str | Number, composer: Composer) -> Cell:
-    """Cut a number at its point, or take in the words."""
+    """Return the cell of a number, split at its point, or of a text."""
     if isinstance(value, Number):
         return Cell(None, *value.parts(), value.proven)
     return Cell(composer.text(value, inline=True)) if value else Cell()

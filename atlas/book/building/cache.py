@@ -34,7 +34,7 @@ class Cache:
         self.folder = folder.absolute()
 
     def get(self, key: str) -> bytes | None:
-        """Return the entry of a key, or None if there is none, or a damaged one, or that of another key."""
+        """Return the entry of a key; None where it is missing or damaged."""
         path = self._path(key)
         try:
             expected, _, content = path.read_bytes().partition(b"\n")
@@ -50,7 +50,7 @@ class Cache:
         return content
 
     def recall(self, key: str, make: Callable[[], bytes]) -> bytes:
-        """Return the entry of a key, made now if there is none."""
+        """Return the entry of a key, from `make` and stored if it is missing."""
         entry = self.get(key)
         return self.put(key, make()) if entry is None else entry
 
@@ -60,7 +60,7 @@ class Cache:
         return {} if content is None else json.loads(content)
 
     def save(self, name: str, value: Any) -> None:
-        """Save a value that JSON can write under a name, in place of the last one."""
+        """Store a JSON value under a name, replacing the previous one."""
         if self.load(name) != value:
             self.put(digest("name", name), json.dumps(value).encode())
 

@@ -30,13 +30,13 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(eq=False)
 class FigureBuild:
-    """A figure to be made in some kinds of files, and its result.
+    """A figure to be drawn in several kinds of files, and its result.
 
-    The recipe is a name, or the place of a file.
+    The recipe is a name, or the path of a file.
 
-    The kinds are svg, pdf, png, pgf, csv, csv.gz, and two that may be empty: narrow, an SVG for a narrow screen, a PNG
-    where it is shaded, if the figure itself won't do; and scene, a script for the viewer of the pages, and moves, one
-    that tells how it moves.
+    The kinds are svg, pdf, png, pgf, csv, csv.gz, and three that may be empty: narrow, an SVG for a narrow screen (a
+    PNG where shaded) if the figure itself is too wide; scene, a script for the viewer of the pages; and moves, a script
+    of its motion.
 
     It is made for the first of its `targets` that is wide enough, see `atlas.pictures.arrange.suited`.
 
@@ -59,7 +59,7 @@ class FigureBuild:
 
     @property
     def stem(self) -> str:
-        """The recipe's name, without the folder where its file may be."""
+        """Name of the recipe, without folder and suffix."""
         return Path(self.recipe).stem
 
     @property
@@ -73,15 +73,15 @@ class FigureBuild:
 
     @property
     def reason(self) -> str:
-        """Say whether it was drawn or taken, and why."""
+        """Words on whether the figure failed, was drawn or came from the cache, and why."""
         return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
 
     def missing(self) -> dict[str, str]:
-        """Return the keys of all files by kind if one of them is not there yet: they are drawn together."""
+        """Return the cache keys by kind if the figure is not yet made, else {}."""
         return {} if self.contents else dict(self.keys)
 
     def take(self, cache: Cache) -> None:
-        """Take the files from the cache if it has all of them."""
+        """Read the files from the cache if all are there."""
         entries = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
         if entries.keys() == self.keys.keys():
             for kind, entry in entries.items():
@@ -89,7 +89,7 @@ class FigureBuild:
 
 
 def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str, str]:
-    """Return the dependencies of a figure: a digest of each by its name."""
+    """Return the digests of everything on which a figure depends, by name."""
     from atlas.pictures import recipes
 
     drawing = [path for path in (PACKAGE / "pictures" / "drawing").rglob("*") if path.suffix not in {".py", ".pyc"}]
@@ -153,10 +153,10 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 
 
 def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
-    """Draw figures, and go through them as they are finished, each with the reason if it failed.
+    """Draw figures, and yield each as it is finished, with the reason if it failed.
 
-    If a worker dies, unfinished figures are drawn again by a single one, which is no fork, so that it is known which
-    figure it is that kills its process; the others are drawn.
+    If a worker dies, unfinished figures are drawn again one by one in a fresh process, so that the figure that kills
+    its process is identified; the others are drawn.
     """
     settle_matplotlib()
     waiting = {
@@ -206,8 +206,8 @@ def cores() -> int:
 class Files:
     """Result of one figure: its files, their renderer, a line for the user, and the reason; or its failure.
 
-    `left_out` names the panels without room at the target's size. `edited` says which files stand beside those that
-    were not written here, or edited since.
+    `left_out` names the panels without room at the target's size. `edited` says which new files stand beside files that
+    the user wrote or edited.
     """
 
     name: str
@@ -232,15 +232,14 @@ def build_figures(
     jobs: int | None = None,
     progress: Progress = lambda _done, _total, _name: None,
 ) -> list[Files]:
-    """Put each of the recipes into out/NAME.FORMAT for each format, each file whole or not at all.
+    """Write each recipe's figure to out/NAME.FORMAT for each format, each file whole or not at all.
 
-    With a target, see `atlas.targets`, each is laid out anew for it and put into out/NAME-TARGET.FORMAT.
+    With a target, see `atlas.targets`, each is laid out anew for it and written to out/NAME-TARGET.FORMAT.
 
-    A name with the ending .py is that of a recipe's file, wherever it is.
-    `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
-    drawn at once, one a core when it is not given. Figures in the cache are not drawn again. The format csv is
-    the data of the figure, see `atlas.pictures.data`. A figure that fails does not stop the others. Raises AtlasError
-    for a shaded figure that is neither PNG nor CSV.
+    A name with the ending .py is the path of a recipe's file. `style` is a style sheet of Matplotlib, a file or a name,
+    applied on top of the package's own. `jobs` figures are drawn at once, by default one a core. Figures in the cache
+    are not drawn again. The format csv is the data of the figure, see `atlas.pictures.data`. A figure that fails does
+    not stop the others. Raises AtlasError for a shaded figure in a format other than PNG or CSV.
     """
     vector_kinds = [kind for kind in formats if kind not in {"png", "csv"}]
     if renderer == "shaded" and vector_kinds:
@@ -258,7 +257,7 @@ def build_figures(
 
 
 def _put(figure: FigureBuild, out: Path) -> Files:
-    """Write the files of a figure to their places; files that the user edited are kept."""
+    """Write the files of a figure to `out`; files that the user edited are kept."""
     name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
@@ -312,7 +311,7 @@ def rows_of_costs(path: Path) -> list[list[str]]:
 
 
 def _costs(figure: FigureBuild) -> dict[str, Any]:
-    """Return the record of one figure; from the cache, with its cost when it was drawn."""
+    """Return the cost record of one figure; for a cached one, its cost when drawn."""
     if figure.failure:
         return {"scene": figure.name, "from": "failed", "reason": figure.failure}
     origin = "drawn" if figure.new else "cache"

@@ -96,16 +96,16 @@ def _pages(
 def _single(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
-    """Return the page of a report with all that belongs to it in one file."""
+    """Return the page of a report as one file with everything it needs."""
     name = document.report.name
     files = _pages(document, figures, cache, sources)
     return {f"{name}.html": single({place.removeprefix(f"{name}/"): files[place] for place in files}, name)}
 
 
 def single(files: Mapping[str, bytes], name: str) -> bytes:
-    """Put the files of a report of one page into one page. Raises AtlasError for a report of several.
+    """Return a one-page report's files joined into one page. Raises AtlasError for a report of several pages.
 
-    `files` has the page, index.html, and the files that belong to it, by their places; `name` is that of the
+    `files` has the page, index.html, and the files that belong to it, by path; `name` is that of the
     report, whose PDF may lie beside the page. Figures can be saved from it; its policy lets it run its own
     scripts, by their digests.
     """
@@ -146,7 +146,7 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
 
 
 def _inline(script: str) -> str:
-    """Return a script in which nothing ends or hides the element that it stands in."""
+    """Return a script with the sequences escaped that would end its HTML element."""
     return script.replace("</script", r"<\/script").replace("<!--", r"<\!--")
 
 

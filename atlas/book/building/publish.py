@@ -18,13 +18,13 @@ UNFINISHED = ".atlas-"
 def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, lines_before: Iterable[str] = ()) -> None:
     """Write the files of each format, all of them before the first takes its place.
 
-    Those below `name`/ take theirs at once: they are a folder that is exchanged with the one before, if the system can
-    do that and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one
-    before; other files that it leaves are removed by the next one. Two builds at once take turns.
+    Files below `name`/ are replaced at once: their folder is exchanged with the previous one, if the system can do that
+    and it is no link. So a killed build leaves the pages of one build, and a PDF of this build or the previous one;
+    other files that it leaves are removed by the next build. Two builds at once take turns.
 
-    Only files that are still as they were written are replaced or removed; `lines_before` are lines of such a
-    list, with names in `out`, for a folder without one. A file that was edited stays; the new one is written beside
-    it, and AtlasError raised when all is written.
+    Only files that are unchanged since they were written are replaced or removed; `lines_before` are lines of such a
+    list, with names in `out`, for a folder without one. An edited file stays, the new one is written beside it, and
+    AtlasError is raised after everything is written.
     """
     contents = {path: content for page in pages.values() for path, content in page.items()}
     inner = f"{name}/"
@@ -45,7 +45,7 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, line
 
 
 def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], work: Path) -> dict[str, str]:
-    """Let the files of a folder take their places at once; return which were edited, and the names of the new ones."""
+    """Replace the files of a folder at once; return the edited ones with the names of the new files beside them."""
     before = files.lines(place) | lines_before
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
     places = files.free(digests, place, before)
@@ -76,7 +76,7 @@ def replace(place: Path, contents: Mapping[str, bytes]) -> None:
 
 
 def _user_files(place: Path, lines: set[str], names: set[str]) -> list[str]:
-    """Return the paths in a folder, other than these files, that the build did not write."""
+    """Return the paths in a folder, except `names`, that no build wrote."""
     paths = (path.relative_to(place).as_posix() for path in place.rglob("*"))
     return sorted(name for name in paths if name not in {WRITTEN, *names} and files.edited(place, name, lines))
 
@@ -103,7 +103,7 @@ def _write(contents: Mapping[str, bytes], folder: Path) -> None:
 
 
 def _place(work: Path, out: Path, names: Iterable[str]) -> None:
-    """Put files into their places, one by one."""
+    """Move files from `work` to `out`, one by one."""
     for path in names:
         (out / path).parent.mkdir(parents=True, exist_ok=True)
         (work / path).replace(out / path)

@@ -50,7 +50,7 @@ def gather(report: Report) -> Appendices:
 
 
 def _findings() -> dict[str, Finding]:
-    """Return the finding of the trial on each entry, by its name."""
+    """Return the trial's finding on each entry, by name."""
     from atlas.trial.proofs import recorded
 
     modules, scripts = _modules(), recorded.scripts()
@@ -81,7 +81,7 @@ PHYSICS = ("arithmetic", "bodies", "surfaces", "motions", "maps")
 
 
 def _modules() -> dict[str, tuple[str, ...]]:
-    """Return for each name the modules of the kernels and of the balls whose docstrings cite it."""
+    """Return the modules of the motions whose docstrings cite an entry, by its name."""
     modules: defaultdict[str, list[str]] = defaultdict(list)
     files = [path for place in PHYSICS for path in sorted((PACKAGE / place).rglob("*.py"))]
     for path in files:
@@ -156,7 +156,7 @@ def _bench() -> dict[str, Data]:
 
 
 def _stress() -> dict[str, Data]:
-    """Return the worst error of each quantity on record, and the regime in which it was met."""
+    """Return the table of the worst recorded error of each quantity, and of the regime where it occurred."""
     from atlas.motions.register import FAMILIES
 
     limits = {name: ulps for family in FAMILIES.values() for name, ulps in family.promises.items()}
@@ -178,7 +178,7 @@ def _stress() -> dict[str, Data]:
 
 
 def _machines() -> dict[str, Data]:
-    """Return on which systems a fresh checkout was tried, as which user, and how it went."""
+    """Return the table of systems on which a fresh checkout was tried, with user and result."""
     with (folder("reports") / "data" / "machines.csv").open(encoding="utf-8", newline="") as file:
         _, *rows = csv.reader(file)
     columns = heads("System", "Python", "User", "GL", "Set-up", "`make report`", "`make test`", "Works", "Tried")
@@ -209,14 +209,14 @@ def _tex(letter: str, index: str, power: str) -> str:
 
 
 def _ulps(error: float) -> Number:
-    """Write an error in ulps; one beyond all bounds with its power of ten."""
+    """Return an error in ulps as a number; a huge one with its power of ten."""
     if not error:
         return Number("0")
     return Number(f"{error:.3f}" if error < MAX_PLAIN else f"{error:.1e}")
 
 
 def _three(value: float | None) -> str | Number:
-    """Return three digits of a number, of a small one two with its power of ten; a dash for none."""
+    """Return a number with three digits, a small one with two and its power of ten; a dash for None."""
     if value is None:
         return "–"
     return Number(f"{value:.1e}" if 0 < abs(value) < MIN_PLAIN else f"{value:.3g}")
@@ -235,7 +235,7 @@ def described() -> dict[str, Described]:
 
 
 def _members(owner: Any) -> Mapping[str, Described]:
-    """Return the members of a class that have a docstring of ours, its own first."""
+    """Return the documented members of a class by name, its own before inherited ones."""
     members: dict[str, Described] = {}
     for cls in inspect.getmro(owner) if inspect.isclass(owner) else ():
         for name, member in vars(cls).items() if cls.__module__.startswith("atlas") else ():

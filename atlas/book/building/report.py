@@ -41,7 +41,7 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(frozen=True)
 class Built:
-    """Result of a build: places, counts, failed figures with reasons, lines for the user, reason of each part."""
+    """Result of a build: paths, counts, failed figures with reasons, lines for the user, reason of each part."""
 
     name: str
     index: Path
@@ -55,7 +55,7 @@ class Built:
 
     @property
     def single(self) -> Path:
-        """Where the one file is."""
+        """Path of the report as one file."""
         return self.pdf.with_name(f"{self.name}.html")
 
     @property
@@ -117,7 +117,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None, values: Mappi
 
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
-    """Return the report that is there, if it was made from the same and its files are as they were written."""
+    """Return the existing report if its key is equal and its files are unedited, else None."""
     record_before = cache.load(_noted(name, out))
     for form in formats:
         record = record_before.get(form, {"key": None})
@@ -145,7 +145,7 @@ def _build(
     key: str | None,
     progress: Progress,
 ) -> Built:
-    """Build a report; the key of one that was never built is found out while its figures are drawn."""
+    """Build a report; without a key, it is computed while the figures are drawn."""
     from atlas import gl
     from atlas.book.building import figures
     from atlas.book.load import load
@@ -210,7 +210,7 @@ def _publish(
     counts: dict[str, int],
     cache: Cache,
 ) -> None:
-    """Write the files of a format to their places, and note their digests, the key and the counts in the cache."""
+    """Write the files of a format, and note their digests, the key and the counts in the cache."""
     record: dict[str, Any] = cache.load(_noted(name, out))
     before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
     publish({form: files}, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
@@ -222,7 +222,7 @@ def _publish(
 def document_of(
     report: "Report", file: Path, drawings: "Mapping[str, Picture]", builds: "Mapping[FigureBuild, Picture]"
 ) -> "Document":
-    """Return a report with its tables computed, and its figures with their captions, some of them drawn."""
+    """Return a report with computed tables and captioned figures; `builds` are the figures that were drawn."""
     from atlas.book import bibliography
     from atlas.book.building.records import gather
     from atlas.book.compose import compose
@@ -234,7 +234,7 @@ def document_of(
 
 
 def outlines(report: "Report") -> "dict[str, Document]":
-    """Return the reports beside this one in outline: the numbers and places of their figures, tables and entries."""
+    """Return the related reports in outline: numbers and anchors of their figures, tables and entries."""
     from atlas.book.compose import compose
     from atlas.book.load import load
     from atlas.book.pictures import pictures
@@ -244,7 +244,7 @@ def outlines(report: "Report") -> "dict[str, Document]":
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:
-    """Return the first page of a report and its PDF."""
+    """Return the paths of a report's first page and of its PDF."""
     return out / name / "index.html", out / f"{name}.pdf"
 
 
@@ -275,7 +275,7 @@ def _figures(
     """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
 
     The pages offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen, and turn
-    those in space. Pictures from which `cards` are cut, by their keys, are drawn as PNG as well.
+    panels in space. Pictures that front-page `cards` show, by key, are drawn as PNG as well.
     """
     from atlas.book.building.figures import FigureBuild
 

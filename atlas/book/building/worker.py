@@ -104,7 +104,7 @@ def _draw(task: Task) -> None:
 
 
 def _page_files(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
-    """Return the files other than pictures: the scene and its movement for the viewer of a page, and its points."""
+    """Return the files other than pictures by kind: scene and motion for the viewer of a page, and points as CSV."""
     contents = {}
     if "scene" in task.keys:
         from atlas.pictures.drawing import viewer
@@ -144,7 +144,7 @@ def counted(scene: Scene) -> dict[str, int]:
 
 
 def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
-    """Return the facts on a figure, and its file, from its entry in the cache."""
+    """Return the facts of a figure (caption, size, cost), and its file, from its cache entry."""
     facts, _, content = entry.partition(b"\n")
     return json.loads(facts), content
 

@@ -27,7 +27,7 @@ TABLES: dict[str, Maker] = {
 
 
 def compute(name: str, request: Request) -> Data:
-    """Compute a table. Raises AtlasError for a table that there is not, and for a parameter that does not fit it."""
+    """Return a table by name. Raises AtlasError for an unknown table, and for a parameter that it does not take."""
     if name not in TABLES:
         raise unknown("table", name, TABLES)
     arguments = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
@@ -37,7 +37,7 @@ def compute(name: str, request: Request) -> Data:
 
 
 def _converted_request(kind: type, request: Request) -> Any:
-    """Return a request, or its further parameters as an object of the register or as another record."""
+    """Return the request, or its parameters as an object of the register or as another record of type `kind`."""
     if kind is Request:
         return request
     return Thing.of(request) if kind is Thing else convert(dict(request.parameters), kind, "parameters")

@@ -39,7 +39,7 @@ class SizeParameters(StrictStruct, frozen=True):
 
 
 def sizes(setup: SizeParameters) -> Data:
-    """Return charge, charge-to-mass ratio and Larmor's frequency of balls that hold all that their surface bears."""
+    """Return charge, charge-to-mass ratio and Larmor frequency of balls with the largest charge their surface holds."""
     _check(setup)
     rows = []
     for r in setup.radii:
@@ -70,7 +70,7 @@ def sizes(setup: SizeParameters) -> Data:
 
 
 def radiation(setup: SizeParameters) -> Data:
-    """Return the times in which such bodies radiate their energy away, by their flight and by their rotation."""
+    """Return the table of times, energy over power, in which such balls radiate energy by flight and by rotation."""
     _check(setup)
     rows = []
     for r in setup.radii:
@@ -159,7 +159,7 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
 
 
 def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
-    """Return the title of a body, the body, and the factor of nu^2 in the energy of its own magnetism."""
+    """Return a body's title, the body, and the coefficient of nu^2 in the energy of its induced moment, in J."""
     record, body = case.body_record, case.body
     if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
         raise AtlasError("this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio.")
@@ -168,7 +168,7 @@ def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, 
 
 
 def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
-    """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
+    """Return the coefficients of nu^2 in the energy of bodies: from the charge, and from the induced moment."""
     if setup.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []
@@ -191,7 +191,7 @@ def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
 
 
 class Coat(StrictStruct, frozen=True):
-    """A body by the shapes over which its mass and its charge are spread, with their dimensions in one unit."""
+    """A body given by the shapes over which mass and charge are spread, with dimensions in one unit."""
 
     name: str
     mass: str
@@ -230,7 +230,7 @@ def coats(setup: CoatParameters) -> Data:
 
 
 def swings(request: Request, setup: DiamagnetismParameters) -> Data:
-    """Return how bodies at rest in Larmor's frame swing there: by their charge alone, and magnetised too."""
+    """Return the swings of bodies released at rest in Larmor's frame: by charge alone, and with induced moment."""
     from atlas.motions.nutation.kernel_top import TopMotion
 
     rows: list[tuple[str | Number, ...]] = []

@@ -84,9 +84,9 @@ def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: in
 
 
 def convergents(value: Any) -> Iterator[tuple[int, int]]:
-    """Yield the first convergents of the continued fraction of a ball, as far as its radius tells them.
+    """Yield the first convergents (p, q) of the continued fraction of a ball, as far as its radius allows.
 
-    A value that is a fraction ends with it; those of a negative value are those of its size, with the sign.
+    For a rational value the last one is the value; for a negative value p < 0.
     """
     if value < 0:
         yield from ((-p, q) for p, q in convergents(-value))
@@ -114,7 +114,7 @@ class CompanionParameters(StrictStruct, frozen=True):
 
 
 def companions(request: Request, setup: CompanionParameters) -> Data:
-    """Return the angles between axis and field of the steady precessions and where their companions turn back."""
+    """Return the table of steady precessions with companions: theta, growth rate, and the companions' end angles."""
     angles_of_each = certified(lambda: [angles(setup.ratio, *motion) for motion in setup.motions], request.digits)
     columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
     motions = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in setup.motions]

@@ -26,9 +26,9 @@ class Quantity(NamedTuple):
 def side_by_side(
     request: Request, bodies: Sequence[Sequence[Quantity]]
 ) -> tuple[tuple[Column, ...], tuple[tuple[str | Number, ...], ...]]:
-    """Return the columns and rows of a table from the quantities of each body, the same in the same order.
+    """Return columns and rows of a table from the quantities of each body, in the same order.
 
-    The numbers of a row have as many decimals as give the largest of them the digits that are asked for.
+    The numbers of a row have the number of decimals that gives the largest of them the requested digits.
     """
     titles = [case.body_record.title if case.body_record else "body" for case in request.cases]
     values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
@@ -58,7 +58,7 @@ def quadric(request: Request) -> Data:
 
 
 def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
-    """Return the quantities of the quadric of a body in a field; along or across the axis its type alone."""
+    """Return the quantities of the quadric of a body in a field; only its type for a field along or across the axis."""
     from flint import arb
 
     from atlas.surfaces.certified import Quadric
@@ -149,14 +149,14 @@ def points(request: Request, setup: PointsParameters) -> Data:
 
 
 class Motion(StrictStruct, frozen=True):
-    """The motion by its omega2, in 1/s; `omega3` where the hyperbola leaves it free."""
+    """An elementary motion: omega2 in 1/s, and omega3 where the hyperbola leaves it free."""
 
     omega2: float
     omega3: float | None = None
 
 
 class Samples(StrictStruct, frozen=True):
-    """The motion by its omega2, in 1/s, and times in s; `omega3` where the hyperbola leaves it free."""
+    """An elementary motion: omega2 in 1/s, omega3 where the hyperbola leaves it free, and times in s."""
 
     omega2: float
     times: tuple[float, ...]

@@ -70,7 +70,7 @@ def _sizes(target: Target) -> tuple[str, ...]:
 
 
 def roles() -> Data:
-    """List the roles of layers, each with its look and the settings that change it."""
+    """Return the table of the roles of layers, with their look and the settings that change it."""
     from atlas.pictures.style import LINES, STYLES
 
     looks: dict[tuple[str, ...], list[str]] = {}

@@ -49,7 +49,7 @@ class Dipole(StrictStruct, frozen=True):
 
     @property
     def energy(self) -> float:
-        """Return d E in J."""
+        """Energy scale d E in J, of the dipole in the electric field."""
         return self.dipole * 1e-6 * ELEMENTARY_CHARGE * self.field
 
 
@@ -82,7 +82,7 @@ def levitated(setup: Dipole) -> Data:
 
 
 def _precession(motion: TopMotion) -> float:
-    """Return the rate of precession of which the lines of the axis are made: half a turn a nutation for a pendulum."""
+    """Return the precession frequency in the axis' spectrum, in rad/s; for a pendulum half the nutation frequency."""
     spectrum = motion.spectrum("axis")
     return float(spectrum.rates[spectrum.names.index("precession")])
 
@@ -94,7 +94,7 @@ class Lines(Dipole, frozen=True):
 
 
 def lines(setup: Lines) -> Data:
-    """Return the lines of the axis for each spin with the numbers they are made of, and how far they move a component.
+    """Return the table of spectral lines of the axis for each spin, with combinations and largest displacements.
 
     A line a exp(i f t) and its conjugate at -f draw an ellipse, whose larger semi-axis is twice the largest singular
     value of (Re a, Im a); the mean has no conjugate.
@@ -128,7 +128,7 @@ def lines(setup: Lines) -> Data:
 
 
 class Watch(Dipole, frozen=True):
-    """A watch of the axis: so many samples in so many seconds, each component with a noise."""
+    """A measurement of the axis: `samples` in `seconds`, each component with a standard deviation `noise`."""
 
     samples: int
     seconds: float
@@ -160,7 +160,7 @@ def inferred(setup: Watch) -> Data:
 
 
 def _deviations(J: Any) -> list[str | Number]:
-    """Return the standard deviations of parameters, a dash where a combination that is not seen has a part in one."""
+    """Return the standard deviations of parameters; a dash for one in a combination that the data do not determine."""
     size = np.linalg.norm(J, axis=0)
     size[size == 0] = 1.0
     _, s, V = np.linalg.svd(J / size, full_matrices=False)
@@ -188,7 +188,7 @@ class Design(StrictStruct, frozen=True):
 
 
 def beyond_larmor(setup: Design) -> Data:
-    """Return the precession beyond Larmor's turn by charge, magnetisation and both, and disturbances that hide it.
+    """Return the table of precession beyond Larmor's rate by charge, by magnetisation and by both, and of disturbances.
 
     All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: the effect of
     the charge is the rate by both less that by magnetisation alone.
@@ -260,7 +260,7 @@ def _three(value: float) -> str | Number:
 
 
 def fits() -> Data:
-    """Return the table of fits of made-up motions: shares found and within one standard error, median CPU time."""
+    """Return the table of fits of simulated data: fractions found and within one standard error, median CPU time."""
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     return Data(
         heads("Family", "Measured", ("Found", "%"), ("Within one error", "%"), ("CPU time, median", "s")),

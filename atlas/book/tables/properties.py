@@ -29,9 +29,9 @@ Row = tuple[str, str, str | Number, str, str, str]
 
 @dataclass(frozen=True)
 class Thing:
-    """An object of a family: the parameters as given, and how to make it of kernels and of balls.
+    """An object of a family: parameters as given, and arguments of its classes in floats and in exact numbers.
 
-    `units` are those of the register by another name, and `described` is true if the inputs stand in a table.
+    `units` maps the register's units to others, and `described` is true if the inputs stand in a table.
     """
 
     family: Family
@@ -86,11 +86,11 @@ class Thing:
         return says[:1].upper() + says[1:]
 
     def kernels(self) -> Any:
-        """Return the object of kernels."""
+        """Return the object in doubles."""
         return self.family.kernels()(*self.floats)
 
     def balls(self) -> Any:
-        """Return the object of balls."""
+        """Return the certified object, in balls."""
         return self.family.balls()(*self.exact)
 
     def unit(self, unit: str) -> str:
@@ -105,7 +105,7 @@ class Thing:
 
 
 def _units(name: Any) -> dict[str, str]:
-    """Return the names of the units of a system, SI or Gaussian. Raises AtlasError for another one."""
+    """Return the units of a system by dimension, {} for None. Raises AtlasError for an unknown system."""
     if name is None:
         return {}
     from atlas.bodies.units import system
@@ -152,7 +152,7 @@ def _rows_given(item: Thing) -> Iterator[Row]:
 
 
 def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
-    """Give a quantity, a component a row; where it has no value, the reason."""
+    """Yield the table rows of a quantity, one for each component; without a value, the reason."""
     try:
         texts = _texts(item, q, digits)
     except DomainError as reason:
@@ -178,7 +178,7 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
 
 
 def _texts(item: Thing, q: Quantity, digits: int) -> Any:
-    """Return the certified texts of a quantity, or the values of the kernels where there are none."""
+    """Return the certified texts of a quantity, or values in doubles where none are certified."""
     from atlas.arithmetic.certified_digits import certified
 
     if not (q.certified or q.printed or q.checked):
@@ -188,7 +188,7 @@ def _texts(item: Thing, q: Quantity, digits: int) -> Any:
 
 
 def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
-    """Return the components: name, words of its own, text."""
+    """Return (name, further words, text) for each component."""
     if not isinstance(values, list | tuple):
         return [(q.name, "", values)]
     numbered = [f"{q.name}[{i}]" for i in range(len(values))]
@@ -202,7 +202,7 @@ def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
 
 
 def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
-    """Return a value as it is printed, and how sure it is."""
+    """Return (value as printed, words on its certainty)."""
     from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED
 
     if text == NOT_CERTIFIED:

@@ -20,13 +20,13 @@ class Column:
 
 
 def heads(*columns: str | tuple[str, str]) -> tuple[Column, ...]:
-    """Return columns by their heads, each alone or with its unit."""
+    """Return columns from their heads, each a title or (title, unit)."""
     return tuple(Column(column) if isinstance(column, str) else Column(*column) for column in columns)
 
 
 @dataclass(frozen=True)
 class Data:
-    """A table, the caption it has unless the report gives another, and the sentences below it."""
+    """A table: columns, rows, default caption, and sentences below."""
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[str | Number, ...], ...]
@@ -44,7 +44,7 @@ class Request:
 
     @property
     def case(self) -> BodyAndField:
-        """The one body and field."""
+        """The first body and field."""
         return self.cases[0]
 
 
@@ -53,22 +53,22 @@ Maker: TypeAlias = Callable[..., Data]
 
 
 def bits(digits: int) -> int:
-    """Return a relative precision far beyond so many digits."""
+    """Return a binary precision far beyond `digits` decimal digits."""
     return int(3.33 * digits) + 80
 
 
 def certified(make: Callable[[], Any], digits: int) -> Any:
-    """Compute numbers with radii far below the digits to be printed; see `atlas.arithmetic.certified_digits`."""
+    """Return the result of `make` with radii far below `digits` digits; see `atlas.arithmetic.certified_digits`."""
     from atlas.arithmetic.certified_digits import enclosed
 
     return enclosed(make, bits(digits))
 
 
 def column(values: Sequence[Any], digits: int) -> list[Number]:
-    """Print a column of balls, rationals and floats, which are taken as exact.
+    """Return a column of balls, rationals and floats (taken as exact) as printed numbers.
 
-    As many decimals are printed as give the largest entry `digits` significant digits. Where entries differ by more
-    than a factor of 10^6, or are very large or small, each has its own power of ten. A Number stays as it is.
+    The number of decimals gives the largest entry `digits` significant digits. Where entries differ by more
+    than a factor of 10^6, or are very large or small, each has its own power of ten. A Number is unchanged.
     """
     sizes = [power for value in values if (power := _power(value)) is not None]
     largest = max(sizes, default=0)
@@ -78,7 +78,7 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
 
 
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
-    """Print columns of one unit; where all are very small or large, a power of ten of thousands joins the unit."""
+    """Return (unit, printed columns); very small or large numbers get a power of 1000 that joins the unit."""
     from flint import fmpq
 
     sizes = [power for values in columns for value in values if (power := _power(value)) is not None]
@@ -92,7 +92,7 @@ def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[st
 
 
 def quantity(value: Any, digits: int) -> Number:
-    """Print one number with `digits` significant digits."""
+    """Return one number printed with `digits` significant digits."""
     return column([value], digits)[0]
 
 

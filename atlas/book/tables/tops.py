@@ -16,7 +16,7 @@ OPEN = 1e-9, 1e-5
 
 
 class Top(StrictStruct, frozen=True):
-    """A top as in `TopMotion`, in units of I2 and of one time, with its name."""
+    """A named top with the arguments of `TopMotion`, in units of I2 and of one time."""
 
     name: str
     ratio: float
@@ -88,7 +88,7 @@ def tops(request: Request, setup: TopsParameters) -> Data:
 
 
 def _of_top(numbers: tuple[float, ...]) -> str:
-    """Return given numbers in one cell."""
+    """Return numbers as one cell, separated by commas."""
     return "$" + ",".join(map(plain, numbers)) + "$"
 
 
@@ -130,7 +130,7 @@ Triple = tuple[float, float, float]
 
 
 class Family(StrictStruct, frozen=True):
-    """A body in a field, in one unit of inertia and one of time, and places (z, branch) of elliptic motions."""
+    """A body in a field, in one unit of inertia and one of time, and points (z, branch) of elliptic motions."""
 
     inertia: Triple
     field: Triple
@@ -152,7 +152,7 @@ class Samples(Motion, frozen=True):
 
 
 class Observed(StrictStruct, frozen=True):
-    """Bodies by their moments, a field, an initial angular velocity, and the place z of an elliptic motion of each."""
+    """Bodies given by their moments, a field, an initial angular velocity, and z of each body's elliptic motion."""
 
     bodies: tuple[Triple, ...]
     field: Triple
@@ -259,7 +259,7 @@ def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
 
 
 def elliptic(request: Request, setup: Family) -> Data:
-    """List elliptic motions of one body in one field, a row each, theorem-elliptic."""
+    """Return the table of elliptic motions of one body in one field, one a row, theorem-elliptic."""
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 
     motions = [EllipticMotion(setup.inertia, setup.field, z, branch) for z, branch in setup.places]
@@ -303,7 +303,7 @@ def periods(request: Request, setup: Motion) -> Data:
 
 
 def asymmetric(request: Request, setup: Samples) -> Data:
-    """List the third axis of the body and its spin about it at some times, whatever the motion."""
+    """Return the table of the body's third axis and of Omega3 at several times."""
     from atlas.motions.torus.certified import AsymmetricMotion
 
     motion = AsymmetricMotion(setup.inertia, setup.field, setup.omega)

@@ -28,7 +28,7 @@ FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
 
 
 def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
-    """Return the values of the sliders, by default their starts. Raises AtlasError for a value that is no number."""
+    """Return the values of all sliders by name, by default their starts. Raises AtlasError for other text."""
     known = {slider.name: slider for slider in subject.sliders}
     values = {name: slider.start for name, slider in known.items()}
     for name, text in typed.items():
@@ -56,7 +56,7 @@ def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dic
 
 
 def turning(scene: Scene) -> Scene:
-    """Return a scene with its panels in space alone, for no others turn, and no titles: they fill its width."""
+    """Return a scene with only its panels in space, without titles, over its full width."""
     panels = tuple(replace(panel, title="") for panel in scene.panels if isinstance(panel, Space))
     columns, rows = min(scene.columns, len(panels)), -(-len(scene.panels) // scene.columns)
     width, height = scene.size
@@ -75,7 +75,7 @@ def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
 
 
 def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
-    """Yield the quantities of a family, each with how sure it is: balls where they have it and it is asked for."""
+    """Yield the quantities as texts with their certainty, from balls where `proven` and available."""
     family, kernels = subject.family, subject.kernels(values)
     case = family.case(kernels)
     balls = family.balls()(*subject.arguments(values).values()) if proven else None
@@ -99,7 +99,7 @@ def _has(balls: Any, q: Quantity) -> bool:
 
 
 def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
-    """Return a quantity in proven digits, and how many there are."""
+    """Return (proven digits of a quantity, words on their number)."""
     text = _joined(q, certified(lambda: q.value(motion, exact=True), DIGITS, spare=SPARE))
     if NOT_CERTIFIED in text or MARK in text:
         return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"
@@ -107,7 +107,7 @@ def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
 
 
 def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
-    """Return a quantity in doubles, and its error bound in words."""
+    """Return (a quantity in doubles, words on its error bound)."""
     text = _joined(q, _number_text(q.value(motion)))
     if not re.search(r"\d", text):
         return text, EXACT

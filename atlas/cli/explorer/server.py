@@ -88,7 +88,7 @@ class Explorer(ThreadingHTTPServer):
         return bool(used)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Say nothing of a browser that has gone away; all else is told as it is by the standard library."""
+        """Report an error of a request as the standard library does; ignore a closed connection."""
         import sys
 
         if not isinstance(sys.exception(), ConnectionError):
@@ -96,7 +96,7 @@ class Explorer(ThreadingHTTPServer):
 
 
 class Handler(BaseHTTPRequestHandler):
-    """One request: refused if it is not from this page on this machine, else answered."""
+    """Handler of one request: refused unless it comes from this page on this machine."""
 
     protocol_version, disable_nagle_algorithm = "HTTP/1.1", True
     timeout = 20  # seconds for which a connection may say nothing, half a request as well
@@ -143,7 +143,7 @@ class Handler(BaseHTTPRequestHandler):
         return "" if self.server.admits(folder) else CLOSED
 
     def _content(self, place: str, query: dict[str, str]) -> Content | None:
-        """Return the content at a place, and its type. Raises AtlasError for values that have no picture."""
+        """Return (content, type) at a path, None for an unknown path. Raises AtlasError for values with no picture."""
         if place in PAGES:
             name, kind = PAGES[place]
             return _page(name), kind
@@ -164,18 +164,18 @@ class Handler(BaseHTTPRequestHandler):
 
 
 def _same(one: str, other: str) -> bool:
-    """Compare two texts in a time that does not tell where they differ."""
+    """Compare two texts in constant time."""
     return hmac.compare_digest(one.encode(), other.encode())
 
 
 def _requested_subject(server: Explorer, query: dict[str, str]) -> Subject:
-    """Return the subject that a query names: the one of the start or a listed one, never a file."""
+    """Return the subject named in a query: the one given at the start, or a listed one; never another file."""
     name = query.pop("subject", "")
     return subject_or_file(name) if name == server.start else subject(name)
 
 
 def _page(name: str) -> bytes:
-    """Return a file of the page; its style is that of the reports, without their fonts."""
+    """Return the bytes of a file of the page; the style sheet is that of the reports, without fonts."""
     from atlas.book.templates import templates
     from atlas.pictures.style import STYLES
 

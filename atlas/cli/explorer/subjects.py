@@ -19,7 +19,7 @@ FIGURE = "figure:"
 
 @dataclass(frozen=True)
 class OfFamily:
-    """A family: sliders are its parameters, the picture is the moving body, or the first figure that fits it."""
+    """A family as a subject: sliders for its parameters; the picture is the moving body or the first figure."""
 
     family: Family
 
@@ -44,7 +44,7 @@ class OfFamily:
         return sliders_of(self.family)
 
     def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
-        """Return the parameters of the class, in its order."""
+        """Return the arguments of the class by name, vectors as tuples."""
         known: dict[str, Any] = {}
         for p in self.family.parameters:
             components = tuple(values[name] if p.default else p.omitted for name in p.names)
@@ -52,7 +52,7 @@ class OfFamily:
         return known
 
     def kernels(self, values: Mapping[str, float]) -> Any:
-        """Return the object of the kernels, cached for picture, numbers and the next time t."""
+        """Return the motion or surface in doubles at the sliders' values, cached for the next request."""
         return _instance(self.family.kernels(), tuple(self.arguments(values).values()))
 
     def scene(self, values: Mapping[str, float]) -> Scene:
@@ -78,13 +78,13 @@ class OfFamily:
 
 @dataclass(frozen=True)
 class OfRecipe:
-    """A recipe: sliders are its parameters that are numbers, the picture is its scene."""
+    """A recipe as a subject: sliders for its numerical parameters; the picture is its scene."""
 
     recipe: Recipe
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the recipe."""
         return self.recipe.name
 
     @property
@@ -115,7 +115,7 @@ class OfRecipe:
             yield Slider(name, MEANINGS.get(key, key), low, high, step, start, letters(name))
 
     def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
-        """Return the parameters of the recipe."""
+        """Return the recipe's parameters by name, numbers from the sliders and other values by default."""
         parameters: dict[str, Any] = {}
         for key, default in self.recipe.parameters.items():
             parts = default if isinstance(default, tuple) else (default,)
@@ -151,9 +151,9 @@ def _instance(kernels: Any, arguments: tuple[Any, ...]) -> Any:
 
 
 def subject(name: str) -> Subject:
-    """Return the family or the recipe of a name; figure:NAME is the recipe where both have one name.
+    """Return the family or the recipe of a name; figure:NAME is the recipe where a family has the same name.
 
-    A name is never that of a file. Raises AtlasError where there is none.
+    A name is never a path. Raises AtlasError for an unknown name.
     """
     if name in FAMILIES:
         return OfFamily(FAMILIES[name])
@@ -168,7 +168,7 @@ def subject(name: str) -> Subject:
 
 
 def subject_or_file(name: str) -> Subject:
-    """Return the subject of a name, or, for a user's own recipe, that of its file NAME.py."""
+    """Return the subject of a name, or of a user's recipe file NAME.py."""
     return OfRecipe(recipes.load(name)) if name.endswith(".py") else subject(name)
 
 

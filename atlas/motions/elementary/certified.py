@@ -21,7 +21,7 @@ class DoubleTurn:
 
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
-        """A vector along the axis, zero for a body at rest, k and phi."""
+        """Tuple (vector along the axis of precession, k, phi); the vector is zero for a body at rest."""
         raise NotImplementedError
 
     @property
@@ -105,7 +105,7 @@ class ElementaryMotion(DoubleTurn):
         return [c * C - n3 * s * S, n2 * s * S, n2 * s * C, c * S + n3 * s * C]
 
     def column(self, j: int, t: Any) -> list[Real]:
-        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory at time t, as a list of three."""
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
@@ -161,5 +161,5 @@ class FreeMotion(DoubleTurn):
 
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
-        """The angular momentum, k and phi."""
+        """Tuple (angular momentum, k, phi)."""
         return elementary.free(fmpq(1), self.I, *self.omega)

@@ -36,7 +36,7 @@ class BallMotion:
         return k2, k3
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t), (28); for a momentum along the field (30), in which the two turns are one."""
+        """Return R(t), (28), as three rows; for a momentum along the field (30), where both rotations have one axis."""
         t, last_row = rational(t, "the time"), AXES[2]
         if self.m2 == 0:
             s, c = sin_cos(self.m3 / self.inertia * t)

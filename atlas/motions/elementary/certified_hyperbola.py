@@ -32,7 +32,7 @@ class Hyperbola:
 
     @property
     def special(self) -> dict[str, tuple[fmpq, fmpq]]:
-        """Named points (omega2, omega3): rest, -2 B', where phi = 0 too, and the other zero of omega3."""
+        """Points (omega2, omega3) by name: rest, -2 B' (phi = 0 at both), and the other zero of omega3."""
         zero = fmpq(0)
         return {
             "omega2 = 0": (zero, zero),
@@ -87,7 +87,7 @@ class Hyperbola:
 
     @property
     def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
-        """I2 = 1, I3 = I and the field, as formulas take them."""
+        """Arguments (I2, I3, B2, B3) of the formulas, with I2 = 1 and I3 = I."""
         return fmpq(1), self.I, self.B2, self.B3
 
     def _off_the_pole(self, omega2: Any) -> fmpq:

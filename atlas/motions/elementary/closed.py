@@ -97,7 +97,7 @@ class ClosedMotion(ElementaryMotion):
         return super()._inputs_of(0).dynamics
 
     def _inputs_of(self, _: int) -> Any:
-        """Raise DomainError: the input in the place of omega2 is a whole fraction."""
+        """Raise DomainError: a closed motion is given by the fraction p/q, not by omega2."""
         raise DomainError(
             "A closed motion has p/q in the place of omega2: ask ElementaryMotion(ratio, field, omega2) for what "
             "depends on it."
@@ -105,7 +105,7 @@ class ClosedMotion(ElementaryMotion):
 
 
 def _check(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
-    """Raise DomainError where no motion, or more than one, has phi/k = r, see theorem-closed."""
+    """Raise DomainError unless exactly one motion has phi/k = r, see theorem-closed."""
     if B2 == 0:
         raise DomainError("With B2 = 0 the elementary motions do not precess: k = 0, and phi/k has no value.")
     if I2 == I3 or B3 == 0:

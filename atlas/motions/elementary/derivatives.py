@@ -39,11 +39,11 @@ class AxisAndRates:
 
     @property
     def solution(self) -> Any:
-        """The pair (alpha, beta)."""
+        """Constants of the Cayley-Klein parameters (alpha, beta), a `Solution`."""
         return steady(self.tilt(), self.k, self.phi, arb("inf"))
 
     def rotation(self, t: fmpq) -> Matrix:
-        """Return R(t) as rows."""
+        """Return R(t) as three rows."""
         axis, last_column = self._axes
         return turns(t, (axis, self.k), (last_column, self.phi))
 
@@ -90,9 +90,9 @@ BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
 def among_all(
     motion: Any, i: int, scalars: Mapping[str, Callable[[Any], Any]], axes: FloatArray | None = None
 ) -> Inputs:
-    """Return the inputs of a placed motion among all of its body, with the scalars of its family.
+    """Return the `Inputs` of a placed motion as a general motion of its body, with the scalars of its own family.
 
-    They are along `axes` of the body, without these along those of the class.
+    Vectors are along `axes`, given in the body; without `axes`, along the axes of the class.
     """
     row, shape = motion._row(i), (*motion.shape, 3)  # noqa: SLF001  of the same folder
     _, B, R, w = motion.given
@@ -135,7 +135,7 @@ def of_free(motion: Any, i: int) -> Inputs:
 
 
 def of_ball(motion: Any, i: int) -> Inputs:
-    """Return the inputs of a ball of an array, in its field along e3 or, where it is placed, along the body's axes."""
+    """Return the `Inputs` of the i-th ball: field along e3 or, for a placed motion, vectors along the body's axes."""
     if motion.is_placed:
         return replace(among_all(motion, i, BALL_AMONG_ALL, np.eye(3)), along_body=True)
     inertia, larmor, *m = map(rational, motion._row(i))  # noqa: SLF001  of the same folder

@@ -12,7 +12,7 @@ from atlas.motions.elementary.formula_hyperbola import ordinate, precession, pro
 def constants(
     case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
 ) -> tuple[Number, tuple[Number, Number], Number, Number]:
-    """Return omega3, which in the cases FREE_CASES is as given, a vector (x, y) along the axis, k and phi."""
+    """Return omega3, a vector (x, y) along the axis, k and phi; in the first FREE_CASES cases omega3 is the input."""
     if case == "free body":
         axis_vector = omega2, I3 * omega3 / I2
         return omega3, axis_vector, length(*axis_vector), (I2 - I3) * omega3 / I2
@@ -26,7 +26,7 @@ def constants(
 
 
 def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
-    """Return omega3, k, phi and I omega3."""
+    """Return the tuple omega3, k, phi, I omega3 with I = I3/I2."""
     omega3, _, k, phi = constants(case, *inputs)
     return omega3, k, phi, inputs[1] * omega3 / inputs[0]
 

@@ -14,7 +14,10 @@ def proper(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Nu
 
 
 def _common(I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return the factor that (71) and (72) share; what is often one number for many omega2 stands by itself."""
+    """Return omega2 B3/((omega2 + B2) I3 B2), the factor common to (71) and (72).
+
+    The quotient B3/(I3 B2) comes first: it is often one number for many omega2.
+    """
     return omega2 / (omega2 + B2) * (B3 / (I3 * B2))
 
 
@@ -24,7 +27,7 @@ def precession(B2: Number, B3: Number, omega2: Number) -> Number:
 
 
 def frequencies(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> tuple[Number, Number]:
-    """Return k and phi."""
+    """Return k, the frequency of precession (79), and phi, of proper rotation (72)."""
     return precession(B2, B3, omega2), proper(I2, I3, B2, B3, omega2)
 
 

@@ -131,7 +131,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
                 self._refuse((self._codes >= FREE_CASES) & (np.asarray(given_omega3) != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
-        """Raise the error of the first row for which there is no motion."""
+        """Raise the error of the first row that `rows` marks: no motion starts there."""
         for i in np.flatnonzero(rows)[:1]:
             self._single(i)
 
@@ -211,7 +211,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @cached_property
     def _codes(self) -> NDArray[np.intp]:
-        """Places of the cases in CASES; one more for a row that is no motion."""
+        """Indices into CASES, one for each motion; len(CASES) for a row at the pole, where no motion starts."""
         B2, B3, w2, *_ = np.broadcast_arrays(*self._inputs[2:], *self._inputs[:2])
         flat, steady = B3 == 0, B2 == 0
         pole = (w2 == -B2) & (low_word(self._inputs[4]) == -low_word(self._inputs[2]))
@@ -220,7 +220,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return np.select([*conditions, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
 
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
-        """Return each case that there is, its rows and their inputs; omega2 = 0 is on the curve like any other."""
+        """Return (case, rows, inputs) for each case that occurs; "at rest" is treated as "precession"."""
         codes = np.where(self._codes == CASES.index("at rest"), CASES.index("precession"), self._codes).ravel()
         *inputs, omega3 = self._inputs
         inputs.append(0.0 if np.asarray(omega3).dtype == object else omega3)
@@ -238,7 +238,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     def _from_start(  # type: ignore[override]
         cls, start: Start, omega2: Any = None, omega3: Any = None
     ) -> tuple[Any, FloatArray] | None:
-        """Return the motion and axes in which omega1 = B1 = 0, with `omega2` and `omega3` if they are given."""
+        """Return (motion, axes), the axes turned about e3 so that omega1 = B1 = 0; None unless the body is symmetric.
+
+        `omega2` and `omega3` replace the components of the start.
+        """
         from atlas.motions.nutation.kernel_general import standing
 
         if not start.is_symmetric:
@@ -523,7 +526,7 @@ class FreeMotion(DoubleTurn[Free]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return the motion of a symmetric body without a field, and its principal axes."""
+        """Return (motion, principal axes as rows) of a symmetric body without a field; None for any other start."""
         if start.has_field or not start.is_symmetric:
             return None
         body, axes, _, w = start.symmetric

@@ -119,7 +119,7 @@ class Hyperbola(Shown):
 
     @cached_property
     def _exact(self) -> tuple[Number, ...]:
-        """Exact I2, I3, B2, B3 of one curve."""
+        """Exact (I2, I3, B2, B3) of one curve. Raises AtlasError for arrays."""
         if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
             raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
         return exactly(*self._inputs)
@@ -148,7 +148,7 @@ class Hyperbola(Shown):
 
     @property
     def special(self) -> dict[str, tuple[float, float]]:
-        """Points (omega2, omega3) of (67) by name, in rad/time: rest, -2 B', and the other zero of omega3."""
+        """Points (omega2, omega3) of (67) by name, in rad/time: rest, -2 B' (phi = 0), and the other zero of omega3."""
         I2, I3, B2, _ = self._exact
         zero = (I3 - I2 - I2) * B2 / I2
         return {

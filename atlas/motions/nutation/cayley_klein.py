@@ -98,7 +98,7 @@ class Evaluation:
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Do the same where the functions are trigonometric."""
+        """Return the rows of `components` where the functions are trigonometric."""
         swing = self.parameters.swing
         if swing and swing.is_large:
             u, e = self._reduced(t, low)
@@ -115,20 +115,20 @@ class Evaluation:
         return np.asarray(u)
 
     def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        """Return half the phases, reduced, and their rounding errors; keep the number of whole turns."""
+        """Return half the phases less whole turns and their rounding errors, two arrays; note the number of turns."""
         half, errors, half_turns, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
         self._keep(half_turns)
         return half, errors
 
     def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return the same, rounded."""
+        """Return half the phases less whole turns, rounded to one double; note the number of turns."""
         turns = np.empty((len(self.parameters.frequencies), t.size)) if self.signed else None
         half = self.parameters.phases.halves_of(t, self.work, low, turns)
         self._keep(turns)
         return half
 
     def _keep(self, half_turns: FloatArray | None) -> None:
-        """Keep the number of whole turns, of which each is a last digit."""
+        """Note the whole turns left out of the phases, summed: their parity is the sign of (alpha, beta)."""
         if self.signed and half_turns is not None:
             self.odd = half_turns.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
 
@@ -158,7 +158,7 @@ def products_of_one(parameters: CayleyKlein, t: float) -> list[float]:
 
 
 class Products:
-    """The ten products of `PAIRS` of up to `size` quadruples, whose squares are made to sum to one."""
+    """Workspace for up to `size` quadruples (alpha, beta): normalised, and their ten products `PAIRS`."""
 
     def __init__(self, size: int) -> None:
         self.unit, self.square, self.out = np.empty((4, size)), np.empty(size), np.empty((10, size))

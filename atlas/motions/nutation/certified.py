@@ -21,7 +21,7 @@ from atlas.motions.nutation.certified_spheres import Sphere
 
 
 class Nutating:
-    """A motion R(t) with a quartic, `kind`, the `sphere` of its axis, and the constants `solution` of its pair."""
+    """Base of certified motions with nutation: `quartic`, `kind`, `sphere` of the axis, `solution` (alpha, beta)."""
 
     quartic: Quartic
     kind: str
@@ -40,7 +40,7 @@ class Nutating:
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        """Whether theta is constant: R(t) is then a product of two uniform rotations."""
         raise NotImplementedError
 
     def steady_rates(self) -> tuple[Real, Real]:
@@ -49,12 +49,12 @@ class Nutating:
 
     @property
     def is_plane(self) -> bool:
-        """Whether the axis swings in a plane of a frame that turns at the rate `precession`, without any other turn."""
+        """Whether the axis swings in a plane that turns about the field at the rate `precession`."""
         return False
 
     @property
     def precession(self) -> Real:
-        """Rate of that frame about the field."""
+        """Rate about the field, in rad/time, of the frame in which alpha and beta have their own rates."""
         raise NotImplementedError
 
     @property
@@ -64,11 +64,11 @@ class Nutating:
 
     @property
     def precesses_evenly(self) -> bool:
-        """Whether the precession in a period is exactly that of the frame."""
+        """Whether the angle of precession in a period is exactly that of the frame, `precession` times the period."""
         return False
 
     def _separatrix(self, poles: str) -> str | None:
-        """Return the kind of a separatrix, which may lead from pole to pole; None where no end is a multiple root."""
+        """Return the name of the separatrix, "between {poles}" where both turning points are double roots, or None."""
         roots = self.quartic.roots()
         ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))
         suffix = {(2, 2): f" between {poles}", (1, 3): ", triple root", (1, 2): ""}.get((ends[0], ends[1]))
@@ -96,7 +96,7 @@ class Nutating:
 
     @property
     def _half(self) -> arb:
-        """Half the period of an infinitesimal nutation where theta is constant; infinite where that is unstable."""
+        """Half the period of a small nutation where theta is constant; infinite where the steady motion is unstable."""
         square = -arb(self.quartic.curvature) / 2
         return arb.pi() / square.sqrt() if square > 0 else arb("inf")
 
@@ -106,7 +106,7 @@ class Nutating:
 
     @property
     def period(self) -> arb:
-        """Period of nutation T; of an infinitesimal one where Omega3 is constant, infinite where that is unstable."""
+        """Period of nutation T; where theta is constant, of a small nutation, infinite if it is unstable."""
         return self.solution.period
 
     @property
@@ -122,12 +122,12 @@ class Nutating:
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession, the angle in one period over that."""
+        """Mean rate of precession in rad/time: `precession_per_period` over `period`."""
         return self.precession_per_period / self.period
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of the body's turn about its axis, the angle in one period over that."""
+        """Mean rate of rotation about the body's axis in rad/time: `spin_per_period` over `period`."""
         return self.spin_per_period / self.period
 
     @property
@@ -149,7 +149,7 @@ class Nutating:
         return self._moduli()[1]
 
     def _periods(self) -> tuple[arb, arb]:
-        """Return half the real and half the imaginary period; DomainError where both are infinite."""
+        """Return half the real and half the imaginary period. Raises DomainError if both are infinite."""
         lattice = self.solution.lattice
         unstable = self.is_steady and self.quartic.curvature != 0
         if infinite(lattice.half) and infinite(lattice.imaginary) and not unstable:
@@ -201,7 +201,7 @@ class Nutating:
         return [w, x * C + y * S, y * C - x * S, z]
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t) as rows: exact at t = 0, of two turns where it is their product, else of the pair."""
+        """Return R(t) as three rows: exact at t = 0, two rotations where theta is constant, else from (alpha, beta)."""
         t = rational(t, "the time")
         if t == 0 or self.kind == "at rest":
             return identity()
@@ -228,7 +228,7 @@ class Nutating:
         return product(turn(self.field, c, s), swing)
 
     def column(self, j: int, t: Any) -> list[Real]:
-        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory at time t, as a list of three."""
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:

@@ -22,7 +22,7 @@ LOG2, FALLING = log(2.0), log(0.49)
 
 
 def infinite(x: arb) -> bool:
-    """Whether a period is infinite; one that is not known at the precision of the moment is not a number, and not."""
+    """Whether a period is infinite. A period not known at the current precision is NaN, and counts as finite."""
     return bool(x > 0) and not x.is_finite()
 
 
@@ -43,7 +43,7 @@ class Lattice:
 
     @property
     def nome(self) -> acb:
-        """Nome of the sums, zero where one term is all."""
+        """Nome of the sums; zero where a sum has a single term."""
         if infinite(self.half) or infinite(self.imaginary):
             return acb(0)
         ratio = self.imaginary / self.half if self.form == "trigonometric" else self.half / self.imaginary
@@ -59,7 +59,7 @@ class Lattice:
 
     @property
     def reach(self) -> arb:
-        """Largest absolute value of rate s that a hyperbolic sum is asked for; zero where there is but one term."""
+        """Largest |rate s| at which a hyperbolic sum is evaluated; zero for other forms and for a single term."""
         return self.rate * self.half if self.form == "hyperbolic" and not infinite(self.half) else arb(0)
 
 
@@ -99,7 +99,7 @@ class Sum:
         return _widened(value, remainder), _widened(slope, 2 * k * remainder) * self.lattice.rate
 
     def _functions(self, x: arb) -> Iterator[tuple[arb, arb]]:
-        """Go through S and C of k x."""
+        """Yield the pairs S(k x), C(k x) for rising k: sine and cosine, or their hyperbolic counterparts."""
         circular = self.lattice.form == "trigonometric"
         S, C = x.sin_cos() if circular else x.sinh_cosh()
         turn = multiplied(S, C, S, C, circular)
@@ -110,7 +110,7 @@ class Sum:
 
     @property
     def derivative(self) -> "Sum":
-        """The derivative by s, as a sum of the same form; its bound is not kept."""
+        """The derivative by s, as a sum of the same form, with the `bound` of this sum."""
         rate, sign = self.lattice.rate, -1 if self.lattice.form == "trigonometric" else 1
         if self.lattice.form == "linear":
             return Sum(self.lattice, (acb(0),), (self.odd[0] * rate,), arb(0), self.doubled)
@@ -148,7 +148,7 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
 
 
 def constant(lattice: Lattice) -> Sum:
-    """Return the function one, whose zero has gone to infinity."""
+    """Return the sum that is one everywhere: the limit of a sum whose zero goes to infinity."""
     return Sum(lattice, (acb(0),), (acb(1),), arb(0), doubled=True)
 
 
@@ -158,7 +158,7 @@ def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb
 
 
 def _hyperbolic_weights(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
-    """Go through the weights of a hyperbolic sum with a zero at i zeta, or at half a period from there if doubled."""
+    """Yield weights (odd, even) of a hyperbolic sum with a zero at i zeta, or half a period from there if doubled."""
     s, c = zeta.sin_cos()
     turn = multiplied(s, c, s, c, True)
     s, c = (arb(0), arb(1)) if doubled else (s, c)
@@ -168,7 +168,7 @@ def _hyperbolic_weights(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]
 
 
 def _trigonometric_weights(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
-    """Go through the weights of a trigonometric sum, cos k z and -sin k z for the zero z = i zeta, or pi/2 + i zeta."""
+    """Yield weights cos k z, -sin k z of a trigonometric sum with zero z = i zeta, or pi/2 + i zeta if `beyond`."""
     s, c = zeta.sinh_cosh()
     turn, sign = multiplied(s, c, s, c, False), 1
     while True:
@@ -229,11 +229,11 @@ class Parameter:
 
     @property
     def rate(self) -> arb:
-        """The whole rate."""
+        """Rate of the phase, in rad/time: `own_rate` plus the rate of the frame."""
         return self.own_rate + self.frame
 
     def at(self, t: Any, s: arb) -> tuple[acb, acb]:
-        """Return the parameter and its derivative at time t, which is s in its own period."""
+        """Return the parameter and its derivative by time, at time t, s after the turning point in its period."""
         value, slope = self.sum.at(s)
         phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
         return phase * value, phase * (slope + acb(0, self.rate + self.twist) * value)
@@ -289,7 +289,7 @@ class Solution:
         return bool((a * c.conjugate() + b * d.conjugate()).real < 0)
 
     def in_cell(self, s: arb) -> arb:
-        """Return the time since the turning point, less whole periods where the sums are for one period only."""
+        """Return the time s since the turning point less whole periods; NaN where their number is not known."""
         periods = self._whole_periods(s)
         if periods == 0:
             return s
@@ -322,7 +322,7 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
 
 
 def quaternion(R: Sequence[Sequence[Any]], doubles: Sequence[float]) -> list[arb]:
-    """Return the unit quaternion (x, y, z, w) of a rotation matrix, that of the two which is near to some doubles."""
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix whose sign is that of nearby `doubles`."""
     i = max(range(4), key=lambda i: abs(doubles[i]))
     row = quaternion_products([[arb(x) for x in row] for row in R])[i]
     size = (-2 if doubles[i] < 0 else 2) * row[i].sqrt()

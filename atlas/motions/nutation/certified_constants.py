@@ -23,7 +23,7 @@ from atlas.motions.nutation.certified_spheres import Sphere
 
 
 class TurningPoint:
-    """A simple turning point u = e, the places of the other roots of Q, each as often as it counts, and w there.
+    """A simple turning point u = e of Q, with the other roots (repeated by multiplicity) and times of u from e.
 
     `quarter_slope` is Q'(e)/4, as a product over the other roots.
     """
@@ -38,7 +38,7 @@ class TurningPoint:
         self.quarter_slope = slope.real
 
     def w(self, place: int) -> acb:
-        """Return w at another root."""
+        """Return the value of w = Q'(e)/(4 (u - e)) at another root."""
         return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
 
     def real_time(self, u: arb) -> arb:
@@ -55,7 +55,7 @@ class TurningPoint:
         return acb.elliptic_rf(*(self.w(i) for i in self.other_roots)).real
 
     def real_time_to_infinity(self) -> arb:
-        """Return x > 0 where u(x) is infinite, from an outermost root beyond which Q is positive."""
+        """Return the time x > 0 at which u(x) is infinite, where Q is positive beyond this outermost root."""
         return acb.elliptic_rf(*(-self.w(i) for i in self.other_roots)).real
 
     @cached_property
@@ -119,7 +119,7 @@ class Nutation:
         return self.turnings[place]
 
     def _start(self) -> TurningPoint:
-        """Return the turning point with the faster motion beside it, near a separatrix the simple root."""
+        """Return the turning point where time is zero: near a separatrix the simple root, else the faster one."""
         low, high = self.quartic.low, self.quartic.high
         if self.roots[low].multiplicity > 1:
             return self.turning(high)
@@ -160,9 +160,9 @@ class Nutation:
         return Parameter(factor, rate, arb(sphere.frames[pole]), twist, function, turn)
 
     def _function(self, name: int) -> tuple[Sum, arb, int]:
-        """Return the function with the zero of a pole, its imaginary part y, and the sense in which it turns.
+        """Return the sum with its zero at a pole, the zero's imaginary part y, and the sign of the torque there.
 
-        Where the vector meets the pole the function is real, up to a phase: then the sense is 0.
+        Where the vector meets the pole the sum is real up to a phase, and the sign is 0.
         """
         q, pole, sense = self.quartic, self.sphere.poles[name], self.sphere.signs[name]
         # the pole -1 is where Omega3 is highest
@@ -186,7 +186,7 @@ class Nutation:
         return function, y, -sense if function.shifted else sense
 
     def _through_infinity(self, name: int) -> bool:
-        """Whether u moves from the turning point where it starts, in imaginary time, by infinity to a pole."""
+        """Whether u reaches the pole, along imaginary time from the first turning point, through infinity."""
         if self.quartic.bend >= 0:
             return False
         if len(self.real) <= 2:

@@ -35,7 +35,7 @@ SEPARATRIX = "On a separatrix neighbours leave the motion for good: it has no se
 
 
 class TooNearError(DomainError):
-    """Constants have no derivatives that are known: the motion is too near to a case of its own."""
+    """No derivatives of the constants are certified: the motion is too near a special case."""
 
 
 Tables = dict[str, list[Any]]
@@ -56,7 +56,7 @@ class Constants:
 
 @dataclass(frozen=True)
 class Variation:
-    """Constants of a motion, and their derivatives in one input."""
+    """Constants of a motion by name (`values`), and their derivatives in one input (`slopes`)."""
 
     form: tuple[Any, ...]
     values: Tables
@@ -94,17 +94,17 @@ def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] =
 
 
 def _flat(x: Sum, factor: acb) -> list[acb]:
-    """Return the weights of a sum times a factor, odd and even ones by turns: next to a steady motion one vanishes."""
+    """Return the weights of a sum times a factor, odd and even alternating: near a steady motion one vanishes."""
     return [y * factor for pair_of_weights in zip(x.odd, x.even, strict=True) for y in pair_of_weights]
 
 
 def variations(
     make: Callable[..., Constants], values: Sequence[fmpq], places: Sequence[int], scales: Sequence[fmpq]
 ) -> list[Variation]:
-    """Return the derivatives of constants in the inputs at some places; `scales` are sizes of the inputs, not zero.
+    """Return a `Variation` for the input at each of `places`; `scales` are sizes of the inputs, not zero.
 
-    Far from borders one step forward in each input will do, and one backward in all, which must undo the others. Raises
-    DomainError where there are none.
+    Where the formulas do not change, each derivative is one forward difference, and a step back in all inputs checks
+    them. Raises DomainError where the constants have no derivatives.
     """
     h = [scale / fmpq(2) ** STEP_BITS for scale in scales]
 
@@ -147,7 +147,7 @@ def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int
 def _differences(
     make: Callable[..., Constants], values: Sequence[fmpq], place: int, h: fmpq, scale: fmpq
 ) -> Variation | None:
-    """Return values and slopes by differences over h; None where they are not known well enough."""
+    """Return constants and their derivatives by differences over h; None where these are not accurate enough."""
 
     def constants_at(steps: int) -> Constants | None:
         changed = [*values[:place], values[place] + steps * h, *values[place + 1 :]]
@@ -195,7 +195,7 @@ class Groups:
         )
 
     def tables(self, row: Row) -> Tables:
-        """Return constants by groups."""
+        """Return a flat row of constants as a dict of lists by the name of their group."""
         entries = iter(row)
         return {name: [next(entries) for _ in range(n)] for name, n in self.lengths.items()}
 
@@ -210,7 +210,7 @@ class Groups:
         )
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
-        """Return whether values and slopes are known well enough, beside the largest value of their groups."""
+        """Return whether all radii are at most MAX_RADIUS times the largest value of the group."""
         size, radius = self._largest(sizes_of(mean)), radii_of(mean)
         for row, scale in slopes:
             unit = float(arb(scale).mid())
@@ -222,7 +222,7 @@ class Groups:
         return True
 
     def _largest(self, sizes: FloatArray) -> FloatArray:
-        """Return the largest of each group, at all of its places."""
+        """Return the largest size of the group in the place of each size, shape of `sizes`."""
         largest = np.zeros(len(self.lengths))
         np.maximum.at(largest, self.places, sizes)
         return np.asarray(largest[self.places])

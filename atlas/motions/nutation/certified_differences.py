@@ -39,7 +39,7 @@ class Differences:
         self._make_neighbours(STEP_BITS + 20)
 
     def _make_neighbours(self, bits: int) -> None:
-        """Make the motions beside this one in each input."""
+        """Make the motions that differ from this one by 2^-bits of the scale in one input, for each input."""
         self.bits = bits
         with workprec(8 * bits):
             self.here = self.make(*self.values)
@@ -80,7 +80,7 @@ class Differences:
     def _derivative(
         self, here: Row, R: Sequence[Row], neighbours: Sequence[tuple[Any, arb, arb]], t: fmpq
     ) -> tuple[Row, Row, float]:
-        """Return v and R dOmega/dp of one input, and by how much the derivative of R changes over a step."""
+        """Return v, R dOmega/dp of one input p, and the largest change of dR/dp over a step."""
         rows = [here if x is self.here else self._state(x, t) for x, _, _ in neighbours]
         _, slopes, bends = zip(*neighbours, strict=True)
         change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))

@@ -62,7 +62,7 @@ class EllipticMotion(Nutating):
         self.kind = self._kind()
 
     def _order(self) -> tuple[int, int, int]:
-        """Return the axes in a cyclic order, the one last whose component nutates, or about which K turns."""
+        """Return a cyclic order of the axes, the nutating one last; for a single component of K, that axis last."""
         e, K = self._e, self.field
         low, middle, high = sorted(range(3), key=lambda i: e[i])
         if sum(x != 0 for x in K) == 1:
@@ -100,7 +100,7 @@ class EllipticMotion(Nutating):
 
     @property
     def stability(self) -> str:
-        """Whether all motions that start near stay beside the curve of K and M: "stable", "unstable" or "undecided".
+        """Name "stable" if all motions that start near stay near the curve of K and M, else "unstable" or "undecided".
 
         At rest and at Omega = -2 K the curve is that of the flow of F, along which neighbours drift slowly.
         """
@@ -117,7 +117,7 @@ class EllipticMotion(Nutating):
 
     @property
     def is_steady(self) -> bool:
-        """Whether R(t) is two turns one after the other, about the field and about a principal axis."""
+        """Whether R(t) is a product of two uniform rotations, about the field and about a principal axis."""
         return self.kind not in ("elliptic", "separatrix")
 
     @property
@@ -138,7 +138,7 @@ class EllipticMotion(Nutating):
 
     @property
     def omega(self) -> list[Real]:  # type: ignore[override]  # a root of the inputs
-        """The initial angular velocity."""
+        """Angular velocity at t = 0 along the principal axes."""
         return self.rate_of(self.field)
 
     @property
@@ -149,7 +149,7 @@ class EllipticMotion(Nutating):
         return [H / 2, F, MK, K2, energy / 2]
 
     def rate_of(self, K: Any) -> list[Real]:
-        """Return Omega where the field in the body is K."""
+        """Return Omega_i = (E_i - frame) K_i along the principal axes."""
         return [(E - self.frame) * x for E, x in zip(self.E, K, strict=True)]
 
     @property
@@ -196,7 +196,7 @@ class EllipticMotion(Nutating):
 
     @property
     def circled(self) -> int:
-        """Place of the axis about which K goes round, of the largest or the least E; of two equal E the third axis."""
+        """Index of the axis that K circles: largest or least E; for two equal E, the third axis."""
         e, (left, right, nutating) = self._e, self.places
         if len(set(e)) == 2:
             return next(i for i in range(3) if e.count(e[i]) == 1)
@@ -209,14 +209,14 @@ class EllipticMotion(Nutating):
 
     @property
     def turn_per_period(self) -> arb:
-        """Angle by which the body has turned about B after one period, of precession and spin together."""
+        """Angle in rad by which the body has turned about B after one period, precession and spin together."""
         return super()._angles()[0]
 
     def _angles(self) -> tuple[arb, arb]:
-        """Return the angles of precession and of spin of the axis about which K goes round, once in a period.
+        """Return the angles of precession and of spin in one period of the axis that K circles.
 
-        The pair is that of another axis, which goes once more or less about B in that time. Where K stands on an axis,
-        the angles are the limits of those of a motion next to it.
+        Alpha and beta belong to another axis, which makes one turn more or less about B in a period. Where K is
+        constant, the angles are the limits for a motion next to it.
         """
         precession, spin = super()._angles()
         if self.kind in ("elementary", "at rest"):
@@ -229,12 +229,12 @@ class EllipticMotion(Nutating):
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession about B of the axis about which K goes round; where K stands, of that or any."""
+        """Mean rate of precession about B, in rad/time, of the axis that K circles, or that is along a constant K."""
         return self._mean_rates()[0]
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate, in rad/time, of the body's turn about the axis about which K goes round: 2 pi/period, or 0."""
+        """Mean rate, in rad/time, of rotation about the axis that K circles: 2 pi/period, or 0."""
         return self._mean_rates()[1]
 
     def _mean_rates(self) -> tuple[Real, Real]:
@@ -267,7 +267,7 @@ class EllipticMotion(Nutating):
         return [dot(row, m) for row in self.rotation(t)]
 
     def from_frame(self, a: acb, b: acb) -> list[arb]:
-        """Return the quaternion, its vector along the principal axes in the order of the moments."""
+        """Return the quaternion (w, x, y, z) of (a, b), along the principal axes in the order of the moments."""
         q = super().from_frame(a, b)
         return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
 

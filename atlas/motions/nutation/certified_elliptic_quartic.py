@@ -18,9 +18,9 @@ from atlas.motions.nutation.certified_quartic import Quartic, Root, Vector, rati
 
 
 class EllipticQuartic(Quartic):
-    """Q for the last of three axes, where e and K have their components in the order (b, c, a).
+    """Q for an elliptic motion; e and K have their components in the order of axes (b, c, a), a the nutating one.
 
-    `sign` is that of v.
+    `sign` is the sign of v.
     """
 
     def __init__(self, e: Vector, K: Vector, square: fmpq, sign: int) -> None:
@@ -55,6 +55,6 @@ class EllipticQuartic(Quartic):
                 return real + [x for x in roots if not x.is_real]
 
     def sign_beside(self, pole: int) -> int:
-        """Return the sign of the torque, one and the same at both poles."""
+        """Return the sign of the torque, which is equal at both poles."""
         del pole
         return sign_of(self.torque)

@@ -69,7 +69,7 @@ class GeneralMotion(Nutating):
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        """Whether theta is constant: R(t) is then a product of two uniform rotations."""
         return self.kind in {"free body", "at rest", "precession", "spin along the field"}
 
     @property
@@ -101,7 +101,7 @@ class GeneralMotion(Nutating):
 
     @cached_property
     def turning_axis(self) -> tuple[fmpq, fmpq, fmpq]:
-        """Vector along the axis of precession, in the body at t = 0: the field, else the momentum, at rest e3."""
+        """Vector along the axis of precession, in the body at t = 0: the field; without it the momentum; at rest e3."""
         if self.quartic.K2 != 0:
             K1, K2, K3 = self.field
             return K1, K2, K3
@@ -171,7 +171,7 @@ class GeneralMotion(Nutating):
 
     @property
     def turning_points(self) -> tuple[Real, Real]:
-        """Least and largest Omega3; on a separatrix one of them is approached and never reached."""
+        """Least and largest Omega3; on a separatrix one end is approached and never reached."""
         q = self.quartic
         if self.is_steady or q.is_constant:
             return q.u.value, q.u.value
@@ -218,7 +218,7 @@ class Symmetric:
         self._back = [places.index(i) for i in range(3)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
+        """Return R(t) as three rows, along the axes in their given order."""
         R = self.exact.rotation(t)
         return [[R[i][j] for j in self._back] for i in self._back]
 

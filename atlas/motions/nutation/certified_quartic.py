@@ -50,7 +50,7 @@ class Root:
 
     @property
     def is_infinite(self) -> bool:
-        """Whether the root has gone to infinity, where the leading coefficient is zero."""
+        """Whether the root is at infinity: the leading coefficient is zero."""
         return bool(self.value.real > 0) and not self.value.real.is_finite()
 
 
@@ -58,10 +58,10 @@ INFINITY = acb(arb("inf"))
 
 
 class Quartic:
-    """Q of a body of ratio I that turns with Omega where the field is K, both in the body.
+    """Q(u) = (dOmega3/dt)^2 of a body of ratio I, from Omega and K, both along the body's axes at t = 0.
 
-    ``low`` and ``high`` are the places, among the distinct real roots in ascending order, of those between which Omega3
-    moves; they are equal, and name a multiple root or a lone point, where Omega3 is constant.
+    ``low`` and ``high`` are indices, among the distinct real roots in ascending order, of the two between which Omega3
+    moves. They are equal where Omega3 is constant: at a multiple root or an isolated point.
     """
 
     def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
@@ -122,7 +122,7 @@ class Quartic:
 
     @cached_property
     def _factors(self) -> list[tuple[Polynomial, int]]:
-        """Factors without multiple roots, each with the multiplicity of its roots."""
+        """Square-free factors, each with the multiplicity of its roots; empty for a constant."""
         return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:
@@ -135,7 +135,7 @@ class Quartic:
 
     @cached_property
     def _interval(self) -> tuple[int, int]:
-        """Places of the roots at the ends of the interval, found at rising precision."""
+        """Indices (low, high) of the roots that enclose Omega3, decided at rising precision."""
         precision = ctx.prec
         while True:
             with workprec(precision):

@@ -66,7 +66,7 @@ def tilt_of(vector: Sequence[Real], length: Real) -> tuple[Real, Real, Real, Rea
 
 
 def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
-    """Return the sphere of K; of a free body, where K = 0, that of its momentum, along `axis`."""
+    """Return the `Sphere` on which K moves; of a free body, where K = 0, the sphere of its momentum, along `axis`."""
     (w1, w2, _), (x, y, z) = q.Omega, axis
     b = root(q.K2)
     return Sphere(

@@ -45,7 +45,7 @@ class Swing:
     """Distance of the turning points of nu."""
 
     def at(self, t: arb, s: arb) -> arb:
-        """Return kappa times the integral of nu from a turning point, at time t, which is s in its own period."""
+        """Return kappa times the integral of nu from a turning point to time t; s is the time in its period."""
         return self.kappa * (self.rate * t + self.twist * s + self.oscillation(s))
 
     @property
@@ -55,7 +55,7 @@ class Swing:
 
     @property
     def largest(self) -> arb:
-        """Half of its largest part that is no multiple of time, about; a bound where that is modest."""
+        """Half the largest part not linear in time, in rad: a bound if below MAX_HALF_ANGLE, else an estimate."""
         half = self.lattice.half
         most = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
         if most < MAX_HALF_ANGLE:
@@ -77,10 +77,10 @@ class Swing:
 
 @dataclass(frozen=True)
 class Crossing:
-    """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n, where it has no rate.
+    """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n.
 
-    It is, but for a constant, kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): kappa the one way before s = 0 and
-    the other after.
+    Up to a constant it is kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): the rate is -kappa sense long before
+    s = 0 and kappa sense long after, with no mean.
     """
 
     kappa: arb
@@ -97,7 +97,7 @@ class Crossing:
 
 
 def turn_of(odd: arb, even: arb, A: arb) -> arb:
-    """Return 2 at(odd/even sqrt(|A|))/sqrt(|A|)."""
+    """Return 2 g(odd/even sqrt(|A|))/sqrt(|A|), g = artanh for A > 0, arctan for A < 0; 2 odd/even for A = 0."""
     if A == 0:
         return 2 * odd / even
     size = abs(A).sqrt()
@@ -163,7 +163,7 @@ def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
 
 
 def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum, Sum]:
-    """Return the odd part, times a factor, and the even part as sums."""
+    """Return two sums: the odd terms times a factor, and the even terms."""
     none = (acb(0),) * len(odd)
     return (
         replace(like, odd=tuple(acb(x * factor) for x in odd), even=none, bound=abs(factor) * like.bound),
@@ -174,9 +174,9 @@ def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum
 def _beside_imaginary(
     lattice: Lattice, depth: arb, factor: arb, weights: Callable[[int], tuple[arb, arb]]
 ) -> tuple[Sum, Sum]:
-    """Return O, times a factor, and E for a zero beside i imaginary.
+    """Return the sums O, times a factor, and E for a zero near i imaginary.
 
-    They are given by the weights of S(k rate s) and of C(k rate s), at most exp(k depth).
+    `weights(k)` gives the weights of S(k rate s) and of C(k rate s), at most exp(k depth).
     """
     doubled = lattice.form == "trigonometric"
 

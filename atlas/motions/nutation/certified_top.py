@@ -62,7 +62,7 @@ class TopMotion(Nutating):
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        """Whether theta is constant: R(t) is then a product of two uniform rotations."""
         return self.quartic.is_constant
 
     @property
@@ -78,12 +78,12 @@ class TopMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the spin in a period is exactly zero: M3 = 0, so that chi' is odd in nu, which swings about zero."""
+        """Whether the spin in a period is exactly zero: M3 = 0, so that chi' is odd in nu, which averages to zero."""
         return self.quartic.M3.is_zero and self._is_even
 
     @property
     def precesses_evenly(self) -> bool:
-        """Whether that in a period is Larmor's alone: p = 0, so that the rest is odd in nu, which swings about zero."""
+        """Whether precession in a period is Larmor's exactly: p = 0, so that the rest is odd in nu, with mean zero."""
         return self.quartic.p.is_zero and self._is_even
 
     @property
@@ -95,7 +95,7 @@ class TopMotion(Nutating):
 
     @property
     def b(self) -> Real:
-        """Length of the direction."""
+        """Length 1 of the unit vector n, in the place of the field's magnitude."""
         return fmpq(1)
 
     @by_precision
@@ -141,14 +141,14 @@ class TopMotion(Nutating):
 
     @property
     def roots(self) -> list[acb]:
-        """Roots in nu of (dnu/dt)^2, each as often as it counts: the real ones ascending, then the complex pair."""
+        """Roots in nu of (dnu/dt)^2, repeated by multiplicity: the real ones ascending, then the complex pair."""
         finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
         real = [root for root in finite_roots if root.is_real]
         return [-x.value for x in real[::-1] + finite_roots[len(real) :] for _ in range(x.multiplicity)]
 
     @property
     def turning_points(self) -> tuple[Real, Real]:
-        """Least and largest nu = cos theta; on a separatrix one of them is approached and never reached."""
+        """Least and largest nu = cos theta; on a separatrix one end is approached and never reached."""
         q = self.quartic
         if self.is_steady:
             return q.nu.value, q.nu.value
@@ -167,7 +167,7 @@ class TopMotion(Nutating):
 
     @property
     def sleeping_bands(self) -> dict[str, tuple[Real, Real] | None]:
-        """The omega3 between which this top falls over, if its axis is along n, "upright", or against it, "hanging"."""
+        """Unstable intervals of omega3, or None, of the sleeping top: along n "upright", against n "hanging"."""
         q, k3 = self.quartic, self.coupling[1]
         return {
             name: top_steady.sleeping_band(self.I, q.kappa, k3, (q.linear, q.A), side)

@@ -15,7 +15,7 @@ class SteadyPrecession(NamedTuple):
     """A steady precession at one inclination: its rate about n, and its stability.
 
     `nutation` is the square of the frequency of small nutations, theorem-top-nutation: where it is negative a push
-    grows. `stable` says which, where it is zero too.
+    grows. `stable` also decides the case nutation = 0.
     """
 
     rate: Real
@@ -24,7 +24,7 @@ class SteadyPrecession(NamedTuple):
 
 
 def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession]:
-    """Return the steady precessions with the nu and M3 of a quartic, the slower one in w first; `precession` is k2."""
+    """Return the steady precessions with nu and M3 of a quartic, at most two, by ascending w; `precession` is k2."""
     if q.transverse.is_zero:
         return []
     nu, M3, push = q.nu, q.M3, q.a + q.nu * q.A
@@ -57,7 +57,7 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
 
 
 def _any_rate(push: Surd) -> list[SteadyPrecession]:
-    """Return no precession for nu = M3 = 0, where M3 w = a; DomainError if a is zero too."""
+    """Return an empty list for nu = M3 = 0, where M3 w = a has no solution w. Raises DomainError for a = 0."""
     if push.is_zero:
         raise DomainError("With nu = M3 = a = 0 every rate is one of a steady precession.")
     return []
@@ -95,7 +95,7 @@ def stable(q: TopQuartic) -> bool:
 
 
 def sleeping_band(I: fmpq, kappa: fmpq, k3: fmpq, potential: tuple[fmpq, fmpq], side: int) -> tuple[Real, Real] | None:
-    """Return the omega3 between which a top along n (`side` 1) or against it (-1) falls over, None if it never does.
+    """Return the interval of omega3 in which a top along n (`side` 1) or against n (-1) is unstable; None if empty.
 
     With M3 = I omega3 + side k3 it is (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A).
     """

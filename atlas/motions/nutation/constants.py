@@ -43,10 +43,10 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 
 
 class CayleyKlein:
-    """alpha and beta of one motion: constants made at rising precision until each is known, then rounded.
+    """Constants of alpha and beta of one motion, computed at rising precision until each is accurate, then rounded.
 
-    `values` (4, rows) are the weights of their real, then of their imaginary parts; `slopes` adds those of their
-    derivatives by time, but for the further turn of a top.
+    `values` (4, rows) are the weights of Re alpha, Re beta, Im alpha, Im beta; with `slopes` eight more rows are the
+    weights of the derivatives by time, without the swing of a top.
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
@@ -62,7 +62,7 @@ class CayleyKlein:
         return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
 
     def _in_balls(self, t: fmpq) -> list[float]:
-        """Return the real parts, the imaginary parts and, if `sloping`, those of the derivatives at a time."""
+        """Return Re alpha, Re beta, Im alpha, Im beta at a time; if `sloping`, those of the derivatives follow."""
         precision = self.precision
         while True:
             with workprec(precision):
@@ -115,12 +115,12 @@ class CayleyKlein:
 
     @cached_property
     def alternates(self) -> bool:
-        """Whether both change their sign with each whole turn that is left out of the phase in a period."""
+        """Whether alpha and beta change sign with each whole turn of the phase left out in a period."""
         with workprec(self.precision):
             return self.periodic and self._solution().alternates
 
     def _are_lost(self, values: list[list[acb]]) -> bool:
-        """Return whether alpha or beta is too small for a float beside the other, but not zero."""
+        """Return whether alpha or beta is nonzero but too small for a float beside the other."""
         pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
         return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
 
@@ -178,7 +178,7 @@ def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
 
 
 def _reducible(turns: list[arb], origin: arb) -> bool:
-    """Return whether frequencies and origin are known so well that phases can be reduced."""
+    """Return whether frequencies and origin are accurate enough for the reduction of phases."""
     if not all(x.is_finite() for x in turns):
         return False
     scale = max(abs(x) for x in turns)

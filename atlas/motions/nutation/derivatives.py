@@ -165,9 +165,9 @@ class Weighted:
 
 
 class Varied:
-    """Derivatives of one motion in several inputs, of which those with the same constants are made at once.
+    """Derivatives of one motion in several inputs; inputs with equal constants share one evaluation.
 
-    Where there are none, or where terms cancel, they are differences of the motion in balls.
+    Where the constants have no derivatives, or terms cancel, differences of the motion in balls take their place.
     """
 
     def __init__(self, variations: Sequence[Variation], differences: Callable[[], Differences]) -> None:
@@ -217,7 +217,7 @@ class Varied:
 
 
 def _alike(variations: Sequence[Variation]) -> list[list[int]]:
-    """Return the places of variations with the same constants: on a border each input has its own."""
+    """Return lists of indices of variations with equal constants; at a special case each input may have its own."""
     groups: list[list[int]] = []
     for i, x in enumerate(variations):
         for group in groups:

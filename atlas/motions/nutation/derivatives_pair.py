@@ -22,7 +22,7 @@ Array: TypeAlias = np.ndarray[Any, Any]
 
 
 class VariedPair:
-    """alpha and beta of one motion in doubles, with their derivatives in several inputs, at any time."""
+    """alpha and beta of one motion in doubles at any times, with their derivatives in several inputs."""
 
     def __init__(self, variations: Sequence[Variation]) -> None:
         form, places, _, kinds, *_ = variations[0].form
@@ -55,7 +55,7 @@ class VariedPair:
         self.swing = Swing(value, slopes, self) if "swing" in value else None
 
     def _weigh(self, i: int, value: Tables, slopes: Sequence[Tables]) -> None:
-        """Keep the weights of S, C by turns in alpha or beta, in its slope by s, and in its derivatives at rest."""
+        """Store weights, S and C alternating, of alpha (i = 0) or beta (1), of its slope by s and its derivatives."""
         rate, *twists = value["slopes"]
         row, twist, sign = value[f"sum {i}"], twists[i] * acb(0, 1), 1 if self.hyperbolic else -1
         k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
@@ -120,7 +120,7 @@ class VariedPair:
         return out.reshape(2 * count, s.size)
 
     def slope(self, table: Array, i: int) -> Array:
-        """Return the weights of the derivatives by s of functions given by their weights in alpha or beta."""
+        """Return the weights of d/ds of functions from their weights in alpha (i = 0) or beta (1), shape of `table`."""
         k, pairs = self.rate * self.frequencies[i], table.reshape(len(table), -1, 2)
         upper_weights, lower_weights = (
             (pairs[..., 0], -pairs[..., 1]) if self.hyperbolic else (-pairs[..., 1], pairs[..., 0])

@@ -157,14 +157,14 @@ def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
 
 
 def _order(motion: Any) -> list[int]:
-    """Return the order of the principal axes in which that of a symmetric body is the last."""
+    """Return the indices of the principal axes in cyclic order, the axis of symmetry last."""
     inertia = tuple(getattr(motion, "inertia", ()))
     last = next((i for i in (2, 0, 1) if inertia[i - 1] == inertia[i - 2]), 2) if len(inertia) == 3 else 2
     return [(last + 1) % 3, (last + 2) % 3, last]
 
 
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:
-    """Return a body, its energy, M3 and p, and nu at t = 0."""
+    """Return the `Body`, the array (energy, M3, p), and nu at t = 0."""
     names = set(motion.arguments)
     order = _order(motion)
     Omega, b = motion.angular_velocity(0.0)[order], motion.field_in_body(0.0)[order]
@@ -189,7 +189,7 @@ def _start(motion: Any) -> tuple[Body, FloatArray, float]:
 
 
 class Averages:
-    """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and functions of nu there."""
+    """One nutation of given energy, M3 and p: nu at the nodes of the midpoint rule, and functions of nu there."""
 
     def __init__(self, body: Body, state: FloatArray, guess: float, deficit: float = MIN_WIDTH) -> None:
         self.body, self.state = body, state
@@ -237,7 +237,7 @@ class Averages:
 
 
 def _turning_points(Q: FloatArray, guess: float, deficit: float) -> tuple[float, float]:
-    """Return the two roots of Q between -1 and 1 that enclose a nu or are next to it; of a steady motion one twice."""
+    """Return the roots of Q in [-1, 1] that enclose the `guess` of nu or are nearest; equal for a steady motion."""
     roots = np.roots(Q)
     inside = np.sort(roots.real[(abs(roots.imag) < MIN_WIDTH) & (abs(roots.real) < 1 + MIN_WIDTH)].clip(-1.0, 1.0))
     pairs = [(float(x), float(y)) for x, y in pairwise(inside) if np.polyval(Q, (x + y) / 2) > 0 or y - x < MIN_WIDTH]

@@ -7,7 +7,7 @@ from atlas.families.parameters import ELLIPTIC, OMEGA, nutation, rotation
 
 
 def _rates(motion: Any) -> Any:
-    """Return the rates of the steady precessions, of which there are two at most."""
+    """Return a list of the rates of the steady precessions, two at most, or "none"."""
     return [precession.rate for precession in motion.steady_precessions] or "none"
 
 

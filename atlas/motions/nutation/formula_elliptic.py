@@ -31,6 +31,6 @@ def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
 
 
 def places(moments: Vector, z: Number) -> tuple[Number, ...]:
-    """Return the three z + D/I_i."""
+    """Return z + D/I_i, i = 1, 2, 3, with D = I1 I2 I3."""
     D = moments[0] * moments[1] * moments[2]
     return tuple(z + D / I for I in moments)

@@ -30,7 +30,7 @@ SECH_SCALE = 2.0**500
 
 
 class Steady:
-    """One function: one."""
+    """Basis of a steady motion: the single function 1."""
 
     def __init__(self, _found: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 1
@@ -49,7 +49,7 @@ class Steady:
 
 
 class Trigonometric:
-    """sin v and cos v times powers of F = 2 cos 2v, and 1 where one of the sums is constant, up to a common factor."""
+    """Basis sin v F^j, cos v F^j with F = 2 cos 2v, and 1 if one of the sums is constant, up to a common factor."""
 
     def __init__(self, _found: Solution, sums: Sequence[Sum]) -> None:
         self.terms = max(_terms(sum_) for sum_ in sums)
@@ -64,7 +64,10 @@ class Trigonometric:
         return _powers(pairs, doubled=False) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
 
     def fill(self, rows: FloatArray, u: FloatArray) -> None:
-        """Fill the rows, over cos v, from u = tan v; where one is constant, times 1 + u^2, from u = tan(v/2)."""
+        """Write the basis functions into rows (count, N), from u = tan v: divided by cos v.
+
+        Where a sum is constant, u = tan(v/2), and the functions are multiplied by 1 + u^2.
+        """
         sin, cos = rows[:2]
         square = u * u
         if self.constant:
@@ -94,7 +97,7 @@ class Trigonometric:
 
     @property
     def multiple(self) -> int:
-        """Twice v is so many times the angle whose tangent `fill` takes."""
+        """Ratio of 2v to the angle whose tangent `fill` takes."""
         return 4 if self.constant else 2
 
     def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -149,13 +152,13 @@ class Hyperbolic:
         return max([1, *(j // 2 + 1 for j, size in enumerate(sizes) if size > least)])
 
     def _polynomials(self, sum_: Sum) -> list[acb]:
-        """Return the weights of tanh x W^j and of W^j by turns: both are polynomials in 2 cosh 2x = W/part."""
+        """Return the weights of tanh x W^j and of W^j, alternating: polynomials in 2 cosh 2x = W/part."""
         pairs = zip(sum_.odd, sum_.even, strict=True)
         powers = _powers(pairs, doubled=sum_.doubled)
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
-        """Fill the rows (m, N) from x + rest, both (N,)."""
+        """Write the basis functions at x + low, both (N,), into rows (count, N)."""
         # m = exp|x| - 1 keeps its digits for small and large x; the low word of x is added to first order
         m = np.expm1(np.minimum(np.abs(x), MAX_EXPONENT))
         up = m + WHOLE
@@ -212,7 +215,7 @@ class Linear:
         return [sum_.odd[0], sum_.even[0]]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
-        """Fill the rows (m, N) from x + rest, both (N,)."""
+        """Write the basis functions at x + low, both (N,), into rows (count, N)."""
         x = x + low
         size = np.maximum(np.abs(x), 1.0)
         np.divide(x, size, out=rows[0])
@@ -236,7 +239,7 @@ class Line:
         self.longest = (2 * MAX_EXPONENT + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
     def at(self, t: FloatArray, low: FloatArray | float) -> tuple[FloatArray, FloatArray]:
-        """Return x at t + rest, and its rounding error."""
+        """Return x at time t + low, and its rounding error."""
         upper = t * SPLITTER
         upper -= upper - t
         lower = t - upper
@@ -266,7 +269,7 @@ ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
 
 
 def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
-    """Return the weights of both functions times powers of F by turns, from those for rising k."""
+    """Return the weights of S F^j and C F^j, alternating, from the weights of S(k x) and C(k x) for rising k."""
     total = list[acb]()
     for n, weights_of_k in enumerate(weights):
         total += [acb(0), acb(0)]

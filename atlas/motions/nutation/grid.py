@@ -64,18 +64,18 @@ class Grid:
     step: float
 
     def fill(self, evaluation: Evaluation, index: FloatArray, rows: FloatArray) -> None:
-        """Fill rows (m, 9) with the matrices of the numbers i, the first and last of which are the extreme ones."""
+        """Write R at start + i step into rows (m, 9) for i in `index` (m,), whose ends are its extremes."""
         times = moments(self.motion.pair.phases, self.start, self.step, index)
         combined(evaluation.products_at(*times), self.motion.entries, rows)
 
 
 def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
-    """Return the times start + i step as doubles, and their low words or None; first and last i are extreme.
+    """Return the times start + i step as doubles, and their low words or None; first and last i are the extremes.
 
-    A low word is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times not too many
-    and the start not far beyond them, start and step are cut instead where the last digit of a double twice as large as
-    any time is: then the first words are exact, and the rest is known to 2^-85 of the time; that next to zero is made
-    by itself.
+    A low word is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times few and the start
+    not far outside the grid, start and step are instead split at the last digit of a double twice as large as any time.
+    The high words are then exact, and the low words known to 2^-85 of the time; the time next to zero is evaluated
+    singly.
     """
     start_time, stop_time = (start + step * float(index[i]) for i in (0, -1))
     span = max(abs(start_time), abs(stop_time))
@@ -119,9 +119,9 @@ def fill_each(grid: Grid, out: FloatArray, start_index: int = 0) -> None:
 
 @cache
 def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return NODES of the times 0 ... length - 1, and the matrices to values at all times and to two coefficients.
+    """Return the NODES nodes in 0 ... length - 1, and matrices from values there to all values and to two coefficients.
 
-    The nodes are Chebyshev's, with the ends, rounded to whole numbers; the coefficients are the last in his series.
+    The nodes are Chebyshev's, with the ends, rounded to integers; the coefficients are the last two of his series.
     """
     half = (length - 1) / 2
     nodes = np.round(half - half * np.cos(np.pi * np.arange(NODES) / (NODES - 1)))
@@ -145,7 +145,7 @@ class Windows:
         self.values = np.empty((NODES * size, 9))
 
     def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
-        """Return values (j - i, NODES, 9) in the windows i ... j - 1, and whether polynomials hold there."""
+        """Return values (j - i, NODES, 9) at the nodes of windows i ... j - 1, and whether polynomials suffice."""
         index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
         values = self.values[: index.size]
         self.grid.fill(self.evaluation, index.reshape(-1), values)
@@ -164,7 +164,7 @@ def window(grid: Grid, count: int) -> int:
 
 
 def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
-    """Fill the matrices by polynomials, and time by time where these do not hold."""
+    """Write R on a grid into `out` by polynomials, and time by time in windows where these are not accurate."""
     rows, count = out.reshape(-1, 9), len(out) // length
 
     def fill(low: int, high: int) -> None:

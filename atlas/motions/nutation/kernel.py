@@ -177,7 +177,7 @@ class NutatingMotion(Motion[Nutation]):
         return self._in_body(np.asarray(finite(K, "K")))
 
     def _rate(self, name: str) -> FloatOrArray:
-        """Return a mean rate: the angle in a period over that, or where there is none the rate of a free body."""
+        """Return a mean rate in rad/time: the angle per period over the period, or the rate of a free body."""
         if not self.shape and not np.isfinite(self.period):
             return self._scalar(f"{name}_rate")
         rates = np.array(np.divide(getattr(self, f"{name}_per_period"), self.period))
@@ -203,7 +203,7 @@ class NutatingMotion(Motion[Nutation]):
         return np.asarray(rows.reshape(self.shape + rows.shape[1:]))
 
     def _wheels(self) -> Wheels:
-        """Return the turns of one motion."""
+        """Return the `Wheels` of one motion, its rotations at uniform rates."""
         from atlas.motions.nutation.spectrum import of_nutation
 
         return of_nutation(self, self._single().exact)
@@ -250,6 +250,6 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
 
 def padded(roots: list[Any]) -> Any:
-    """Return four roots as complex floats."""
+    """Return an array of four complex roots, the missing ones infinite."""
     finite_roots = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
     return np.array(finite_roots + [complex("inf")] * (4 - len(finite_roots)))

@@ -163,7 +163,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     @classmethod
     def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
-        """Return the motion, and its principal axes."""
+        """Return (motion, principal axes as rows) from a `Start`."""
         axes = start.body.axes
         return cls(parts(start.body.moments), tuple(start.along(axes)[0]), **parameters), axes
 

@@ -90,14 +90,14 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return the motion of a symmetric body, and its principal axes."""
+        """Return (motion, principal axes as rows) of a symmetric body; None for a body with three moments."""
         if not start.is_symmetric:
             return None
         body, axes, K, w = start.symmetric
         return cls(body, tuple(K), tuple(w)), axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion."""
         from atlas.motions.nutation.derivatives_inputs import of_general
 
         exact = self._single(i).exact
@@ -167,7 +167,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
 
 def field_components(field: Any) -> list[Any]:
-    """Return the components (B2, B3) of a field, or (B1, B2, B3) where there are three, of a `Field` where B1 != 0."""
+    """Return the components [B2, B3] of a field, or [B1, B2, B3] if three are given; of a `Field`, three if B1 != 0."""
     try:
         three = field.prime[0] != 0 if hasattr(field, "prime") else len(getattr(field, "values", field)) == len("123")
     except TypeError:

@@ -341,7 +341,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @classmethod
     def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
-        """Return the top of a `Start`, and axes (..., 3, 3), as rows in those of the body, in which its n1 is 0."""
+        """Return (top, axes) from a `Start`; the rows of `axes` (..., 3, 3) are chosen so that n1 = 0."""
         n, w = start.along(np.eye(3))
         axes: FloatArray = np.eye(3)
         if np.any(n[0]):
@@ -353,7 +353,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         return cls((plain(I[..., 1]), plain(I[..., 2])), direction=n[1:], omega=w, **parameters), axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion."""
         from atlas.motions.nutation.derivatives_inputs import of_top
 
         return of_top(self._row(i))

@@ -85,7 +85,7 @@ class PseudoOscillator:
             return finite(plain((self.omega1 * self.B2) ** 2 + d * constant_term), "The first integral Q(u)")
 
     def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
-        """Return u, d = omega3 - u and P, D, L (see `quartic`) as they stand in (49)."""
+        """Return u, d = omega3 - u, and the factors P, D, L of (49), see `quartic`."""
         I, _, two_less = shape_factors(self.ratio)
         u = self._met(u)
         with np.errstate(over="ignore", invalid="ignore"):

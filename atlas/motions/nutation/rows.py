@@ -45,7 +45,7 @@ class Third(NamedTuple):
 
 
 def _velocity(block: Block) -> tuple[Constants, Third]:
-    """Return the constants of the angular velocity of a block, and those of its third component."""
+    """Return the `Constants` of the angular velocity of a block, and the `Third` of its third component."""
     r = block.roots
     pair = SpherePair(block.means, sphere_of_velocity(r))
     constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
@@ -71,7 +71,7 @@ class Rows:
 
     @cached_property
     def velocity(self) -> tuple[Any, ...]:
-        """Constants of the angular velocity, and of its third component."""
+        """Tuple (`Constants`, `Third`) of the angular velocity and of its third component, all motions."""
         return self._constants(_velocity)
 
     def _constants(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
@@ -82,12 +82,12 @@ class Rows:
             )
 
     def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
-        """Return motions by their index at the times t that go with them."""
+        """Return the motions of the given indices, paired with the times t of the same shape."""
         return self._motions(self, index, t)
 
 
 class MotionsAtTimes:
-    """Motions in a row, each at one time; `extreme` are the places of those that have to be made alone."""
+    """Motions paired with times; `extreme` holds the indices that need the scalar path."""
 
     def __init__(self, rows: Rows, index: Any, t: FloatArray) -> None:
         self._rows, self._index, self._times = rows, index, t
@@ -95,7 +95,7 @@ class MotionsAtTimes:
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the constants of the axis and the field of a block."""
+        """Return the tuple of constants to be evaluated, of a `Block`; here those of the axis and the field alone."""
         return (block.constants,)
 
     def rotation(self, _: FloatArray, out: FloatArray) -> None:
@@ -130,7 +130,7 @@ class MotionsAtTimes:
         pair.turn_back(out)
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
-        """Write Omega into (m, 3): its pair is that of (Omega2, Omega1, -sqrt(I) Omega3)."""
+        """Write Omega into `out` (m, 3), from the Cayley-Klein pair of (Omega2, Omega1, -sqrt(I) Omega3)."""
         constants, third = self._rows.velocity
         pair, third = self._pair(constants), self._selected(third)
         pair.vector(out, offset=1)
@@ -146,12 +146,12 @@ class MotionsAtTimes:
         return pair
 
     def _selected(self, constants: Any) -> Any:
-        """Return the constants of these motions."""
+        """Return the constants of the selected motions, a tuple of the same type."""
         return type(constants)(*(x[..., self._index] for x in constants))
 
 
 class TopsAtTimes(MotionsAtTimes):
-    """Tops in a row, each at one time."""
+    """Tops paired with times."""
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
@@ -231,7 +231,7 @@ class CayleyKleinAtTimes:
         return bool(self.constants.plane[1].any())
 
     def turn_back(self, out: FloatArray) -> None:
-        """Turn vectors (m, ..., 3), or quaternions, into the axes in which the field was given."""
+        """Turn vectors (m, ..., 3), or quaternions, in place to the axes in which the field was given."""
         if self.turns:
             x, y = out[..., 0].copy(), out[..., 1]
             cos, sin = (z.reshape(-1, *[1] * (x.ndim - 1)) for z in self.constants.plane)

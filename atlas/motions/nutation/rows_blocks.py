@@ -58,7 +58,10 @@ class Constants(NamedTuple):
 
 @dataclass(frozen=True)
 class Block:
-    """Motions `rows` of all; the exponents of the power of two that their frequencies are over; where that is fine."""
+    """A block of motions: the slice `rows`, their roots, and scaling exponents.
+
+    Frequencies are divided by 2^`exponents`; `is_similar` marks the motions whose inputs have similar sizes.
+    """
 
     rows: slice
     roots: Roots
@@ -67,7 +70,7 @@ class Block:
 
     @cached_property
     def means(self) -> Means:
-        """Gauss's means."""
+        """Arithmetic-geometric means of the block."""
         return Means(self.roots)
 
     @cached_property
@@ -95,7 +98,7 @@ class Block:
 
     @property
     def constants(self) -> Constants:
-        """Constants of the pair; its words are those of the whole turn, its rates are not."""
+        """`Constants` of (alpha, beta): the words of the frequencies include the swing of a top, `rates` do not."""
         constants = self.constants_of(self.pair)
         if not (self.roots.top and self.swing and self.swing_rate):
             return constants
@@ -141,7 +144,7 @@ class Block:
 
 
 def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
-    """Return frequencies over a power of two as words in half turns, and bounds on their errors."""
+    """Return frequencies in half turns as words (2, ...) times 2^exponents, and bounds on their errors."""
     turns = rates * PER_RADIAN
     return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 
@@ -167,7 +170,7 @@ class Blocks:
         return iter(self._kept)
 
     def each(self) -> Iterator[Block]:
-        """Make the blocks."""
+        """Yield the blocks."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
             is_similar = _alike([abs(np.asarray(x).reshape(-1)[rows]) for x in columns[self._unit]])
@@ -176,7 +179,7 @@ class Blocks:
 
     @staticmethod
     def _roots(*inputs: DoubleDouble) -> Any:
-        """Return the turning points and the rest."""
+        """Return the `Roots` of motions from double-double columns I2, I3, field and omega."""
         I2, I3, *vectors = inputs
         (B2, B3), omega, plane = in_plane(*vectors)
         return roots_of(I2, I3, (B2, B3), omega, plane=plane)
@@ -186,7 +189,7 @@ class TopBlocks(Blocks):
     """Tops I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic, which broadcast to a shape, by blocks."""
 
     def each(self) -> Iterator[Block]:
-        """Make the blocks."""
+        """Yield the blocks of tops, scaled by powers of two."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
             batch = [part(x, slice(start, start + BLOCK)) for x in columns]
@@ -207,9 +210,9 @@ class TopBlocks(Blocks):
 
 
 def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
-    """Return powers of two over which moments, rates and n of tops are of the order of one, and those of their rates.
+    """Return an exponent for each column of tops' inputs, which makes sizes near one, and the exponents of the rates.
 
-    Tops whose numbers are ordinary as they are stay so; None where all are.
+    Tops with inputs of ordinary size have exponents 0; if all are ordinary, the list is of None and the second 0.
     """
     with np.errstate(all="ignore"):
         I2, _, k2, k3, n2, n3, *omega, linear, quadratic = columns

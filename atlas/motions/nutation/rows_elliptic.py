@@ -75,7 +75,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def is_excluded(self) -> Any:
-        """Where the motion is of another kind."""
+        """Mask of the rows whose motion is not elliptic."""
         return ~self.elliptic
 
     @property
@@ -117,7 +117,7 @@ class Pencil:
         return chosen(axis == 0, K_b, chosen(axis == 1, K_c, third))
 
     def difference(self, i: Any, j: Any) -> DoubleDouble:
-        """Return e_j - e_i."""
+        """Return e_j - e_i as z (I_i - I_j) e_i e_j, without cancellation."""
         pick = self.pick
         return self.z * (pick(i, self.I) - pick(j, self.I)) * pick(i, self.e) * pick(j, self.e)
 
@@ -130,7 +130,7 @@ class Pencil:
 
     @cached_property
     def nutation_axis(self) -> tuple[Any, Any, Any]:
-        """The axis a that nutates, the middle one of e, and the outer one about which K goes round."""
+        """Indices of three axes: the nutating one, the axis of the middle e, and the outer axis that K circles."""
         pick, K, e = self.pick, self.K, self.e
         low, middle, high = (np.argmax(self.order == n, axis=0) for n in range(3))
         # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
@@ -140,7 +140,7 @@ class Pencil:
 
     @cached_property
     def rates(self) -> list[DoubleDouble]:
-        """E_i - 1, from K to Omega."""
+        """Factors E_i - 1, i = 1, 2, 3, with Omega_i = (E_i - 1) K_i."""
         return [-(self.v * y) - ONE for y in self.e]
 
     def is_elliptic(self, w: DoubleDouble) -> Any:
@@ -200,7 +200,10 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
 
 
 def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
-    """Return axes in which (x, y) along the two that follow `axis` in the cyclic order is along the second one."""
+    """Return axes (3, 3, ...) turned about `axis` so that the transverse vector (x, y) lies along the second one.
+
+    x and y are the components along the two axes that follow `axis` in cyclic order.
+    """
     axes = np.zeros((3, 3, *shape))
     for k in range(3):
         is_axis, axis_b, axis_c = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
@@ -246,7 +249,7 @@ class EllipticBlocks(Blocks):
 
 
 class EllipticScalars(Scalars):
-    """Scalars of elliptic motions in arrays: all of one pass."""
+    """Scalars of elliptic motions in arrays, all computed in one pass."""
 
     def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
         del name
@@ -287,7 +290,7 @@ class Axes(NamedTuple):
 
 
 class EllipticAtTimes(MotionsAtTimes):
-    """Elliptic motions in a row, each at one time."""
+    """Elliptic motions paired with times."""
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:

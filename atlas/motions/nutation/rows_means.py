@@ -23,7 +23,7 @@ Circle = tuple[DoubleDouble, DoubleDouble]
 
 @dataclass(frozen=True)
 class Level:
-    """Two means a >= g, their difference, product and sum."""
+    """Two means a >= g of one step, with difference a - g, product a g and sum a + g."""
 
     a: DoubleDouble
     g: DoubleDouble
@@ -33,12 +33,12 @@ class Level:
 
     @property
     def numbers(self) -> tuple[DoubleDouble, ...]:
-        """All five."""
+        """Tuple (a, g, difference, product, sum)."""
         return self.a, self.g, self.difference, self.product, self.sum
 
     @cached_property
     def is_merged(self) -> Any:
-        """Where both means are one."""
+        """Mask of the rows where a and g agree to MEANS_TOLERANCE."""
         return ~(self.difference.hi > MEANS_TOLERANCE * self.a.hi)
 
 
@@ -61,7 +61,7 @@ class Means:
         self.levels = self._levels()
 
     def _levels(self) -> list[Level]:
-        """Return the means from the first."""
+        """Return the levels of the arithmetic-geometric mean, from the first until all rows are merged."""
         a, g = self.plus.sqrt().scaled(-1), self.N.sqrt()
         total = a + g
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
@@ -78,19 +78,19 @@ class Means:
         return levels
 
     def level(self, n: int) -> Level:
-        """Return the means after n steps; the last ones are the same."""
+        """Return the level after n steps, the last one for n beyond it."""
         return self.levels[min(n, len(self.levels) - 1)]
 
     @cached_property
     def rate(self) -> DoubleDouble:
-        """M = pi/T."""
+        """Rate M = pi/T, T the period of nutation: the limit of the means."""
         before = self.levels[-1]
         M = before.sum.scaled(-1)
         return DoubleDouble(M.hi, M.lo, M.rel + before.difference.hi / M.hi)
 
     @cached_property
     def moduli(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """Modulus and complementary modulus."""
+        """Modulus k and complementary modulus k' of the elliptic functions."""
         top = self.levels[0]
         root = abs(self.D).sqrt()
         square = (self.S + root).scaled(-1)

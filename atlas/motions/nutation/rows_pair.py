@@ -149,12 +149,12 @@ class SpherePair:
 
     @cached_property
     def _signs(self) -> list[Any]:
-        """Signs of the powers of the nome."""
+        """Signs of the terms n = 0 ... MAX_TERMS - 1 of the theta sums, one array each."""
         return [np.where(self.means.four, 1.0, (-1.0) ** (n * (n + 1) // 2)) for n in range(MAX_TERMS)]
 
     @cached_property
     def change(self) -> Change:
-        """Change of Omega3."""
+        """`Change` of Omega3 from its initial value."""
         r, square = self.means.roots, self.means.nome * self.means.nome
         weight, power = constant(1.0, square), constant(1.0, square)
         zero = constant(0.0, square)
@@ -188,7 +188,7 @@ class SpherePair:
 
     @property
     def _by_slopes(self) -> Any:
-        """The same where alpha or beta is zero at the start: by its derivative."""
+        """Factors of alpha and beta where these are zero at the start, from their derivatives there."""
         cos, sin = (x.hi for x in self.means.start)
         terms = zip(range(1, 2 * MAX_TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
         slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
@@ -229,7 +229,7 @@ def _steps(
 
 
 def _merged(going: Any, rows: Any, x: DoubleDouble, fallback: DoubleDouble) -> DoubleDouble:
-    """Return x, of some rows or of all, where a condition holds, and the other elsewhere."""
+    """Return x where `going` holds, else `fallback`; x has the rows `rows` of the fallback, or all."""
     if isinstance(rows, slice):
         return chosen(going, x, fallback)
     words = [np.array(np.broadcast_to(y, fallback.hi.shape)) for y in (fallback.hi, fallback.low, fallback.rel)]

@@ -32,9 +32,10 @@ ROUNDING = 2.0**-98
 
 @dataclass(frozen=True)
 class TurningPoints:
-    """Turning points `low` <= 0 <= `high`, where `exact`, and the other factor of Q, f0, f1, f2; f < 0 between them.
+    """Turning points `low` <= 0 <= `high` of v, valid where `exact`, and the other factor f0 + f1 v + f2 v^2 < 0 of Q.
 
-    `poles` (2, m) are where nu, the cosine of the angle between axis and field, is -1 and 1; `rate` that of v at 0.
+    `poles` (2, m) are the v at which nu, the cosine of the angle between axis and field, is -1 and 1; `rate` is dv/dt
+    at v = 0.
     """
 
     rate: DoubleDouble
@@ -45,7 +46,7 @@ class TurningPoints:
 
     @cached_property
     def exact(self) -> Any:
-        """Where the turning points are the ones next to 0: f is negative at both, and between them."""
+        """Mask of rows where f is certainly negative between the turning points, so that these are the nearest to 0."""
         f1, f2 = self.f[1].hi, self.f[2].hi
         vertex, low, high = -f1 / (2 * f2), self.low.hi, self.high.hi
         margin = 1e-9 * (high - low) + 1e-12 * abs(vertex)
@@ -73,7 +74,7 @@ class TurningPoints:
 
     @cached_property
     def other_roots(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
-        """Two real roots of the other factor, or their real part twice, and their imaginary part."""
+        """Roots x, y of the other factor and 0 if they are real; else their real part twice, and the imaginary part."""
         f0, f1, f2 = self.f
         half, real = -f1.scaled(-1), self.discriminant.hi > 0
         root = abs(self.discriminant).sqrt()
@@ -113,22 +114,22 @@ class Roots(TurningPoints):
 
     @cached_property
     def is_excluded(self) -> Any:
-        """Where there is no field."""
+        """Mask of rows without a field."""
         return self.b.hi == 0
 
     @cached_property
     def ball(self) -> Any:
-        """Where I = 1, and the axis has no potential."""
+        """Mask of balls: I = 1 and no potential."""
         return (self.less.hi == 0) & (self.top is None)
 
     @cached_property
     def starts_on_field(self) -> Any:
-        """Where the axis starts along the field."""
+        """Mask of rows whose axis starts along the field."""
         return self.n2.hi == 0
 
     @cached_property
     def at_rest(self) -> Any:
-        """Where the body starts at rest."""
+        """Mask of rows that start at rest."""
         return np.logical_and.reduce([w.hi == 0 for w in self.omega])
 
     @property
@@ -227,7 +228,7 @@ def in_plane(
 
 
 def poles_of(k_along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
-    """Return along + b and along - b, (2, m), of which one cancels; `square` is b^2 - along^2."""
+    """Return k + b and k - b, (2, m), k = `k_along`, both without cancellation; `square` is b^2 - k^2."""
     up, longer = k_along.hi > 0, b + abs(k_along)
     shorter = -square / longer
     return stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer))
@@ -260,7 +261,7 @@ def roots_of_tops(*inputs: DoubleDouble) -> Roots:
 
 
 def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> DoubleDouble:
-    """Return A, from exact numbers where its terms cancel; the sign of A decides the number of roots."""
+    """Return A, computed exactly in rows where its terms cancel: the sign of A decides the number of roots."""
     hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
     for i in np.flatnonzero(~(rel < 0.5)).tolist():
         numbers = (float(np.broadcast_to(x.hi, A.hi.shape)[i]) for x in inputs)
@@ -273,7 +274,7 @@ def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> 
 def turning(
     q: tuple[DoubleDouble, ...], poles: DoubleDouble
 ) -> tuple[DoubleDouble, DoubleDouble, tuple[DoubleDouble, DoubleDouble, DoubleDouble]]:
-    """Return the turning points and the other factor of quartics q0 + q1 v + ... between the poles."""
+    """Return turning points (low, high) and the other factor (f0, f1, f2) of quartics q0 + q1 v + ..."""
     starts_flat = q[0].hi == 0
     words = np.array([np.broadcast_to(x.hi, q[0].hi.shape) for x in q])
     low = _refined(-_first_root(words * ALTERNATING, -poles.hi[1], starts_flat), q)
@@ -292,10 +293,10 @@ ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0, 1.0])[:, None]
 
 
 def _first_root(q: FloatArray, reach: FloatArray, starts_flat: Any) -> FloatArray:
-    """Return the first root of polynomials q (5, m) above 0, in doubles; each is positive before and there is one.
+    """Return the first root above 0, (m,), of polynomials q (5, m) that are positive before it, in doubles.
 
-    Where `at_rest`, 0 is a root, and the result if q is negative beyond. No step goes too far: it is that to
-    the root of a parabola below q, whose second derivative is the least that q has between here and `reach`.
+    Where `starts_flat`, 0 is a root, and the result if q is negative beyond. No step passes the root: each goes to the
+    root of a parabola below q, whose second derivative is the least of q between here and `reach`.
     """
     q = np.where(starts_flat, np.concatenate([q[1:], 0 * q[:1]]), q)
     roots, rows = np.zeros_like(reach), np.arange(reach.size)

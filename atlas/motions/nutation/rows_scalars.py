@@ -43,21 +43,21 @@ HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 
 
 
 class Rounded(NamedTuple):
-    """Values in one row (..., m), and where they are the nearest doubles for certain."""
+    """Values (..., m) of m motions, and a mask (m,) of those that are certainly the nearest doubles."""
 
     values: Any
     is_certain: Any
 
 
 class Scalars:
-    """Scalars of many motions: each is `Rounded`, evaluated with others that share its steps."""
+    """Scalars of many motions by name, each a `Rounded`; a pass computes several at once."""
 
     def __init__(self, blocks: Blocks) -> None:
         self.blocks = blocks
         self._known: dict[str, Rounded] = {}
 
     def __getitem__(self, name: str) -> Rounded:
-        """Return a scalar by its name."""
+        """Return the `Rounded` of a scalar by its name."""
         if name not in self._known:
             self._fill(self._values(name))
         return self._known[name]
@@ -88,7 +88,7 @@ def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
 
 
 def _scalars(block: Block) -> dict[str, Rounded]:
-    """Return kind, turning points, roots, period, moduli and nome of a block."""
+    """Return kind, turning points, roots, period, moduli and nome of a block, each a `Rounded` by name."""
     with np.errstate(all="ignore"):
         r = block.roots
         is_field = r.top is None
@@ -99,7 +99,7 @@ def _scalars(block: Block) -> dict[str, Rounded]:
 
 
 def _of_tops(block: Block) -> dict[str, Rounded]:
-    """Return the turning points of tops, (2, m), and the kind as its place in TOP_KINDS."""
+    """Return the turning points of tops, (2, m), and the kind as an index into TOP_KINDS, each a `Rounded` by name."""
     r = block.roots
     low, high = (rounded((r.n3 - x) / r.b, block) for x in (r.high, r.low))
     cubic, even = r.A.hi == 0, (r.a.hi == 0) & (r.A.hi == 0) if r.a else np.False_
@@ -121,7 +121,7 @@ def of_period(block: Block) -> dict[str, Rounded]:
 
 
 def _kinds(block: Block) -> dict[str, Rounded]:
-    """Return the kind as its place in KINDS."""
+    """Return {"kind": index into KINDS} of a block."""
     r = block.roots
     steady = np.select([r.at_rest, r.starts_on_field], [3, 5], 4)
     fieldless, moving = np.where(r.at_rest, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
@@ -147,7 +147,7 @@ def _all_roots(block: Block) -> dict[str, Rounded]:
 
 
 def _angles(block: Block) -> dict[str, Rounded]:
-    """Return the angles of precession and of spin in one period."""
+    """Return precession and spin in one period of a block, in rad, each a `Rounded` by name."""
     with np.errstate(all="ignore"):
         r = block.roots
         sphere, angles = block.pair.sphere, block.pair.angles

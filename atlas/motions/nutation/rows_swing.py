@@ -100,14 +100,14 @@ class Swings(NamedTuple):
         return swings._replace(before=swings.half_of(*start)[0])
 
     def half(self, phase: tuple[FloatArray, FloatArray], t: FloatArray) -> tuple[Extended, FloatArray]:
-        """Return half the turn since t = 0, and its error, at a phase whose half is in two words, in radians."""
+        """Return half the swing since t = 0 and its error, from half the phase in two words, in radians."""
         angle = 4 * (phase[0].astype(np.longdouble) + phase[1])
         (c, s), cos, sin = self.start, np.cos(angle), np.sin(angle)
         turn, error = self.half_of(c * cos - s * sin, s * cos + c * sin)
         return turn - self.before, 2 * error + np.pi * self.slope * self.frequency_error * abs(t)
 
     def half_of(self, cos: Extended, sin: Extended) -> tuple[Extended, FloatArray]:
-        """Return half the turn from cosine and sine of 2 y, and its error."""
+        """Return half the swing, in rad, and its error, from cosine and sine of 2 y."""
         even, odd, multiple, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
         lost_even, lost_odd = abs(self.even[0]), 0 * abs(sin)
         for n in range(1, MAX_TERMS):

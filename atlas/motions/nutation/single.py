@@ -44,7 +44,7 @@ class SingleMotion:
 
     @cached_property
     def pair(self) -> CayleyKlein:
-        """Constants of the pair. Raises DomainError where floats do not hold it."""
+        """Constants of (alpha, beta). Raises DomainError where alpha or beta underflows."""
         exact = self.exact  # not of self, which holds the parts: memory would wait for the collector of garbage
         pair = CayleyKlein(lambda: exact.solution)
         if pair.is_lost:
@@ -56,7 +56,7 @@ class SingleMotion:
 
     @cached_property
     def sides(self) -> tuple[FloatArray, FloatArray]:
-        """Factors (3, 3) left and right of the matrix of (alpha, beta); the right one turns about e3."""
+        """Matrices (left, right), (3, 3) each, around the matrix of (alpha, beta); `right` is a rotation about e3."""
         # at the precision of the other constants, which share the sphere
         c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST_BITS - 64)
         with workprec(2 * BITS):  # else it would be that of the caller
@@ -143,7 +143,7 @@ BALL_BLOCK = 16
 
 
 class SingleGeneral(SingleMotion):
-    """One general motion."""
+    """One general motion: its constants in balls, and the evaluation of matrices at times."""
 
     exact: GeneralMotion
 
@@ -167,7 +167,10 @@ class SingleGeneral(SingleMotion):
 
     @cached_property
     def _zeros(self) -> list[int]:
-        """Components that are zero at all times in the product of two turns, by k about an axis and by phi about e3."""
+        """Indices of the quaternion components that vanish at all times in a product of two rotations.
+
+        The rotations are by k about `turning_axis` and by phi about e3; the list is empty unless theta is constant.
+        """
         if not self.exact.is_steady:
             return []
         n1, n2, n3 = self.exact.turning_axis
@@ -187,7 +190,7 @@ class SingleGeneral(SingleMotion):
         return Omega
 
     def _third(self, t: FloatArray) -> FloatArray:
-        """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""
+        """Return Omega3 at times (m,): for many in double-double, and from balls where that is not accurate enough."""
         out, uncertain = np.empty((t.size, 3)), np.arange(t.size)
         if t.size > BALL_BLOCK:
             from atlas.motions.nutation.rows import MotionsAtTimes, Rows
@@ -211,7 +214,7 @@ class SingleTop(SingleMotion):
 
     @cached_property
     def _sloping(self) -> CayleyKlein:
-        """The pair with its derivatives by time."""
+        """Constants of (alpha, beta) with those of their derivatives by time."""
         return CayleyKlein(lambda: self.exact.solution, slopes=True)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -24,22 +24,22 @@ class SingleElliptic(SingleMotion):
 
     @cached_property
     def sides(self) -> tuple[FloatArray, FloatArray]:
-        """Constant factors, (3, 3) each, left and right of the matrix of (alpha, beta), of axes in their own order."""
+        """Matrices (left, right), (3, 3) each, around the matrix of (alpha, beta), for axes in the order of moments."""
         (left, right), axes = super().sides, np.eye(3)[list(self.exact.places)]
         return axes.T @ left, np.asarray(right @ axes)
 
     @cached_property
     def _rates(self) -> FloatArray:
-        """Factors from K to Omega."""
+        """Factors E_i - frame, shape (3,): Omega_i = factor_i K_i along the principal axes."""
         rates = enclosed(lambda: [arb(E - self.exact.frame) for E in self.exact.E], BITS)
         return np.array([float(x.mid()) for x in rates])
 
     def accuracy(self, size: float) -> float:
-        """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
+        """Return the bound on errors of entries of R, and of K and Omega relative to the rate `size`."""
         return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""
+        """Return Omega(t), Omega_i = (E_i - 1) K_i, or I^-1 m of a free body, shape (..., 3)."""
         Omega = self._linear(self.field, t, (3,), out)
         Omega *= self._rates
         return Omega
@@ -52,7 +52,7 @@ class SingleElliptic(SingleMotion):
 
 
 class SingleEulerTop(SingleElliptic):
-    """One free body, or a body that spins about a principal axis along the `field`, which is constant in the body."""
+    """One free body, or one that spins about a principal axis along the field, which is constant in the body."""
 
     def __init__(self, exact: EulerTop, field: FloatArray) -> None:
         super().__init__(exact)

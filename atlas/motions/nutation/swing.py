@@ -70,11 +70,11 @@ class Swing:
 
     @property
     def is_large(self) -> bool:
-        """Whether extended precision is taken."""
+        """Whether extended precision is used."""
         return self.type is np.longdouble
 
     def _number(self, x: arb | int) -> Any:
-        """Return the middle of a ball as a number of the type."""
+        """Return the midpoint of a ball as a number of `type`."""
         middle = arb(x).mid()
         head = float(middle)
         return self.type(head) + self.type(float(middle - head))
@@ -86,7 +86,7 @@ class Swing:
         return max((n + 1 for n, x in enumerate(terms) if not x < NEGLIGIBLE * largest), default=1)
 
     def half_at(self, multiple: int, half: FloatArray, low: FloatArray) -> FloatArray:
-        """Return half the turn (m,) at half phases and their low words (m,), 2v being a multiple; rounded once."""
+        """Return half the swing (m,), rounded once, at half phases with low words (m,); 2v = `multiple` half phases."""
         v = multiple * self._sum(half, low)
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
 
@@ -103,7 +103,7 @@ class Swing:
         return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(low, dtype=self.type))
 
     def _rounded(self, angle: Numbers) -> FloatArray:
-        """Return an angle as doubles; a large one less whole turns."""
+        """Return an angle as doubles, in extended precision reduced by whole turns first."""
         if self.is_large:
             angle = np.remainder(angle + HALF_TURN, 2 * HALF_TURN) - HALF_TURN
         return np.asarray(angle, dtype=np.float64)
@@ -147,14 +147,14 @@ class Swing:
         return np.asarray(np.where(smaller < MAX_EXP_ARGUMENT, by_log1p, by_log) / 2)
 
     def _turn(self, odd: Numbers, even: Numbers) -> Numbers:
-        """Return the turn of O and E."""
+        """Return the angle of swing from the sums O and E."""
         if self.sign < 0:
             return np.asarray(self.factor * np.arctan2(odd, even))
         return np.asarray(self.factor * (np.arctanh(odd / even) if self.sign else odd / even))
 
 
 class Crossing:
-    """Half of the turn on the separatrix between n and -n: its rate changes sign where x = slope s/2 does."""
+    """Half the swing on the separatrix between n and -n, in rad: the rate changes sign at x = slope s/2 = 0."""
 
     is_known, is_large = True, False
 
@@ -170,5 +170,5 @@ class Crossing:
 
 
 def _is_known(x: arb, largest: arb) -> bool:
-    """Whether a weight is known to itself, or too small to matter."""
+    """Whether a weight is accurate relative to itself, or negligible beside the largest."""
     return bool(x.rad() <= ACCURATE * abs(x.mid()) or x.rad() <= ACCURATE**2 * largest)

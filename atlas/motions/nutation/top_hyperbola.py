@@ -102,7 +102,7 @@ class TopHyperbola(Shown):
         return [(nearest(low), nearest(high)) for low, high in ends]
 
     def motion(self, omega2: float, omega1: float = 0.0) -> TopMotion:
-        """Return the motion at omega2, with `omega1` to push it; omega3 is that of the curve, rounded once.
+        """Return the `TopMotion` at omega2, omega3 on the curve and rounded once; `omega1` perturbs it.
 
         Raises DomainError at the pole, AtlasError for an input that is no number.
         """
@@ -141,6 +141,9 @@ class TopHyperbola(Shown):
         return omega2, np.asarray(self.omega3(omega2))
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
-        """Return the values of a formula at omega2, rounded once. DomainError at the pole."""
+        """Return a formula at omega2, rounded once; `exact` is its certified scalar, `degree` its power of rates.
+
+        Raises DomainError at the pole.
+        """
         values, is_single = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
         return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=is_single)

@@ -39,7 +39,7 @@ class ParticleMotion:
 
     @property
     def period(self) -> arb:
-        """The time 2 pi/|omega| of one turn."""
+        """Time 2 pi/|omega| of one revolution."""
         check_force(bool(self._force), "period")
         return 2 * arb.pi() / abs(self.cyclotron_frequency)
 
@@ -51,7 +51,7 @@ class ParticleMotion:
         return radius
 
     def guiding_centre(self, t: Any) -> list[fmpq]:
-        """Return the point O(t) of (99) about which the particle circles, carried along B with it."""
+        """Return the point O(t) of (99), the moving centre of the circle, as a list of three."""
         check_force(bool(self._force), "guiding centre")
         t = rational(t, "the time")
         terms = zip(self.start, *self._vectors(), strict=True)

@@ -149,7 +149,7 @@ class Flight(Shown):
         return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))
 
     def _compare_fields(self) -> None:
-        """Raise AtlasError if the body turns in another field than the one in which its centre flies."""
+        """Raise AtlasError if the field of the body's rotation differs from the field of the flight."""
         turning = _field_of(self.motion)
         if turning is None:
             return
@@ -162,7 +162,7 @@ class Flight(Shown):
 
 
 def _field_of(motion: Any) -> FloatArray | None:
-    """Return the field B' in the laboratory in which a motion turns, shape (..., 3); None where it does not tell it."""
+    """Return the field B' in the laboratory, (..., 3), in which a motion rotates; None where it has no such field."""
     if getattr(motion, "is_placed", False):
         return None if "direction" in motion.own.arguments else motion.given[1]
     field = getattr(motion, "field", None)

@@ -34,12 +34,12 @@ def crossed(_: Number, __: Number, *x: Number) -> Vector:
 
 
 def along(_: Number, __: Number, *x: Number) -> Number:
-    """Return (E, B)."""
+    """Return the scalar product (E, B)."""
     return dot(x[:3], x[3:6])
 
 
 def bent(_: Number, __: Number, *x: Number) -> Vector:
-    """Return [E, v]."""
+    """Return the vector product [E, v]."""
     return cross(x[:3], x[6:9])
 
 
@@ -61,7 +61,7 @@ def drift(_: Number, c: Number, *x: Number) -> Vector:
 
 
 def radius(mu: Number, c: Number, *x: Number) -> Number:
-    """Return the radius a of (97): |circling| c/(|mu| |B|), of one root, so that it is rational where it can be."""
+    """Return the radius a of (97), |circling| c/(|mu| |B|), as a single root: rational where possible."""
     force, b2 = circling(mu, c, *x), dot(x[3:6], x[3:6])
     return root(dot(force, force) * c * c / (mu * mu * b2 * b2 * b2))
 
@@ -79,7 +79,7 @@ def carried(_: Number, c: Number, *x: Number) -> Vector:
 
 
 def centre(mu: Number, c: Number, *x: Number) -> Vector:
-    """Return the point O(0) of (99) and its velocity."""
+    """Return the point O(0) of (99) and its velocity: six components."""
     return [*(y - a for y, a in zip(x[9:12], arm(mu, c, *x), strict=True)), *carried(mu, c, *x)]
 
 
@@ -100,7 +100,7 @@ def acceleration_parts(mu: Number, _: Number, *x: Number) -> Vector:
 
 
 def position(v: Any, a: Any, t: Number, s: Number, f: Number, g: Number, h: Number) -> Number:
-    """Return a component of y(t) - y(0), (101) with (93) and (98), from those of the three parts of v and a."""
+    """Return a component of y(t) - y(0), (101) with (93) and (98), from the three parts of that of v and a."""
     return t * (v[0] + s * v[1] + g * v[2] + t * (a[0] / 2 + f * a[1] + h * a[2]))
 
 

@@ -262,7 +262,7 @@ class ParticleMotion(Shown):
         return self._spread(Charge.fill_centre, t)
 
     def _of_each_particle(self, name: str) -> NDArray[Any] | Any:
-        """Return an attribute of each particle, shape (..., its own); a number or a name if there is but one."""
+        """Return an attribute of each particle, shape (*shape, ...); for one particle a number or a string."""
         values = getattr(self._all, name)
         if self.shape:
             return frozen(values.reshape(self.shape + values.shape[1:]))

@@ -90,9 +90,9 @@ class Charge:
             _check(self.mu * np.array(inputs[2:5]), "The acceleration mu E")
 
     def at(self, index: Any, t: FloatArray, *, centre: bool = False) -> Self:
-        """Return particles by their index, ready for the times t that go with them; AtlasError beyond 2^50.
+        """Return the particles of the given indices, paired with times t; if `centre`, their points O(t) of (99) alone.
 
-        Of the point O(t) of (99) alone if `centre`.
+        Raises AtlasError for phases beyond 2^50.
         """
         selection = copy(self)
         if centre:
@@ -107,7 +107,7 @@ class Charge:
 
     @cached_property
     def rate(self) -> Any:
-        """Size of the frequency omega."""
+        """Magnitude of the cyclotron frequency omega; 0 without a magnetic force."""
         return np.where(self.force, self._over("rate", 1)[0], 0.0)[()]
 
     @cached_property
@@ -128,7 +128,7 @@ class Charge:
 
     @cached_property
     def radius(self) -> Any:
-        """Radius a of (97)."""
+        """Radius a of (97). Raises DomainError without a magnetic force."""
         self.needs_field("radius")
         return self._over("radius", 1)[0]
 
@@ -157,7 +157,7 @@ class Charge:
 
     @cached_property
     def kind(self) -> Any:
-        """Names of the paths across B, see `ParticleMotion.kind`."""
+        """Names of the paths perpendicular to B, see `ParticleMotion.kind`."""
         moving, curved = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bent", 3))
         drifting, circling = (_any(self._signs(name, 3)) for name in ("crossed", "circling"))
         larger, straight = self._signs("looping", 1)[0], ~drifting | ~circling
@@ -178,7 +178,7 @@ class Charge:
 
     @cached_property
     def acceleration_parts(self) -> FloatArray:
-        """The same of a = mu E."""
+        """Components of the acceleration a = mu E along the axes of the row, as `velocity_parts` for v."""
         return self._row_components("acceleration_parts", self.mu * np.array(self.inputs[2:5]))
 
     @cached_property

@@ -69,13 +69,13 @@ class Lattice:
 
     @property
     def X(self) -> acb_mat:
-        """(a1 | a2/2) of the times of both flows."""
+        """Period matrix (2, 2): columns are the cycles a1 and a2/2, rows their times T_H and T_F."""
         (p, q, _), (r, s, _) = self.a
         return acb_mat([[p, r / 2], [q, s / 2]])
 
     @property
     def tau(self) -> acb_mat:
-        """Riemann matrix X^-1 (b1 | b2), made symmetric."""
+        """Riemann matrix X^-1 (b1 | b2), its off-diagonal entries replaced by their mean."""
         (p, q, _), (r, s, _) = self.b
         tau = self.X.solve(acb_mat([[p, r], [q, s]]))
         off_diagonal = (tau[0, 1] + tau[1, 0]) / 2
@@ -83,7 +83,7 @@ class Lattice:
 
 
 def lattice(motion: Integrals) -> Lattice:
-    """Return the periods of a motion's torus; NotCertifiedError where they cannot be told."""
+    """Return the periods of a motion's torus. Raises NotCertifiedError where they cannot be distinguished."""
     with workprec(BITS):
         curve = Curve(motion)
         try:
@@ -150,7 +150,7 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _real_first(conjugation: Whole) -> list[list[int]]:
-    """Return a basis of the lattice whose first two are a basis of its real periods."""
+    """Return integer rows: a basis of the lattice whose first two rows span the real periods."""
     rows = [
         [*(int(x) << RELATION_BITS for x in row), *(int(i == j) for j in range(4))]
         for i, row in enumerate(conjugation - np.eye(4, dtype=int))
@@ -208,7 +208,7 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _symplectic(form: Whole) -> Whole:
-    """Return rows (a1, a2, b1, b2) in which an alternating form is that of type (1,2) (Frobenius)."""
+    """Return integer rows (a1, a2, b1, b2) in which an alternating form has type (1, 2) (Frobenius)."""
     rows, chosen = np.eye(4, dtype=int), list[tuple[Whole, Whole]]()
     while len(rows):
         E = rows @ form @ rows.T
@@ -256,7 +256,7 @@ def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.comple
 
 
 def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
-    """Turn the basis so that Im tau has small entries beside its diagonal."""
+    """Return the basis reduced so that the off-diagonal entry of Im tau is small."""
     for _ in range(MAX_REDUCTIONS):
         Y = _riemann(vectors, basis).imag
         a1, a2, b1, b2 = basis

@@ -37,7 +37,7 @@ class State:
 
 
 def origins(motion: Integrals) -> list[tuple[int, State]]:
-    """Return the states with the integrals of a motion at which M_i = K_i = 0, with i: one of each four by symmetry."""
+    """Return pairs (i, state): states with the integrals of a motion and M_i = K_i = 0, one for each symmetric four."""
     states = list[tuple[int, State]]()
     I, D, b2, c = motion.moments, motion.D, motion.square, motion.c
     for i in range(3):
@@ -90,7 +90,7 @@ def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
 
 
 def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
-    """Return times on a circle about zero and the states at them along the flow of H."""
+    """Return pairs (complex time, state) on a circle about zero, along the flow of H."""
     rows = series(moments, start)
     growth = max(
         abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TAYLOR_TERMS, TAYLOR_TERMS - 1, TAYLOR_TERMS - 2)

@@ -79,13 +79,13 @@ class Integrals:
 
     @property
     def D(self) -> fmpq:
-        """Product of the moments."""
+        """Product I1 I2 I3 of the moments."""
         x, y, z = self.moments
         return x * y * z
 
     @property
     def e2(self) -> fmpq:
-        """Sum of D/I_i."""
+        """Sum of D/I_i over i, D = I1 I2 I3."""
         return sum((self.D / I for I in self.moments), fmpq(0))
 
     @property
@@ -105,7 +105,7 @@ class Integrals:
         return self.g * self.g - 4 * self.c * self.c * self.P if self.c else self.g
 
     def double_points(self) -> fmpq_poly:
-        """Return the polynomial whose roots are the z at which zeros of Psi fall together: a number if they do not."""
+        """Return the polynomial whose roots are the z at which zeros of Psi coincide; constant if none do."""
         twice = self.quartic.gcd(self.quartic.derivative())
         return twice if self.c else twice * self.g.gcd(self.P)
 
@@ -127,9 +127,9 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
 
 
 class Curve:
-    """The zeros of Psi on the torus of u, and integrals between them.
+    """Zeros of Psi on the torus of u, and integrals along paths between them.
 
-    If `proven`, balls keep their radii, which grow; else they are replaced by their centres.
+    If `proven`, balls keep their radii, which grow; else balls are replaced by their centres.
     """
 
     def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
@@ -147,7 +147,7 @@ class Curve:
         self.zeros = [self._place(z, v) for z, v in motion.zeros()]
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
-        """Return periods of wp, in two parts, up to `cells` cells along each."""
+        """Return periods of the Weierstrass function as pairs (real, imaginary), up to `cells` cells each way."""
         line = range(-cells, cells + 1)
         return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
 
@@ -177,7 +177,7 @@ class Curve:
         return x if self.proven else centre(x)
 
     def paths(self, paths_per_zero: int = PATHS_PER_ZERO) -> list[tuple[acb, acb]]:
-        """Return straight paths between zeros, so many for each of four, those farthest from others first."""
+        """Return straight paths (start, stop) between zeros, `paths_per_zero` for each, the most isolated first."""
         paths_of_pair: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
         starts = [(zero, self.distances(zero)) for zero in self.zeros]
         for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(PATH_CELLS)):
@@ -208,11 +208,11 @@ class Curve:
         return np.array(rows)
 
     def _other_places(self, start: acb, stop: acb) -> tuple[Array, Array]:
-        """Return the other places in units of a path, from its start, and from its stop backwards."""
+        """Return the positions of other zeros and poles relative to a path: from its start, and from its stop."""
         return _fractions(self.distances(start), self.distances(stop), complex_of(stop - start))
 
     def intervals(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
-        """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
+        """Yield subintervals of (0, 1) on a path whose ellipses hold no other zero or pole; unit: half a turn of s."""
         starts, stops = (
             np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._other_places(start, stop)
         )
@@ -259,7 +259,7 @@ class Curve:
 
 
 def _check_sizes(polynomial: fmpq_poly) -> None:
-    """Raise NotCertifiedError where coefficients are too far apart for its roots."""
+    """Raise NotCertifiedError where the coefficients differ too much in size for the roots to be found."""
     sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
     if max(sizes) - min(sizes) > MAX_COEFFICIENT_BITS:
         raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
@@ -273,9 +273,10 @@ def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
 
 
 def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
-    """Yield parts of (0, 1), in order, whose ellipses leave places out, seen from 0, and from 1 backwards.
+    """Yield subintervals of (0, 1) in order whose ellipses contain no singular point.
 
-    NotCertifiedError where one is too near the path to be told from a place on it.
+    `starts` are the points as fractions from 0, `stops` as fractions from 1 backwards. Raises NotCertifiedError where
+    one is too near the path.
     """
     if not starts.size:
         yield arb(0), arb(1)
@@ -287,7 +288,7 @@ def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
 
 
 def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
-    """Yield parts of (0, 1/2), in order, whose ellipses leave places out."""
+    """Yield subintervals of (0, 1/2) in order whose ellipses contain none of the `places`."""
     pending = [(fmpq(0), fmpq(1, 2))]
     while pending:
         low, high = pending.pop()
@@ -321,7 +322,7 @@ def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
 
 
 def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:
-    """Return sums of vectors with whole weights."""
+    """Return integer combinations of vectors, one for each row of weights."""
     return [
         [
             sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0])
@@ -342,13 +343,13 @@ def value(polynomial: fmpq_poly, z: acb) -> acb:
 
 
 def _fractions(from_start: Array, from_stop: Array, way: complex) -> tuple[Array, Array]:
-    """Return places but the ends of a path in units of it, from its start, and from its stop backwards."""
+    """Return points other than the ends of a path as fractions of it: from its start, and from its stop backwards."""
     other_places = (from_start != 0) & (from_stop != 0)
     return from_start[other_places] / way, -from_stop[other_places] / way
 
 
 def _elliptic(x: Array, y: Array) -> Array:
-    """Return elliptic coordinates of places x = 1 - y about the foci 0 and 1; the real part is 0 between them."""
+    """Return elliptic coordinates of points x = 1 - y about the foci 0 and 1; the real part is 0 between the foci."""
     return np.asarray(2 * np.arcsinh(np.sqrt(-np.where(abs(x) < abs(y), x, y))))
 
 

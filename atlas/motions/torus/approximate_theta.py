@@ -77,7 +77,7 @@ class ThetaMotion:
         return [*N, self.denominator, *self.K, *self.M]
 
     def zeta(self, T: Sequence[acb]) -> Vector:
-        """Return X^-1 T."""
+        """Return the arguments zeta = X^-1 T of the theta functions, from the times T = (T_H, T_F)."""
         zeta = self.X.solve(acb_mat([[T[0]], [T[1]]]))
         return [centre(zeta[0, 0]), centre(zeta[1, 0])]
 
@@ -154,7 +154,7 @@ class ThetaMotion:
         return np.asarray(matrix_of(self.X) @ [complex_of(x) for x in self.start])
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
-        """Return zeta at the start to all digits, from times near it, less an even period if `reduced`."""
+        """Return zeta at the start to all digits, by Newton's method from times T; less an even period if `reduced`."""
         rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.components[:6]]))
         i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
         start = self.at_start.components
@@ -180,7 +180,7 @@ class ThetaMotion:
         return zeta
 
     def _near_real(self, zeta: Vector) -> Vector:
-        """Return zeta less an even period of hat, which changes all forms by one factor, near the real times."""
+        """Return zeta less the even period of hat that brings it nearest to real times: all forms get one factor."""
         Y = matrix_of(self.hat).imag
         v = [2 * zeta[0], zeta[1]]
         m, n = (2 * round(float(x) / 2) for x in np.linalg.solve(Y, [complex_of(x).imag for x in v]))
@@ -188,7 +188,7 @@ class ThetaMotion:
         return [centre(first_component / 2), centre(second)]
 
     def _quasi_periods(self) -> tuple[Vector, Vector]:
-        """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""
+        """Return the characteristics l and w: N gets the factor exp(-i b T_c) under a period, up to whole turns."""
         b = arb(self.motion.square).sqrt()
         angles = [-b * T[2] for T in (*self.lattice.a, *self.lattice.b)]
         tau, Y = self.tau, matrix_of(self.tau).imag
@@ -216,7 +216,7 @@ class ThetaMotion:
 
 
 def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, State]]) -> tuple[int, State]:
-    """Return the origin next to a known one, of those that are found and their images by the signs of components."""
+    """Return the origin nearest to a known one, among those found and their images under changes of sign."""
     axis, state = reference
 
     def images(states: State) -> Iterator[State]:
@@ -231,7 +231,7 @@ def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, St
 
 
 class Rough:
-    """M and K by the same forms in doubles, at many places anywhere."""
+    """M and K from the theta functions in doubles, at arrays of complex times."""
 
     def __init__(self, motion: ThetaMotion) -> None:
         self.moments = motion.motion.moments
@@ -252,7 +252,7 @@ class Rough:
             return np.asarray((np.array(values) / D).T)
 
     def times_near(self, times: Array, target: Array) -> Array | None:
-        """Return times at which the state is the target, by Newton's method from several; None where all go astray."""
+        """Return the times (2,) of the `target` state, by Newton's method from several starts; None without any."""
         size, before = float(np.linalg.norm(target)), np.inf
         for _ in range(NEWTON_STEPS):
             states = self.states(times)
@@ -267,7 +267,7 @@ class Rough:
 
 
 def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
-    """Return e_x and e_y, which with the direction of K are a right-handed system."""
+    """Return unit vectors e_x and e_y that form a right-handed system with K/|K|."""
     size = arb(dot(K, K)).sqrt()
     n = [x / size for x in K]
     least = min(range(3), key=lambda i: abs(float(n[i].mid())))
@@ -279,7 +279,7 @@ def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
 
 
 def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
-    """Return the solution of more equations than unknowns, and its residual beside the values."""
+    """Return the least-squares solution of an overdetermined system, and its largest relative residual."""
     A, B = acb_mat(rows), acb_mat([[x] for x in values])
     adjoint = A.transpose().conjugate()
     solution = (adjoint * A).solve(adjoint * B)
@@ -290,7 +290,7 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
 
 
 def _null(rows: list[Vector]) -> tuple[Vector, float]:
-    """Return the vector that rows are orthogonal to, with the best of its components 1, and the residual."""
+    """Return a vector orthogonal to all rows, its component 0 or 1 set to 1, and the residual."""
     vectors = list[tuple[float, Vector]]()
     for k in range(2):
         columns = [n for n in range(len(rows[0])) if n != k]

@@ -115,7 +115,7 @@ class Sums:
         self._words = dict[tuple[int, int], list[Words]]()
 
     def at(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
-        """Return some of the forms at places x + rest (2, m), the rest being tiny: shape (forms, m).
+        """Return the chosen forms at x + low_words (2, m): shape (forms, m). Low words are below an ulp.
 
         The sum over Q is that of the upper words of weights and powers, exact, plus that of the lower words. The sum
         over P is Horner's rule from both ends.
@@ -147,8 +147,8 @@ class Sums:
     def powers(self, once: Array, square: Array) -> FloatArray:
         """Return even and odd powers of w_2 as words, (2, 3, rows, 2 m): the number, its lower and its upper word.
 
-        Given are 1/w_2 and w_2, and their squares, (2, m) each. After the powers stand i times these; real and
-        imaginary parts stand side by side.
+        `once` and `square`, (2, m) each, are 1/w_2 and w_2, and their squares. After the powers follow i times these;
+        real and imaginary parts are adjacent.
         """
         count, m = self.sizes.shape[1], once.shape[1]
         words = np.empty((2, 3, count, 2 * m))
@@ -164,9 +164,9 @@ class Sums:
         return words
 
     def words(self, rows: slice) -> list[Words]:
-        """Return, for even and for odd powers, the places of the forms that have them, and their weights in words.
+        """Return, for even and for odd powers, the indices of the forms with such powers, and their weights as words.
 
-        Weights are (forms P, rows): those that meet upper words, and those that meet the powers and their lower words.
+        Weights are (forms P, rows): those multiplied with upper words, and those with the powers and their lower words.
         """
         key = rows.start or 0, rows.stop or len(self.table)
         if key not in self._words:
@@ -218,7 +218,7 @@ def inverse(w: Array) -> Array:
 
 
 def _halves(w: Array) -> tuple[Array, Array]:
-    """Return halves of 26 digits each, by Veltkamp: products of parts of upper ones are exact."""
+    """Return upper and lower halves of 26 digits each, by Veltkamp: products of upper halves are exact."""
     t = w * SPLITTER
     upper = t - (t - w)
     return upper, w - upper
@@ -239,7 +239,7 @@ def places_that_matter(
 
 
 def places_near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDArray[np.int64]:
-    """Return the whole places n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2)."""
+    """Return the integer points n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2)."""
     reach = np.sqrt(most / np.linalg.eigvalsh(Y)[0])
     ends = zip(np.ceil(peaks.min(axis=0) - reach), peaks.max(axis=0) + reach, strict=True)
     lines = np.meshgrid(*(np.arange(low, high) for low, high in ends), indexing="ij")

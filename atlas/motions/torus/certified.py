@@ -48,7 +48,7 @@ GUARD_BITS = 48
 
 
 class OnTorus:
-    """A motion that stays on its torus, or on the closed curve to which the torus shrinks."""
+    """A certified motion on its torus, or on a closed curve where the torus degenerates."""
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         unit, self.rate = _power(max(moments)), _power(max(map(abs, (*Omega, *K))))
@@ -78,7 +78,7 @@ class OnTorus:
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
-        """Return the same motion as an elliptic one, None unless it is elliptic with a rational z."""
+        """Return this motion as an `EllipticMotion`; None unless it is elliptic with a rational z."""
         z_polynomial, (W, K) = self.torus.integrals.double_points(), (self.torus.W, self.field)
         M = [I * w for I, w in zip(self.moments, W, strict=True)]
         D = self.moments[0] * self.moments[1] * self.moments[2]
@@ -101,9 +101,10 @@ class OnTorus:
         return arrived
 
     def follow(self, times: Iterable[fmpq]) -> None:
-        """Keep the states at times that are reached by Taylor's series alone: one way past all instead of one to each.
+        """Cache the states at times that only Taylor's series reaches, along one path in each direction of time.
 
-        At most `STATE_CACHE_SIZE` are kept; where the errors grow beyond their bounds, the rest is left to `state`.
+        At most `STATE_CACHE_SIZE` are cached; where the errors exceed their bounds, the other times are left to
+        `state`.
         """
         ascending = sorted({t * self.rate for t in times} - {t for t, _ in self._arrived}, key=abs)
         if len(self._arrived) + len(ascending) > STATE_CACHE_SIZE:
@@ -182,7 +183,7 @@ class OnTorus:
         return Arrival(state[:3], state[3:], rotated(arrival.q, V))
 
     def _series_at_zero(self, t: Any) -> list[list[arb]] | None:
-        """Return Omega, K and the rows of R by the series about t = 0, for a time so near; else None.
+        """Return Omega, K and the three rows of R by the Taylor series about t = 0; None for |t| beyond NEAR.
 
         With W = Omega + K, W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k), and x' = [x, Omega] of K and of each row of R.
         Since I_j - I_k < I_i, with s the largest |W_i| or |K_i|, |W_n|, |K_n| <= s (2s)^n and |R_n| <= (n+1) (2s)^n.
@@ -214,7 +215,7 @@ class OnTorus:
         return [[arb_poly(x)(arb(t)) + arb(0, remaining.upper()) for x in rows] for rows in (Omega, K, *R)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
+        """Return R(t) as three rows."""
         series = self._series_at_zero(t)
         if series:
             return series[2:]
@@ -278,14 +279,14 @@ class AsymmetricMotion:
 
     @property
     def on_torus(self) -> OnTorus | None:
-        """Constants of a motion "on a torus", in units in which they are near one; None for other types."""
+        """Constants of a motion of kind "on a torus", in units that make them near one; None for other kinds."""
         return self._motion if isinstance(self._motion, OnTorus) and self._motion.is_regular else None
 
     @property
     def elliptic(self) -> EllipticMotion | None:
-        """The motion in Jacobi's functions that has its attitude, None where there is none.
+        """The motion in Jacobi's functions with this attitude; None where there is none.
 
-        That of a free body, and of a spin about a principal axis, is Euler's top: angular momentum in place of a field.
+        For a free body, and for a spin about a principal axis, it is Euler's top: angular momentum in place of a field.
         """
         if isinstance(self._motion, EllipticMotion):
             return self._motion
@@ -297,13 +298,13 @@ class AsymmetricMotion:
             self._motion.follow(times)
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
+        """Return R(t) as three rows; exact at t = 0."""
         if rational(t, "the time") == 0:
             return identity()
         return self._motion.rotation(t)
 
     def column(self, j: int, t: Any) -> list[Real]:
-        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory at time t, as a list of three."""
         return [row[j - 1] for row in self.rotation(t)]
 
     def field_in_body(self, t: Any) -> list[Real]:
@@ -320,7 +321,7 @@ class AsymmetricMotion:
 
     @property
     def _nutating(self) -> Any:
-        """The free body, the elliptic motion or that of a symmetric body, which have a period, else DomainError."""
+        """The certified motion with a period: of a free, elliptic or symmetric body. Raises DomainError for others."""
         motion = self.elliptic
         if isinstance(self._motion, Symmetric) and any(self.field):
             return self._motion.exact
@@ -331,7 +332,7 @@ class AsymmetricMotion:
 
     @property
     def period(self) -> arb:
-        """Period of Omega of a free body, of Omega and K of an elliptic motion; infinite where they are constant."""
+        """Period of Omega for a free body, of Omega and K for an elliptic motion; infinite where they are constant."""
         return self._nutating.period
 
     @property

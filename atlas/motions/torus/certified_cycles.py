@@ -71,7 +71,7 @@ def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
 
 
 def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
-    """Return tau of a basis of cycles; NotCertifiedError where their periods are known to too few digits."""
+    """Return tau (2, 2) of a basis of cycles. Raises NotCertifiedError where the periods have too few digits."""
     (p, q, *_), (r, s, *_), (x, y, *_), (z, w, *_) = basis
     try:
         return acb_mat([[p, r / 2], [q, s / 2]]).solve(acb_mat([[x, z], [y, w]]))
@@ -150,12 +150,12 @@ def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> 
 
 
 def _root(square: acb) -> acb:
-    """Return a root, of a negative number too, where that of the library has its cut."""
+    """Return a square root, continuous across the negative real axis, where the library has its cut."""
     return square.sqrt() if square.real > 0 else acb(0, 1) * (-square).sqrt()
 
 
 def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX_HALVINGS) -> acb:
-    """Return the root of r^2 at a place, continued from another one on the path."""
+    """Return the root of r^2 at `to`, continued along the path from its value `root` at `place`."""
     here = forms(place)[1]
     if (forms(place.union(to))[1] / here).real > 0:
         return root * (forms(to)[1] / here).sqrt()
@@ -172,7 +172,7 @@ def _zero_at(curve: Curve, place: acb) -> acb:
 
 
 def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
-    """Return bounds on the forms over r on the ellipse about a part of a path, or None if none are found."""
+    """Return bounds on the forms divided by r on the ellipse about an interval of a path; None if none are found."""
     most, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
     while remainder:

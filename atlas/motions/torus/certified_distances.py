@@ -187,9 +187,9 @@ class Cell:
         return np.full((2, 3), np.inf)
 
     def _defects(self) -> tuple[Floats, Floats, Floats]:
-        """Return places S (n, 2) and logarithms of bounds on coefficients there, (n, 6): of M, K, N by each flow.
+        """Return places S (n, 2), logarithms of coefficient bounds there (n, 6), and of the bounds on all others (6,).
 
-        The third are logarithms of bounds, (6,), on the sums of all others, anywhere in the cell.
+        The six columns are M, K and N along each of the two flows; the last array bounds sums anywhere in the cell.
         """
         low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
         sizes_found, beyond, divisions = [], [], np.array([0.0, 0.0, 0.5] * 2)
@@ -231,11 +231,11 @@ class Cell:
         return float(np.max(quadratic + self.middle @ self.corners.imag))
 
     def _imaginary(self, height: float) -> Floats:
-        """Return the imaginary part of the origin less that part of the shift."""
+        """Return Im(origin - height shift), shape (2,)."""
         return np.array([complex_of(v - height * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
 
     def _size(self, S: Floats, height: float) -> Floats:
-        """Return log |g_S|."""
+        """Return log |g_S|, the size of the coefficient at S."""
         square = np.einsum("...i,ij,...j->...", S, self.Y, S)
         return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(height)))
 
@@ -273,7 +273,7 @@ class Cell:
         return products
 
     def _places(self, middle: Floats) -> list[Place]:
-        """Return the places of the terms that matter, round the middle and round the middle plus a shift."""
+        """Return the indices (P, Q) of terms that are not negligible, near `middle` and near `middle` + shift."""
         near_places = places_near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
         return [(int(P), int(Q)) for P, Q in near_places]
 

@@ -87,11 +87,11 @@ class Arrival:
 
 
 class GrowthError(NotCertifiedError):
-    """Errors of Taylor's series grow beyond their bounds, which are wider for more bits."""
+    """Errors of Taylor's series exceed their bounds: more bits give wider bounds."""
 
 
 class _Way:
-    """The state of a flow under way, and the bound on its error."""
+    """Integration of a flow in progress: the current state in integers, and the bound on its error."""
 
     def __init__(self, rates: Rates, start: list[int], bits: int, w_rates: int, *, proven: bool) -> None:
         self.rates, self.bits, self.proven = rates, bits, proven
@@ -132,7 +132,7 @@ class _Way:
         self.guess = max(1, min(PARTS, int(self.guess * scale)))
 
     def _scaled_rates(self, h: fmpq) -> tuple[list[int], ...]:
-        """Return the rates times h, in units."""
+        """Return the rates times h, as integers in units of 2^-bits."""
         return tuple([_units(h * x, self.bits) for x in row] for row in self.rates)
 
     def _series(self, h: fmpq) -> Series:
@@ -274,7 +274,7 @@ class Flow:
     def pass_by(self, a: fmpq, fractions: Sequence[fmpq], bits: int) -> Iterator[Arrival]:
         """Yield the states of the flow of a H at ascending fractions in (0, 1] of its time, along one path.
 
-        Raises NotCertifiedError as `go` does, where the way goes on no further.
+        Raises NotCertifiedError, as `go` does, where the integration cannot continue.
         """
         way, k = self._way(a, fmpq(0), bits, proven=True), 0
         while k < len(fractions):
@@ -292,7 +292,7 @@ class Flow:
 
 
 def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
-    """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, each of which may ask for the last ones of the rows.
+    """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, each from the last coefficients of `rows`.
 
     In blocks longer than ``least``, the contribution of the first half to the second is one product of polynomials.
     """

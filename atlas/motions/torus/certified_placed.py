@@ -78,7 +78,7 @@ class PlacedMotion:
         self._bodies: dict[int, tuple[AsymmetricMotion, Matrix, fmpq]] = {}
 
     def _body(self, bits: int) -> tuple[AsymmetricMotion, Matrix, fmpq]:
-        """Return the motion of a body near it, its axes as rows, and a bound on the difference of the tensors."""
+        """Return a motion along principal axes, these axes as rows, and a bound on the difference of the tensors."""
         if bits not in self._bodies:
             axes: Matrix = identity()
             moments = [self.tensor[i][i] for i in range(3)]
@@ -98,7 +98,7 @@ class PlacedMotion:
 
     @cached_property
     def _sizes(self) -> tuple[arb, arb, arb, arb]:
-        """Bounds, for both bodies, on the moments from below and above, and on the lengths of Omega and K."""
+        """Bounds for both bodies: least and largest moment, |Omega| and |K|."""
         motion, _, distance = self._body(LEAST_BITS)
         least, most = min(motion.inertia) / MARGIN, max(motion.inertia) * MARGIN
         if distance > (MARGIN - 1) / 4 * least:
@@ -107,7 +107,7 @@ class PlacedMotion:
         return arb(least), arb(most), speed.sqrt(), arb(dot(self.field, self.field)).sqrt()
 
     def _deviation(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
-        """Return a motion near it up to a time, its axes, and bounds on the differences of Omega and of R."""
+        """Return a motion along principal axes, these axes, and bounds on the differences of Omega and R until t."""
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
         least, most, w, b = self._sizes
@@ -126,7 +126,7 @@ class PlacedMotion:
         return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by / (w + b)).upper()) if w + b > 0 else arb(0)
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t) as rows."""
+        """Return R(t) as three rows."""
         motion, axes, _, error = self._deviation(t)
         R = product(self.attitude, product(transposed(axes), product(motion.rotation(t), axes)))
         return R if self.is_diagonal or rational(t, "the time") == 0 else [[x + error for x in row] for row in R]
@@ -140,7 +140,7 @@ class PlacedMotion:
         return Omega if self.is_diagonal else [x + error for x in Omega]
 
     def __getattr__(self, name: str) -> Any:
-        """Return a quantity, those of the principal moments where these are given."""
+        """Return a quantity by name; quantities of principal moments only if the tensor is diagonal."""
         if name in OF_STATE and not self.is_diagonal:
             J = [x for row in self.tensor for x in row]
             H, F, c, *_ = clebsch(*J, *self.omega, *self.field)

@@ -34,7 +34,10 @@ CYCLE_BITS = 64
 
 
 class SpectralCurve:
-    """The curve of one motion. `record(digits)` has all of it as texts; DomainError for a motion without a torus."""
+    """Spectral curve of one motion; `record(digits)` returns its data as strings.
+
+    Raises DomainError for a motion that is not on a torus.
+    """
 
     def __init__(self, motion: AsymmetricMotion) -> None:
         on = motion.on_torus
@@ -54,7 +57,7 @@ class SpectralCurve:
 
     @property
     def winding_numbers(self) -> list[Any]:
-        """f2/f1 and f3/f1."""
+        """List [f2/f1, f3/f1] of the frequencies' ratios."""
         f1, f2, f3 = self.motion.frequencies
         return [f2 / f1, f3 / f1]
 
@@ -128,12 +131,12 @@ class SpectralCurve:
 
 
 def _texts(polynomial: fmpq_poly) -> list[str]:
-    """Return coefficients, lowest first."""
+    """Return the coefficients of a polynomial as strings, lowest power first."""
     return [str(fmpq(x)) for x in polynomial.coeffs()]
 
 
 def _matrix(tau: acb_mat, digits: int) -> list[list[list[str]]]:
-    """Return real and imaginary parts of a matrix with a number of digits; entries below the last digit are zero."""
+    """Return entries [real, imaginary] of a matrix as strings of `digits` digits; entries below 10^-digits are "0"."""
     least = arb(10) ** -digits
 
     def text(x: arb) -> str:

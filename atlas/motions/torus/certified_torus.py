@@ -49,7 +49,7 @@ NEWTON_ROUNDS = 4
 
 @dataclass(frozen=True)
 class Period:
-    """Times (T_H, T_F) after which M and K are back, and the angle by which S has turned about the field then."""
+    """Times (T_H, T_F) after which M and K return, and the angle by which S has then turned about the field."""
 
     H: arb
     F: arb
@@ -164,7 +164,7 @@ class Torus:
 
     @cached_property
     def lattice(self) -> Lattice:
-        """All periods, approximate; NotCertifiedError where they are not found, which is tried once."""
+        """All periods, approximate. Raises NotCertifiedError where none are found; a failure is remembered."""
         if self._no_lattice:
             raise NotCertifiedError(self._no_lattice)
         try:
@@ -174,7 +174,7 @@ class Torus:
             raise
 
     def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
-        """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""
+        """Return a proved period; an inaccurate start is first improved by Newton's method, with doubling bits."""
         r, precision = start, bits if bits <= PERIOD_BITS else FIRST_FLOW_BITS
         while precision < bits:
             r, size = self._improved(r, precision)
@@ -191,7 +191,7 @@ class Torus:
             return (r[0] + H.fmpq(), r[1] + F.fmpq()), max(float(abs(H)), float(abs(F)))
 
     def _coordinates(self) -> tuple[int, int]:
-        """Return the two components of the state by which its place on the torus is told best."""
+        """Return the indices of the two components of the state that best determine its position on the torus."""
         X, Y = ([float(arb(x).mid()) for x in row] for row in self.fields(self.W, self.K))
         return max(combinations(range(6), 2), key=lambda p: abs(X[p[0]] * Y[p[1]] - X[p[1]] * Y[p[0]]))
 
@@ -226,7 +226,7 @@ class Torus:
             return Period(r[0] + step[0], r[1] + step[1], angle)
 
     def _are_told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
-        """Whether states near the start with its integrals differ in the chosen components, if at all."""
+        """Whether the chosen components distinguish any two states near the start with equal integrals."""
         doubles = [arb(x).union(w) for x, w in zip((*self.W, *self.K), wide, strict=True)]
         W, K, J = doubles[:3], doubles[3:], self.moments
         D = J[0] * J[1] * J[2]
@@ -242,7 +242,7 @@ class Torus:
 
 
 def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
-    """Return f1, f2 of M and K, and f3 about a field of length b, of which the angles of the periods are part."""
+    """Return f1, f2 of M and K, and f3 about the field of magnitude b, in rad/time, from two periods."""
     (period_1, period_2), turn = periods, 2 * arb.pi()
     area = period_1.H * period_2.F - period_1.F * period_2.H
     line = period_2.F / area, -period_1.F / area

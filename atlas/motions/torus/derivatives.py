@@ -48,7 +48,7 @@ GROUPS = (0, 1, 2), (3, 4, 5, 6, 7, 8)
 
 
 class TorusVaried:
-    """Derivatives of one motion on a torus in some inputs, by their places among moments, field and omega."""
+    """Derivatives of one motion on a torus in some inputs, given by index in (moments, field, omega), nine in all."""
 
     def __init__(self, exact: Any, kernel: ThetaKernel, places: Sequence[int]) -> None:
         self.kernel = kernel
@@ -147,7 +147,7 @@ class Neighbours:
         self.constants = [np.array([complex_of(x) for x in kind]) for kind in self.exact]
 
     def slopes(self, places: Sequence[int]) -> list[Array]:
-        """Return the derivatives of the four rows in the inputs at some places, each (places, row)."""
+        """Return four arrays (places, n): derivatives of weights, ways, frequencies and frame in inputs at `places`."""
         # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
         to_laboratory = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
         slopes_by_place = {place: self._by_step(place) for place in set(places) - to_laboratory}
@@ -159,7 +159,7 @@ class Neighbours:
         ]
 
     def _by_step(self, place: int) -> list[Array]:
-        """Return derivatives by a step of one input, shorter in a weak field: on its scale the constants bend."""
+        """Return the four rows of derivatives by a step of one input; in a weak field the step is shorter."""
         field = max(map(abs, self.sizes[3:6]))
         weak = min(max(round(-2 * np.log2(field)), 0), WEAK_FIELD_BITS)
         step = STEP_BITS + weak * (place in (3, 4, 5))
@@ -169,7 +169,8 @@ class Neighbours:
     def _by_scale(self, place: int, slopes_by_place: Mapping[int, Sequence[Array]]) -> list[Array]:
         """Return derivatives from those in the other inputs of the group, by Euler's theorem on homogeneous functions.
 
-        With all rates grow K, W and the frequencies, and the frame falls; with all moments nothing changes.
+        If all rates are scaled, K, W and the frequencies grow and the frame shrinks; if all moments are, nothing
+        changes.
         """
         weights, ways, frequencies, frame = self.constants
         count = len(self.box)
@@ -185,7 +186,7 @@ class Neighbours:
         ]
 
     def _tables(self, constants: Constants) -> list[list[Any]]:
-        """Return the four rows of constants."""
+        """Return four flat lists: theta coefficients divided by the denominator's largest, ways, frequencies, frame."""
         places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in self.box]
         unit = places[self.peak][3]
         if unit == 0:
@@ -232,7 +233,7 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
 
 
 def _slopes(here: list[list[Any]], row_there: list[list[Any]], step: int) -> list[Array]:
-    """Return the derivatives of constants, whose changes are small beside the largest of their kind."""
+    """Return the four rows of derivatives by a difference of constants. Raises DomainError for a large change."""
     slopes: list[Array] = []
     for row_here, second in zip(here, row_there, strict=True):
         change = np.array([complex_of(acb(y - x)) for x, y in zip(row_here, second, strict=True)], dtype=complex)

@@ -144,7 +144,7 @@ class Torus:
         return gradients, (gradients * x).sum(1) / 2
 
     def _flows(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the gradients of H and F, of a free body of H, and the rates of the states along their flows."""
+        """Return the gradients of H and F (of a free body H alone), and the rates of the states along the flows."""
         gradients = self._gradients(x)[0][: 1 if self.free else 2]
         M, K = np.split(x, 2)
         of_M, of_K = np.split(gradients, 2, axis=1)
@@ -218,7 +218,7 @@ class Torus:
         return float(abs(half - whole).max() / abs(whole).max())
 
     def follow(self, y: FloatArray) -> None:
-        """Move the grid to the torus of the integrals y, from the last or else from the held one."""
+        """Move the grid to the torus of the integrals y, starting at the last torus, then at the stored one."""
         try:
             self._follow(y, self.states)
         except LostTorusError:
@@ -248,7 +248,7 @@ class Torus:
         return np.asarray((self._gradients(self.x)[0] * push).sum(1).mean((1, 2)))
 
     def _turns(self) -> FloatArray:
-        """Return the angles about the field (of a free body about M) of both periods, next to those before."""
+        """Return the angles about the field (of a free body, about M) in both periods, nearest to the previous ones."""
         (M, K), turns = np.split(self.x, 2), []
         axis, spins = (M if self.free else K), self._flows(self.x)[0][:, :3]
         square = (axis * axis).sum(0)
@@ -327,13 +327,13 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _waves(x: FloatArray) -> FloatArray:
-    """Return the wave numbers along both angles, (2, n1, n2); those that are half the nodes count as zero."""
+    """Return the wave numbers along both angles, (2, n1, n2); zero at the Nyquist wave."""
     numbers = [np.fft.fftfreq(n, 1 / n) * (abs(np.fft.fftfreq(n)) < 0.5) for n in x.shape[1:]]
     return np.array(np.meshgrid(*numbers, indexing="ij"))
 
 
 def _smoothed(x: FloatArray) -> FloatArray:
-    """Return a grid without its shortest waves, which a derivative doesn't see."""
+    """Return a grid without its shortest waves, to which a spectral derivative is blind."""
     kept = [abs(np.fft.fftfreq(n)) <= SMOOTH for n in x.shape[1:]]
     return np.fft.ifft2(np.fft.fft2(x) * np.outer(*kept)).real
 

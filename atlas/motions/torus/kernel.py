@@ -48,7 +48,7 @@ BESIDE = ("ball", "symmetric body")
 
 
 class SingleAsymmetric:
-    """One motion: the closed form where there is one, else matrices and vectors from balls, rounded once."""
+    """Evaluator of one motion: the closed form if available, else balls rounded once."""
 
     def __init__(self, exact: Balls) -> None:
         self.exact = exact
@@ -68,7 +68,7 @@ class SingleAsymmetric:
 
     @cached_property
     def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
-        """The closed form if it is proved or agrees with the certified counterpart, else None; and its proof status."""
+        """Tuple (closed form if proved or in agreement with the certified counterpart, else None; its proof status)."""
         closed, status = self._candidate
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, status
@@ -119,7 +119,7 @@ class SingleAsymmetric:
 
     @property
     def closed(self) -> ThetaKernel | SingleElliptic | None:
-        """The closed form by theta or Jacobi's functions, where there is one that fits, or agrees with the twin."""
+        """Closed form in theta or Jacobi's functions if proved or in agreement with the certified motion; else None."""
         closed, _ = self._candidate
         if closed is None or isinstance(closed, SingleElliptic) or (closed.fits and "_choice" not in vars(self)):
             return closed
@@ -134,7 +134,7 @@ class SingleAsymmetric:
 
     @property
     def accuracy(self) -> float:
-        """Bound on rounding errors; without a closed form that of one rounding."""
+        """Bound on rounding errors, 2^-52 without a closed form: of R, and of K and Omega over the largest rate."""
         if isinstance(self.closed, SingleElliptic):
             return MAX_ERROR if self._slender else self.closed.accuracy(self.size)
         return self.closed.accuracy if self.closed else 2.0**-52
@@ -170,7 +170,7 @@ class SingleAsymmetric:
         return self._started("field_in_body", floats(self.exact.field), t, out)
 
     def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *column_number: int) -> FloatArray:
-        """Return the values of a function of time, which is known at zero, without a closed form."""
+        """Return the named function at times t, exactly `start` at t = 0; from balls without a closed form."""
         status = np.asarray(real(t, "The time") == 0)
         if status.all():
             products = target(out, status.shape + start.shape)
@@ -184,7 +184,7 @@ class SingleAsymmetric:
 
 @lru_cache(maxsize=MOTION_CACHE_SIZE)
 def _single(*row: Any) -> SingleAsymmetric:
-    """Return a motion; those made last are kept, since a sweep asks for the same one at many times."""
+    """Return the evaluator of a motion, cached: a sweep asks for one motion at many times."""
     return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
 
 
@@ -410,12 +410,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return of_asymmetric(self._single(i))
 
     def _dynamics(self) -> Any:
-        """Return principal moments, coupling and potential of one motion."""
+        """Return (moments, coupling, linear, quadratic) of one motion: coupling equal to the moments, no potential."""
         J = np.array(self.inertia)
         return J, J, 0.0, 0.0
 
     def _wheels(self) -> Wheels:
-        """Return the turns of one motion. Raises DomainError where there are none."""
+        """Return the `Wheels` of one motion, its rotations at uniform rates. Raises DomainError where it has none."""
         from atlas.motions.elementary.kernel_ball import BallMotion
         from atlas.motions.nutation.kernel_general import GeneralMotion
         from atlas.motions.nutation.spectrum import of_nutation

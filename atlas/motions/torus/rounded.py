@@ -99,7 +99,7 @@ class Certified:
         return out
 
     def _fill(self, function: Callable[[Any], Any], times: list[fmpq], size: float, rows: FloatArray) -> None:
-        """Fill rows (n, ...) with the values of a function at n times, those near one another together."""
+        """Write the values of a function at n times into rows (n, ...), in the order of time, which shares the work."""
         ascending = sorted(range(len(times)), key=times.__getitem__)
         for first in range(0, len(times), STATE_CACHE_SIZE):
             block = ascending[first : first + STATE_CACHE_SIZE]
@@ -125,7 +125,7 @@ def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
 
 
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
-    """Return the floats nearest to balls that are made ever more precisely until they are narrow beside a size."""
+    """Return the floats nearest to balls, computed at rising precision until each radius is small beside `size`."""
     precision = FIRST_BITS
     while True:
         try:

@@ -94,10 +94,11 @@ class Constants:
 
 
 class ThetaKernel:
-    """R, K and W = II^-1 M of one motion at many times; `rate` is the unit 1/time, `size` the largest rate in it.
+    """R, K and W = II^-1 M of one motion at arrays of times, by theta functions.
 
-    `accuracy` bounds rounding errors, `proved` the errors of the formulas without rounding, at any time: None where
-    there is no proof. Both are computed when first asked for.
+    `rate` is the unit of 1/time, `size` the largest rate in that unit. `accuracy` bounds rounding errors, `proved` the
+    errors of the formulas without rounding, at any time: None where there is no proof. Both are computed when first
+    asked for.
     """
 
     def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
@@ -134,7 +135,7 @@ class ThetaKernel:
 
     @cached_property
     def accuracy(self) -> float:
-        """Bound on errors by rounding: of R, and of K and Omega beside the largest rate, at all phases."""
+        """Bound on rounding errors: of R, and of K and Omega relative to the largest rate, at all phases."""
         return self.rounding.accuracy()
 
     @cached_property
@@ -242,7 +243,7 @@ class ThetaKernel:
 
     @cached_property
     def _lift(self) -> tuple[FloatArray, FloatArray]:
-        """Quaternions over half the phases of the torus, without a jump, and which of three turns change the sign."""
+        """Table of continuous quaternions over half the phases, and which of the three turns change their sign."""
         for size in SIZES:
             line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
             half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)

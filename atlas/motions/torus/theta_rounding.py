@@ -49,11 +49,11 @@ CORNERS = np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
 def quotients(
     value: Array, slopes: Sequence[Array], bends: FloatArray, by_phases: Array, half: float
 ) -> tuple[Array, list[Array], FloatArray, FloatArray]:
-    """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and how far y may be from there.
+    """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and the largest change of y.
 
     `value` (n, m) are the forms, `slopes` two of these by exponents, which are `by_phases`
-    (2, 2) @ phases, `bends` bounds on the sums of second derivatives by phases. The least |D| may be negative: then
-    nothing is known.
+    (2, 2) @ phases, `bends` bounds on the sums of second derivatives by phases. A negative least |D| means that D may
+    vanish in the cell: y has no bound there.
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]
@@ -79,9 +79,9 @@ class Rounding:
     size: float
 
     def accuracy(self, enough: float = 0.0) -> float:
-        """Return a bound on errors of R, and of K and Omega beside the largest rate, at all phases, to first order.
+        """Return a first-order bound on errors of R, and of K and Omega over the largest rate, at all phases.
 
-        It is no tighter than one that is said to be enough.
+        The bound is refined only until it is below `enough`.
         """
         half = np.pi * HALF_TURN / CELLS_PER_PHASE
         line = np.linspace(half - np.pi * HALF_TURN, np.pi * HALF_TURN - half, CELLS_PER_PHASE)
@@ -117,11 +117,11 @@ class Rounding:
         return errors
 
     def _places(self, p: FloatArray) -> list[FloatArray]:
-        """Return P and Q of the terms, less p."""
+        """Return [P - p1, Q - p2], the exponents relative to p."""
         return [self.sums.P - p[0], self.sums.Q - p[1]]
 
     def _error_bounds(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
-        """Return the bounds in cells where terms near p are largest."""
+        """Return error bounds for the cells, one each, with the theta terms near p, where these are largest."""
         P, Q = self._places(p)
         count = np.array([P[:, None] + 0 * Q, 0 * P[:, None] + Q])
         ways = sum(abs(np.einsum("k,kpq->pq", way, count)) for way in self.to_v.T)
@@ -151,7 +151,7 @@ class Rounding:
         return np.where(least > 0, errors, np.inf)
 
     def _of_quotients(self, error: FloatArray, shifts: FloatArray, y: FloatArray) -> FloatArray:
-        """Return bounds on errors from those of forms over |D|, those of exponentials, and sizes of quotients."""
+        """Return error bounds from errors of forms over |D|, shifts by errors of exponentials, and quotients y."""
         summed_errors = error + shifts[: len(error)]
         attitude = np.hypot(summed_errors[:3], summed_errors[4:7] / self.b).max(axis=0) + error[D]
         turn_factor = EXPONENTIAL + PHASE * (1 + abs(self.turning).sum()) + INVERSE + 2 * PRODUCT + COMBINED

@@ -33,9 +33,9 @@ Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
 
 
 class Frames:
-    """The frames of a moving figure, drawn into one; `make` gives the scene of each, from 0 up to `count`.
+    """Frames of an animation in one figure; `make(k)` returns the scene of frame k, 0 <= k < `count`.
 
-    Scenes are made twice, first for the view that holds all of them, so that none stays in memory.
+    Each scene is made twice, first for a view that holds all, so that none stays in memory.
     """
 
     def __init__(self, make: Callable[[int], Scene], count: int, style: Any, progress: Progress) -> None:
@@ -58,7 +58,7 @@ class Frames:
         self.progress(self.count + k + 1, 2 * self.count, "frames")
 
     def _scene(self, k: int) -> Scene:
-        """Return the scene of a frame, its panels with two axes with the limits that hold all frames."""
+        """Return the scene of frame k, its planes with limits that hold all frames."""
         scene = self.make(k)
         return replace(scene, panels=tuple(self._limited(i, panel) for i, panel in enumerate(scene.panels)))
 
@@ -86,7 +86,7 @@ class Moving(FuncAnimation):
     jumps = False
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """Return all frames as one picture."""
+        """Return the animation as a GIF for a notebook."""
         with TemporaryDirectory() as folder:
             path = Path(folder) / "moving.gif"
             save(self, path, "gif", fps=min(max(self.fps, 1.0), FASTEST["gif"]), dpi=_SCREEN)
@@ -94,7 +94,7 @@ class Moving(FuncAnimation):
 
 
 def _extents(scene: Scene) -> Iterator[Extent]:
-    """Yield the extent of each panel, which decides its view; limits left open are Matplotlib's."""
+    """Yield the extent of each panel, which determines its view; open limits are set by Matplotlib."""
     is_open = any(isinstance(plane, Plane) and not (plane.x_limits and plane.y_limits) for plane in scene.panels)
     all_axes = [axes for axes, _ in laid_out(scene)[1]] if is_open else [None] * len(scene.panels)
     for panel, axes in zip(scene.panels, all_axes, strict=True):
@@ -105,7 +105,7 @@ def _extents(scene: Scene) -> Iterator[Extent]:
 
 
 def _reduced(panel: Space) -> Space:
-    """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
+    """Return a panel of equal extent with few points: the extreme ones along the axes and on paper, and names."""
     eye = frame(panel)
     points = cloud(panel)
     heights = points @ np.concatenate([np.eye(3), eye[:2]]).T
@@ -123,7 +123,7 @@ def animation(
     style: StyleLike = None,
     progress: Progress | None = None,
 ) -> Moving:
-    """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
+    """Return `count` scenes as a Matplotlib animation. Raises AtlasError for fewer than two, or too many."""
     if not 2 <= count <= MAX_FRAMES:
         raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
     fps = positive(fps, "fps")
@@ -222,7 +222,7 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
 
 
 def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
-    """Return the function that makes the frames of a scene that moves, and their number."""
+    """Return (function that makes frame k of a moving scene, number of frames)."""
     if not scene.paths:
         raise AtlasError(
             f"the figure {recipe.name!r} has no time t; say which of its parameters moves, and through which values "
@@ -249,7 +249,7 @@ def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -
 
 
 def check(kind: str, fps: float) -> None:
-    """Raise AtlasError for a kind of file that can't be written here, or not with so many frames a second."""
+    """Raise AtlasError for a format that cannot be written here, or not at `fps` frames a second."""
     if not 1 <= fps <= FASTEST[kind]:
         raise AtlasError(f"{kind} has from 1 to {FASTEST[kind]} frames a second, not {fps:g}")
     if kind == "mp4" and not FFMpegWriter.isAvailable():

@@ -35,15 +35,14 @@ def save(
     *,
     kept: bool = False,
 ) -> "Figure":
-    """Draw a scene once, for a target if one is given, and write it into each path in its kind: svg, pdf, png or pgf.
+    """Draw a scene once, for a target if given, and write it to each path in its format: svg, pdf, png or pgf.
 
-    Return its figure.
-    ``renderer`` is "vector" or "shaded", and ``style`` as for `atlas.pictures.drawing.figure`. A PNG for a target has
-    no alpha. Where no GL library can draw, and for scenes without a panel in space, the vector renderer takes over; see
-    `choose`. Missing folders are made. Raises AtlasError for an unknown kind or renderer, for a shaded figure that is
-    not a PNG, for a map of values as PGF, for a style that cannot be used, and for a scene that can't be read at its
-    target; OSError where a file cannot be written. With ``kept`` a file that was not written here, or edited since,
-    stays, the new one is beside it, and AtlasError says so.
+    Returns the Matplotlib figure. ``renderer`` is "vector" or "shaded", and ``style`` as for
+    `atlas.pictures.drawing.figure`. A PNG for a target has no alpha. Where no GL library can draw, and for scenes
+    without a panel in space, the vector renderer is used; see `choose`. Missing folders are made. Raises AtlasError for
+    an unknown format or renderer, for a shaded figure that is not a PNG, for a map of values as PGF, for a style that
+    cannot be used, and for a scene that can't be read at its target; OSError where a file cannot be written. With
+    ``kept`` a file that the user wrote or edited stays, the new one is written beside it, and AtlasError says so.
     """
     from atlas.pictures.drawing.panels import to_figure
     from atlas.pictures.drawing.style import context
@@ -69,7 +68,7 @@ def save(
 
 
 def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
-    """Return the renderer that will draw a scene when this one is asked for, and a line that says why not, if so."""
+    """Return (renderer that will be used, reason if it differs from the requested one or "")."""
     if renderer not in {"vector", "shaded"}:
         raise AtlasError(f"no renderer {renderer!r}; known: vector, shaded")
     if renderer == "vector" or not any(isinstance(panel, Space) for panel in scene.panels):
@@ -130,13 +129,13 @@ def _short(svg: str) -> str:
 
 @lru_cache(1 << 16)
 def _hundredths(number: int) -> str:
-    """Return a number of hundredths with the sign or the space that parts it from the one before."""
+    """Return a number of hundredths as text, preceded by its sign or a space."""
     digits = re.sub(r"^(-?)0\.", r"\1.", str(number / 100).removesuffix(".0"))
     return digits if number < 0 else f" {digits}"
 
 
 def _opaque(path: Path) -> None:
-    """Write a PNG without its alpha again, with the words and the resolution that it has."""
+    """Rewrite a PNG without alpha, with its text and resolution."""
     from PIL import Image as Pictures
     from PIL.PngImagePlugin import PngInfo
 
@@ -167,7 +166,7 @@ def _write_pgf(figure: "Figure", path: Path) -> None:
 
 @contextmanager
 def _formulas_parsed_once() -> Iterator[None]:
-    """Parse a formula of one size once in a process: Matplotlib does it again for each file."""
+    """Context in which Matplotlib parses each formula once, not again for every file."""
     import matplotlib as mpl
     from matplotlib.mathtext import MathTextParser
 

@@ -34,7 +34,7 @@ _ALL = np.ones(3)
 
 
 def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
-    """Return the quadrics without repetition, and for each surface the number of its own."""
+    """Return the distinct quadrics, and for each surface the index of its quadric."""
     forms: list[FloatArray] = []
     numbers = []
     for surface in surfaces:
@@ -47,9 +47,10 @@ def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[
 
 
 def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
-    """Return triangles (T, 3, K) cut so that each has one place in front of every quadric.
+    """Return triangles (T, 3, K) cut so that each lies entirely in front of or behind every quadric.
 
-    The first three of the K numbers of a corner are a point of the quadric number ``owner``; the others come along.
+    The first three of the K numbers of a corner are a point of the quadric with index ``owner``; the others are
+    interpolated.
     """
     for number, form in enumerate(forms):
         corners = _cut(corners, lambda x, form=form: facing(form, x, towards))
@@ -59,7 +60,7 @@ def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: F
 
 
 def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
-    """Return the sum of the places (T,) of triangles that `cut` has made."""
+    """Return the painting rank (T,) of triangles from `cut`, summed over the quadrics."""
     total = np.zeros(len(corners))
     for number, form in enumerate(forms):
         sign = 1.0 if towards @ form[:3, :3] @ towards >= 0.0 else -1.0
@@ -70,12 +71,12 @@ def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards
 
 
 def _snapped(heights: FloatArray) -> FloatArray:
-    """Return the heights, zero where they are zero but for rounding; panels have the size one, and so have forms."""
+    """Return the heights, zero where they vanish up to rounding; panels and quadrics have size one."""
     return np.where(np.abs(heights) <= _ON, 0.0, heights)
 
 
 def _cut(corners: FloatArray, field: Field) -> FloatArray:
-    """Return triangles (T, 3, K) cut where a field of their points, at most of second order, is zero."""
+    """Return triangles (T, 3, K) cut along the zeros of a function of their points, at most quadratic."""
     height = _snapped(field(corners[..., :3]))
     above, below = height > 0.0, height < 0.0
     split = (above[:, 0] | above[:, 1] | above[:, 2]) & (below[:, 0] | below[:, 1] | below[:, 2])
@@ -92,7 +93,7 @@ def _cut(corners: FloatArray, field: Field) -> FloatArray:
 
 
 def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: Field) -> FloatArray:
-    """Return the points between a and b (N, K) where a field with the values u and v there is zero."""
+    """Return the points between a and b (N, K) where a function with the values u and v there is zero."""
     middle = field(0.5 * (a + b)[:, :3])
     square, slope = 2.0 * (u - 2.0 * middle + v), 4.0 * middle - 3.0 * u - v
     with np.errstate(all="ignore"):
@@ -117,9 +118,9 @@ _ON_TOP = 0.25
 
 
 def glass(view: View, pixel: float) -> Triangles:
-    """Return the translucent surfaces of a panel as triangles in the order in which they are to be painted.
+    """Return the translucent surfaces of a panel as triangles in painting order.
 
-    ``pixel`` is the size of one in the panel's unit. The side of a triangle that is seen has its corners anticlockwise.
+    ``pixel`` is the size of a pixel in the panel's unit. The visible side of a triangle has its corners anticlockwise.
     """
     forms, numbers = distinct_forms(view.surfaces)
     painted, ranks = [], []
@@ -146,7 +147,7 @@ def distinct(points: FloatArray) -> FloatArray:
 
 
 def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
-    """Return a line without every second point where that is as near as that to the chord, three times over."""
+    """Return a line without every second point that lies within the tolerance of the chord, in three passes."""
     for _ in range(3):
         before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
         chord = after - before
@@ -159,7 +160,7 @@ def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
 
 
 def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatArray, bool]]:
-    """Yield triangles (T, 3, 7), and whether they are of a wire: point of the surface, way from there, cover."""
+    """Yield (triangles (T, 3, 7), whether of a wire): point of the surface, offset from there, opacity."""
     for grid in surface.grids:
         mesh = _refined(grid)
         points = mesh.reshape(-1, 3)
@@ -172,7 +173,7 @@ def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatA
 
 
 def _refined(grid: FloatArray) -> FloatArray:
-    """Return a mesh whose long cells are divided: curves across it stay smooth, and needles are drawn badly."""
+    """Return a mesh with its long cells divided: curves across stay smooth, and needles are drawn badly."""
     for _ in range(2):
         longest = np.linalg.norm(np.diff(grid, axis=0), axis=2).max(axis=1)
         counts = np.maximum(1, np.ceil(longest / _CELL)).astype(int)
@@ -185,9 +186,9 @@ def _refined(grid: FloatArray) -> FloatArray:
 
 
 def _ribbon(line: FloatArray, width: float, view: View, pixel: float) -> FloatArray:
-    """Return a line of this width as triangles (T, 3, 7) across the ray, its edges fading over one pixel.
+    """Return a line of a given width as triangles (T, 3, 7) across the ray, its edges fading over one pixel.
 
-    One that is thinner than a pixel is drawn as wide as that, and fainter.
+    A line thinner than a pixel is drawn one pixel wide, and fainter.
     """
     rightward, up = view.frame[:2]
     step = np.diff(line @ view.frame[:2].T, axis=0)
@@ -237,7 +238,7 @@ def _rgb(colour: str) -> FloatArray:
 def _to_the_eye(
     points: FloatArray, side_normals: FloatArray, paint: NDArray[np.uint8], view: View
 ) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
-    """Return the triangles with their corners anticlockwise as seen."""
+    """Return points, normals and colours of triangles with their corners anticlockwise as seen."""
     flat = points @ view.frame[:2].T
     a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     way = np.where((a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0])[:, None], np.array([2, 1, 0]), np.array([0, 1, 2]))

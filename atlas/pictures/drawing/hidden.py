@@ -33,7 +33,7 @@ _MARGIN = 0.02
 
 
 def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[tuple[FloatArray, bool]]:
-    """Cut a polyline (N, 3) into pieces, each with whether it is visible.
+    """Return the pieces of a polyline (N, 3), each with whether it is visible.
 
     ``towards`` is the unit vector to the eye; points nearer than 1e-7 count as touching.
     """
@@ -71,7 +71,7 @@ def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray)
 
 
 def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[Surface]:
-    """Return the surfaces whose images overlap the image of the points: no other can hide one."""
+    """Return the surfaces whose images overlap the image of the points: other surfaces hide none of them."""
     plane_axes = np.linalg.svd(towards[None])[2][1:]
     flat = points @ plane_axes.T
     low, high = flat.min(axis=0), flat.max(axis=0)
@@ -83,9 +83,9 @@ def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray
 
 @lru_cache(maxsize=4096)
 def _image(surface: Surface, plane_axes: bytes) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of a rectangle that holds the image of a surface: the image of its mesh and a margin.
+    """Return two corners (2,) of a rectangle with a surface's image: that of its mesh and a margin.
 
-    Without a mesh it is the whole plane.
+    Without a mesh the rectangle is the whole plane.
     """
     if not surface.grids:
         return np.full(2, -np.inf), np.full(2, np.inf)
@@ -202,13 +202,13 @@ def _coefficients(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[Fl
 
 
 def _ratio(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return a / b, not a number where there is none."""
+    """Return a / b, NaN where b is zero."""
     with np.errstate(all="ignore"):
         return np.where(b != 0.0, a / b, np.nan)
 
 
 def _roots(c2: FloatArray, c1: FloatArray, c0: FloatArray) -> list[FloatArray]:
-    """Both roots of c2 s^2 + c1 s + c0, without cancellation; not a number where they are not real."""
+    """Return both roots of c2 s^2 + c1 s + c0, without cancellation; NaN where they are not real."""
     with np.errstate(all="ignore"):
         q = -0.5 * (c1 + np.copysign(np.sqrt(c1 * c1 - 4.0 * c2 * c0), c1))
     return [_ratio(q, c2), _ratio(c0, q)]
@@ -220,7 +220,7 @@ def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> Floa
 
 
 def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
-    """Return (near?, outer side seen?, edge) of the surface's parts, the far ones first."""
+    """Return (near?, outer side seen?, edge) of the surface's parts, far ones first."""
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
     sides = []
     for sign in (1.0, -1.0):
@@ -232,7 +232,7 @@ def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]
 
 
 def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:
-    """Return, for each level, the edge of the near part where less than that cosine of ``light`` falls on it.
+    """Return, for each level, the edge of the near part where the cosine of the ``light`` is below the level.
 
     The light falls on the side that the reader sees.
     """
@@ -263,5 +263,5 @@ def _edge(grid: FloatArray, height: FloatArray) -> Edge:
 
 
 def _joined(edges: list[Edge]) -> Edge:
-    """Return several edges as one."""
+    """Return several edges as one: concatenated points and path codes."""
     return np.concatenate([points for points, _ in edges]), np.concatenate([codes for _, codes in edges])

@@ -48,12 +48,12 @@ class Tag:
 
 
 def spot(tag: Tag) -> FloatArray:
-    """Return the centre (2,) of the text where it would like to stand, in points."""
+    """Return the preferred centre (2,) of a tag's text, in points."""
     return _candidate_centres(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
 
 def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
-    """Return the centres (N, 2) of the text beside anchors (N, 2) when its offset is turned and lengthened."""
+    """Return text centres (N, 2) beside anchors (N, 2), the offset rotated by `turns` and lengthened by `steps`."""
     length = float(np.hypot(*tag.offset))
     if length == 0.0:
         return anchors
@@ -66,7 +66,7 @@ def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: 
 
 
 def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
-    """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
+    """Return the centre of each tag: the cheapest candidate, in two rounds, deterministically.
 
     Tags keep clear of the ``inks``; ``window`` is (left, bottom, right, top).
     """
@@ -128,7 +128,7 @@ def _covers(
     weights: FloatArray,
     window: tuple[float, float, float, float],
 ) -> FloatArray:
-    """Return the cost (N,) of the ink that a text at centres (N, 2) covers, and of its part outside the window."""
+    """Return the cost (N,) of texts at centres (N, 2): ink covered, and area outside the window."""
     half = 0.5 * np.array(extent) + _AIR
     low, high = centres - half, centres + half
     is_near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
@@ -149,7 +149,7 @@ def _meets(centres: FloatArray, extent: tuple[float, float], obstacles: FloatArr
 
 
 def ink_points(points: FloatArray, step: float = 2.0) -> FloatArray:
-    """Return points no further than ``step`` apart on a polyline (N, 2): its ink."""
+    """Return points at most ``step`` apart along a polyline (N, 2), which texts should not cover."""
     finite = points[np.isfinite(points).all(axis=1)]
     if len(finite) < 2:
         return finite
@@ -162,7 +162,7 @@ def ink_points(points: FloatArray, step: float = 2.0) -> FloatArray:
 def write(axes: Axes, tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
     """Write the texts about their centres (points from the lower left corner), as annotations of their anchors.
 
-    Below each lies its outline in the colour of the ground, which is no text, or a white box on a coloured image.
+    Below each lies its outline in the background colour, which is no text, or a white box on a coloured image.
     """
     corner = axes.get_window_extent().p0
     face = WHITE if boxed else ground(axes.get_facecolor() if axes.axison else axes.figure.get_facecolor())

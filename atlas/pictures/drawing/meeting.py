@@ -22,7 +22,7 @@ class Texts(RendererBase):
         figure.draw(self)
 
     def get_canvas_width_height(self) -> tuple[float, float]:
-        """Return the size in pixels."""
+        """Return the canvas' size in pixels."""
         return self.figure.bbox.width, self.figure.bbox.height
 
     def points_to_pixels(self, points: float) -> float:
@@ -42,7 +42,7 @@ class Texts(RendererBase):
 
 
 def unreadable(figure: Figure) -> str:
-    """Return a sentence on two texts of a figure that overlap, or on one outside the page; empty if there is none."""
+    """Return a sentence on two overlapping texts of a figure, or on a text outside the page; "" without any."""
     page_texts = Texts(figure)
     for (lower_text, a), (upper_text, b) in combinations(page_texts.texts, 2):
         size = page_texts.points_to_pixels(min(lower_text.get_fontsize(), upper_text.get_fontsize()))

@@ -38,7 +38,7 @@ def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> s
 
 
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
-    """Return the tables of a scene's paths in space, and the layers that ride on them, in the figure and on a phone.
+    """Return the tables of a scene's paths, and the layers that ride on them, for figure and narrow screen.
 
     `figures` are as for `atlas.pictures.drawing.viewer.data`.
     """
@@ -87,7 +87,7 @@ def _quaternions(R: FloatArray) -> FloatArray:
 
 
 def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
-    """Return for each panel in space its centre, its size and its layers that ride; and the marks of the others."""
+    """Return centre, size and moving layers of each panel in space, and the marks of the other panels."""
     figure = next(iter(figures), None) or laid_out(scene)[0]
     panels = list(zip(figure.axes, scene.panels, strict=True))
     times = np.linspace(0.0, scene.lasts, _MOST + 1)
@@ -124,7 +124,7 @@ def _kinds(layer: Layer, view: View) -> Iterator[str]:
 
 
 def _marks(axes: Axes, panel: Plane, scene: Scene, times: FloatArray) -> Iterator[list[Any]]:
-    """Yield colour, diameter in points and places in the figure of each mark that rides in a panel with two axes."""
+    """Yield colour, diameter in points and positions in the figure of each moving mark of a plane panel."""
     to_figure = axes.transData - axes.figure.transFigure
     for layer in (rider for rider in _riders(panel) if isinstance(rider, Points)):  # a label stays in its place
         R, s = scene.paths[layer.rides](times)

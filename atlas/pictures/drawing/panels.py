@@ -49,10 +49,10 @@ Hold: TypeAlias = Callable[[int, tuple[float, float]], Placement]
 
 
 class SceneFigure(Figure):
-    """A figure of Matplotlib that is saved with the kind of fonts it was made for, whatever the settings are then.
+    """A Matplotlib figure saved with the font settings for which it was made, whatever the current settings.
 
-    `kept` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, which journals take, unless its style says other;
-    of a figure for a target ``savefig.dpi`` too.
+    `kept` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, as journals require, unless the style says
+    otherwise; for a target ``savefig.dpi`` too.
     """
 
     kept: Mapping[str, Any] = MappingProxyType({})
@@ -86,7 +86,7 @@ def to_figure(
     VTK with its names over it. Names are annotations. The group id of a layer's artist, ``artist.get_gid()``,
     is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
     picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for
-    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if one is given, and ``hold`` tells the view of a
+    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if given, and ``hold`` fixes the view of a
     panel in space in a window. Raises AtlasError where a panel cannot hold one of its layers, and for a scene that
     can't be read at the target.
     """
@@ -96,7 +96,7 @@ def to_figure(
 
 
 def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
-    """Return a scene as a figure for a target. Raises AtlasError where texts would stand on one another."""
+    """Return a scene as a figure for a target. Raises AtlasError where texts overlap."""
     from atlas.pictures.arrange import arranged
     from atlas.pictures.drawing.meeting import unreadable
 
@@ -137,7 +137,7 @@ def _drawing(
 
 
 def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
-    """Draw a panel into axes of the user's own. Raises AtlasError for other objects, and for three dimensions."""
+    """Draw a panel into the user's own axes. Raises AtlasError for other objects, and for 3d axes."""
     if not isinstance(axes, Axes):
         raise AtlasError(f"ax must be axes of Matplotlib, not {reprlib.repr(axes)}.")
     if axes.name == "3d":
@@ -149,7 +149,7 @@ def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
 
 
 def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
-    """Draw the parts that may move the axes: a panel with two axes but for its names, of one in space the title."""
+    """Draw the parts that may move the axes: a plane panel without its names, of a panel in space the title."""
     if isinstance(panel, Plane):
         draw_plane(axes, panel, number)
     else:
@@ -158,7 +158,7 @@ def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
 
 
 def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = None) -> None:
-    """Draw the rest of a panel whose axes have their place."""
+    """Draw the other parts of a panel, once its axes are in position."""
     if isinstance(panel, Plane):
         write_names(axes, panel)
     else:
@@ -166,9 +166,9 @@ def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = Non
 
 
 def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[tuple[Axes, Panel]]]:
-    """Return a figure, or this one when it is empty, and its axes in their places, each with its panel.
+    """Return a figure (the given empty one, or a new one), and pairs (axes in position, panel).
 
-    Those in space are still empty.
+    The axes of panels in space are still empty.
     """
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
@@ -187,7 +187,7 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
 
 
 def places(scene: Scene) -> list[Bbox]:
-    """Return the box of each panel, in shares of the figure; no axes are made for panels that fill the figure."""
+    """Return the box of each panel in fractions of the figure; no axes are made for panels that fill the figure."""
     if _framed(scene):
         return [axes.get_position() for axes, _ in laid_out(scene)[1]]
     figure = Figure()
@@ -195,7 +195,7 @@ def places(scene: Scene) -> list[Bbox]:
 
 
 def _framed(scene: Scene) -> bool:
-    """Tell whether panels have something about them: ticks and labels, or a title."""
+    """Return whether a panel has ticks and labels, or a title."""
     return any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
 
 
@@ -221,13 +221,13 @@ _FRAME = 1.5
 
 
 def write_names(axes: Axes, panel: Plane) -> None:
-    """Write the names of a panel where they cover nothing; the axes must have their place in the figure."""
+    """Write the names of a panel where they cover nothing; the axes must be in position."""
     axes.apply_aspect()
     box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
     size = (float(box.width * scale), float(box.height * scale))
 
     def places(points: FloatArray) -> FloatArray:
-        """Return places in points from the lower left corner; not a number where there is none, and never far away."""
+        """Return positions in points from the lower left corner; NaN where undefined, and within _FAR."""
         with np.errstate(all="ignore"):
             pixels = axes.transData.transform(np.atleast_2d(np.asarray(points, dtype=float)))
             return np.asarray(np.clip((pixels - box.p0) * scale, -_FAR, _FAR))
@@ -274,9 +274,9 @@ def _requests(
 
 
 def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[Ink]:
-    """Yield points of all lines and marks inside the panel, each layer's as its own.
+    """Yield the points of all lines and marks inside the panel, with the index of their layer.
 
-    Guides are pale lines without a name, and no other is taken for theirs: they belong to nobody.
+    Guides are pale lines without a name, and no other line is taken for one: their points belong to no layer.
     """
     for owner, layer in enumerate(panel.layers):
         if isinstance(layer, Curve):

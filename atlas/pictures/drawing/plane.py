@@ -72,7 +72,7 @@ def _unclip_marks(axes: Axes) -> None:
 
 
 def _ticks(axes: Axes) -> None:
-    """Leave out the ticks between many powers of ten, and write numbers in our way, as many as their size allows."""
+    """Remove minor ticks between many powers of ten, and format as many numbers as fit."""
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_tick_params(labelsize=mpl.rcParams[f"{axis.axis_name}tick.labelsize"])
         if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
@@ -91,7 +91,7 @@ def _scale(axes: Axes, panel: Plane) -> None:
 
 
 def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
-    """Draw one layer and return the artist that stands for it in a legend; dark marks may have another edge."""
+    """Draw one layer and return its artist for a legend, or None; `edge` is the edge colour of dark marks."""
     if isinstance(layer, Label):
         return None
     if isinstance(layer, Image):
@@ -122,7 +122,7 @@ def gid(layer: Layer, panel: int, place: int, piece: int = 1) -> str:
 
 
 def marker(role: str, ring: str = "") -> dict[str, Any]:
-    """Return the marker of a role as keywords of `Axes.plot`, on a map with a ring, so that it stands off in grey."""
+    """Return a role's marker as keywords of `Axes.plot`, with a `ring` colour on a map."""
     look = style_of(role)
     edge = INK if look.colour == WHITE else ring or look.colour
     shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
@@ -130,7 +130,7 @@ def marker(role: str, ring: str = "") -> dict[str, Any]:
 
 
 def _map(axes: Axes, image: Image) -> Any:
-    """Draw a map of values as pixels, with its colorbar beside it if it has a label."""
+    """Draw a map of values as pixels, and its colorbar if it has a label."""
     low, high = image.limits or (np.nanmin(image.values), np.nanmax(image.values))
     norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
     ends = [(edges[0], edges[-1]) for edges in (image.x, image.y)]

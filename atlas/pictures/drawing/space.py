@@ -34,9 +34,9 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 
 
 def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement | None = None) -> None:
-    """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure.
+    """Draw panel `number` with hidden lines, and its names; the axes must be in position.
 
-    Its scale is the largest at which it fits, or the scale of a given placement.
+    The scale is the largest at which it fits, or that of a given placement.
     """
     view = fit(panel, window(axes), placement)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
@@ -57,13 +57,13 @@ def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement |
 
 
 def window(axes: Axes) -> tuple[float, float]:
-    """Return width and height of axes in points before the target enlarges them."""
+    """Return width and height of axes in points, before the target's enlargement."""
     box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
     return float(box.width * scale), float(box.height * scale)
 
 
 def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]]) -> None:
-    """Write the names of a panel clear of the ink: points (N, 2) and how much it hurts to cover one of them."""
+    """Write the names of a panel clear of the ink: pairs of points (N, 2) and the cost of covering one."""
     edges = (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0)
     write(axes, view.tags, place(view.tags, [(*strokes, NOBODY) for strokes in ink], edges))
 
@@ -80,11 +80,11 @@ class _Drawing:
         self._lines: defaultdict[tuple[Any, ...], list[FloatArray]] = defaultdict(list)
 
     def begin(self, layer: Layer, panel: int, place: int) -> None:
-        """Go on to a layer: its parts are named after it."""
+        """Start the next layer: later artists get its group id."""
         self._names = (gid(layer, panel, place, piece) for piece in count(1))
 
     def finish(self) -> None:
-        """Put the lines into the axes, those of one layer and look together."""
+        """Add the lines to the axes, one collection for each layer and look."""
         for (colour, width, dash, height), lines in self._lines.items():
             cap = "butt" if dash else "round"
             look = {"colors": colour, "linewidths": stroke(width), "linestyles": [dashes(dash)], "zorder": height}
@@ -92,9 +92,10 @@ class _Drawing:
             self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
 
     def surface(self, surface: Surface) -> None:
-        """Tint the two sides, the far parts below the near ones, then draw silhouette, edges and wires.
+        """Fill both sides, the far parts below the near ones, then draw silhouette, edges and wires.
 
-        Of an opaque surface, a piece of a convex body, only the near part is drawn, its inner side below all else.
+        Of an opaque surface, a piece of a convex body, only the near part is drawn, its inner side below everything
+        else.
         """
         look, view = style_of(surface.role), self.view
         opaque = look.fill == 1.0
@@ -196,7 +197,7 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
 
 
 def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
-    """Yield the points that names should not cover in a shaded picture, with their weights."""
+    """Yield (points that names should not cover in a shaded picture, weight of one)."""
     for layer in view.panel.layers:
         if isinstance(layer, Curve):
             yield ink_points(view.on_paper(layer.points)), 3.0

@@ -25,7 +25,7 @@ HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 
 
 def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> FloatArray:
-    """Where the head of an arrow begins; it has one length on paper, but never more than half of the arrow."""
+    """Return the base of an arrow's head, which has a fixed length on paper, at most half of the arrow."""
     step = tip - tail
     length = float(np.linalg.norm(step))
     head = min((HEAD_LENGTH + 2.2 * look.width) / scale, 0.5 * length)
@@ -87,7 +87,7 @@ def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
 
 
 def _target_settings(target: Target) -> dict[str, Any]:
-    """Return the settings that a target asks for, from those that are."""
+    """Return the Matplotlib settings for a target, derived from the current ones."""
     now = mpl.rcParams
     return {
         **dict.fromkeys(_TEXTS, target.type),
@@ -112,13 +112,13 @@ def stroke(width: float) -> float:
 
 
 def dashes(pattern: Sequence[float]) -> Any:
-    """Return a pattern of dashes as Matplotlib takes it, on paper."""
+    """Return a pattern of dashes in Matplotlib's form, scaled to paper."""
     return (0, [zoom() * length for length in pattern]) if pattern else "-"
 
 
 @contextmanager
 def _complaints() -> Iterator[list[str]]:
-    """Collect Matplotlib's messages on lines of a style sheet that it leaves out, in place of printing them."""
+    """Context that yields a list of Matplotlib's messages on skipped lines of a style sheet."""
     messages: list[str] = []
     logger, handler = logging.getLogger("matplotlib"), logging.Handler(logging.WARNING)
     handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]  # the way to a list
@@ -134,7 +134,7 @@ def _complaints() -> Iterator[list[str]]:
 
 @cache
 def _sheet() -> Any:
-    """Read the package's sheet."""
+    """Return the settings of the package's style sheet."""
     return mpl.rc_params_from_file(SHEET, use_default_template=False)
 
 
@@ -162,7 +162,7 @@ def _apply(style: Any) -> None:
 
 
 def _use(styles: Sequence[Any]) -> None:
-    """Apply a user's styles one after the other."""
+    """Apply a user's styles in order. Raises AtlasError for a setting that is not finite, and for missing LaTeX."""
     for sheet in styles:
         _apply(sheet)
     for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend

@@ -13,7 +13,7 @@ _SET = re.compile(r"\$[^$]*\$|'")
 
 
 def typeset(text: str) -> str:
-    """Write primes as the character, as mathtext's own superscript stands too far from its letter, and apostrophes."""
+    """Return text with primes and apostrophes as characters; mathtext sets its own primes too far off."""
 
     def character(matched: re.Match[str]) -> str:
         math = matched[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′")
@@ -23,12 +23,12 @@ def typeset(text: str) -> str:
 
 
 def points(setting: str) -> float:
-    """Return a font size of the style sheet, such as ``axes.labelsize``, in points before the target enlarges them."""
+    """Return a font size of the style sheet, such as ``axes.labelsize``, in points before a target's enlargement."""
     return float(FontProperties(size=mpl.rcParams[setting]).get_size_in_points()) / zoom()
 
 
 def line(text: str, size: float) -> tuple[float, float, float]:
-    """Return width, ascent and descent of a text in points; no line is lower than its font asks for."""
+    """Return width, ascent and descent of a text in points, at least those of its font."""
     width, ascent, descent = _line(text, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
     return size * width, size * ascent, size * descent
 
@@ -41,7 +41,7 @@ def extent(text: str, size: float) -> tuple[float, float]:
 
 @cache
 def _line(text: str, family: tuple[str, ...], fontset: str) -> tuple[float, float, float]:
-    """Measure a text at size 1; the settings of fonts are part of the key."""
+    """Return width, ascent and descent of a text at size 1, cached by text and font settings."""
     size = text_to_path.FONT_SCALE
     font = FontProperties(family=list(family), size=size, math_fontfamily=fontset)
 

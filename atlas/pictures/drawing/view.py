@@ -31,10 +31,10 @@ _BEYOND = 4.5
 
 @dataclass(frozen=True)
 class Placement:
-    """The scale of a panel and the place of its origin on paper, which all pictures of one movement share.
+    """Scale of a panel and position of its origin on paper, common to all frames of an animation.
 
-    A panel is in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one; ``scale`` is in
-    printer's points per unit of these, ``shift`` (2,) the place on paper of their origin.
+    Coordinates are (x - ``centre``)/``size``, of order one; ``scale`` is in printer's points per unit of these,
+    ``shift`` (2,) the position of their origin on paper.
     """
 
     centre: FloatArray
@@ -45,7 +45,7 @@ class Placement:
 
 @dataclass(frozen=True)
 class View(Placement):
-    """Where things of a panel appear on paper.
+    """A panel with its projection to paper.
 
     ``panel`` is the panel in these coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
     the panel's (width, height) in points; ``tags`` are the names, anchored on paper.
@@ -63,7 +63,7 @@ class View(Placement):
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        """Surfaces that can hide other layers."""
+        """All surfaces of the panel, which can hide other layers."""
         return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
 
     def on_paper(self, points: FloatArray) -> FloatArray:
@@ -72,7 +72,7 @@ class View(Placement):
 
 
 def hold(panels: Sequence[Space], window: tuple[float, float]) -> Placement:
-    """Fit panels into one window (width, height) in points: the largest scale at which each stays inside, names too."""
+    """Return the placement with the largest scale at which all panels and names fit a window (width, height)."""
     low = np.min([cloud(panel).min(axis=0) for panel in panels], axis=0)
     high = np.max([cloud(panel).max(axis=0) for panel in panels], axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
@@ -94,7 +94,7 @@ def hold(panels: Sequence[Space], window: tuple[float, float]) -> Placement:
 
 
 def fit(panel: Space, window: tuple[float, float], placement: Placement | None = None) -> View:
-    """Return a panel as it appears in a window (width, height) in points: as it fits there best, or as it is held."""
+    """Return the view of a panel in a window (width, height) in points, with the best or the given placement."""
     placement = placement or hold([panel], window)
     panel = scaled(panel, placement.centre, placement.size)
     eye = frame(panel)
@@ -119,7 +119,7 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
 
 
 def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
-    """Return text, place, offset and role of a layer's name, if it has one."""
+    """Return (text, position, offset, role) of a layer's name, None without a name."""
     request: tuple[str, FloatArray, tuple[float, float], str] | None = None
     if isinstance(layer, Label):
         request = layer.text, layer.at, layer.offset, layer.role

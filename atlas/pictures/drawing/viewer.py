@@ -42,14 +42,14 @@ def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> s
 
 
 def deep(scene: Scene) -> bool:
-    """Tell whether there is something to turn in a scene."""
+    """Return whether a scene has a panel that can be rotated."""
     return any(isinstance(panel, Space) and _deep(panel) for panel in scene.panels)
 
 
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
-    """Return a scene: its panels in space in the figure and in that for a narrow screen, and all texts.
+    """Return a scene for the viewer: panels in space in the wide and the narrow figure, and all texts.
 
-    `figures` are both of these if they were drawn already: their axes have their places.
+    `figures` are the wide and the narrow figure if they are already drawn.
     """
     small = narrowed(scene)
     with context(style):
@@ -64,7 +64,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
 def _laid_out(
     scene: Scene, figures: Sequence[Figure], texts: dict[tuple[str, float], int], *, same: bool = False
 ) -> dict[str, Any]:
-    """Return the places of the panels in space in a figure, and their layers unless they are the `same`."""
+    """Return the boxes of a figure's panels in space, and their layers unless `same` as in the wide figure."""
     boxes = [axes.get_position() for figure in figures for axes in figure.axes] or places(scene)
     size = _POINT * np.array(scene.size)
     views = [
@@ -83,7 +83,7 @@ def _deep(panel: Space) -> bool:
 
 
 def _place(box: Bbox, view: View) -> list[float]:
-    """Return left, top, width and height as shares of the figure; its size, scale and shift in points."""
+    """Return a panel's left, top, width, height as fractions of the figure, and size, scale, shift in points."""
     x_low, y_low, x_high, y_high = box.extents
     return [*map(_short, (x_low, 1.0 - y_high, x_high - x_low, y_high - y_low, *view.window, view.scale, *view.shift))]
 
@@ -110,7 +110,7 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
 
 
 def _surface(surface: Surface) -> list[Any]:
-    """Return quadric, half spaces, quadrics within which it lies, both colours, opacity, and the corners of a box."""
+    """Return quadric, half spaces, bounding quadrics, both colours, opacity, and the corners of a box."""
     look = style_of(surface.role)
     points = cloud(Space((surface,)))
     box = points.min(axis=0) - 1e-3, points.max(axis=0) + 1e-3
@@ -127,7 +127,7 @@ def _surface(surface: Surface) -> list[Any]:
 
 
 def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
-    """Yield the lines, wires, arrows and dots of a layer, each with its kind."""
+    """Yield (kind, data) for the lines, wires, arrows and dots of a layer."""
     if isinstance(layer, Surface):
         yield from (
             ("wires", [style_of("wire").colour, style_of("wire").tube, _packed(thinned(wire, _NEAR / view.scale))])
@@ -150,7 +150,7 @@ def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
 
 
 def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, list[Any]]]:
-    """Yield a line, or its dashes."""
+    """Yield (kind, data) for a line, or for each of its dashes."""
     for dash in dashes(curve, look, view) if look.tube > 0.0 else ():
         polyline = distinct(dash)
         if len(polyline) > 1:
@@ -158,14 +158,14 @@ def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, li
 
 
 def _packed(curve: FloatArray) -> str:
-    """Return the points of a line as 16-bit numbers in base 64, without those that fall on the one before."""
+    """Return a line's points as 16-bit integers in base 64, without consecutive repetitions."""
     steps = np.round(STEPS * curve).astype("<i2")
     new = np.concatenate([[True], np.any(np.diff(steps, axis=0), axis=1)])
     return b64encode(steps[new].tobytes()).decode()
 
 
 def _form(quadric: FloatArray) -> list[float]:
-    """Return the upper triangle of a quadric, whose largest coefficient is one."""
+    """Return the upper triangle of a quadric's matrix, normalised to a largest coefficient of one."""
     return _list(quadric[_UPPER] / np.abs(quadric).max())
 
 
@@ -174,13 +174,13 @@ def _list(numbers: FloatArray) -> list[float]:
 
 
 def _short(number: float) -> float:
-    """Return a number of seven digits, a whole one as such."""
+    """Return a number rounded to seven digits, as int where it is an integer."""
     short = float(f"{number:.7g}") + 0.0
     return int(short) if short.is_integer() else short
 
 
 def _outline(text: str, size: float) -> str:
-    """Return the outline of a text about its middle as the data of an SVG path, in points over `GRID`; y goes down."""
+    """Return a text's outline about its middle as SVG path data, in points divided by `GRID`; y points down."""
     return _outlined(text, size, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
 
 

@@ -30,15 +30,15 @@ _CLOSER = 4.0
 
 
 class ScenePlotter(pv.Plotter):
-    """A plotter that a notebook shows as the scene it was made of, in the viewer of the pages, which turns it there.
+    """A PyVista plotter that a notebook shows as its scene in the pages' viewer, where it can be rotated.
 
-    Meshes added to the plotter afterwards are seen by ``show`` and ``screenshot``, but not there.
+    Meshes added to the plotter later appear in ``show`` and ``screenshot``, but not in the notebook.
     """
 
     scene: Scene | None = None
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """Return the representations for a notebook."""
+        """Return the scene's HTML and plain text for a notebook."""
         return mimebundle(self.scene)
 
 
@@ -121,7 +121,7 @@ still.complete ? start() : still.addEventListener("load", start);
 
 
 def mimebundle(scene: Scene) -> dict[str, str]:
-    """Return a scene's HTML for a notebook: a frame with the document, in words where it shows no HTML."""
+    """Return a scene for a notebook: HTML with the viewer in a frame, and plain words."""
     width, height = (round(_SCREEN * length / _INCH) for length in scene.size)
     frame = (
         f'<iframe width="{width}" height="{height}" style="border:0;max-width:100%" sandbox="allow-scripts" '
@@ -131,7 +131,7 @@ def mimebundle(scene: Scene) -> dict[str, str]:
 
 
 def document(scene: Scene) -> str:
-    """Return the document: it asks for nothing else, and its policy lets it ask for nothing."""
+    """Return the HTML document of the viewer, complete in itself; its policy forbids all requests."""
     file = BytesIO()
     to_figure(scene).savefig(file, format="png", dpi=_STILL)
     picture = b64encode(file.getvalue()).decode()
