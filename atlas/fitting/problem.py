@@ -2,16 +2,30 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.fitting.data import STEP, Data
 from atlas.fitting.flow import ERROR, FINE
 from atlas.fitting.least import RHO
-from atlas.fitting.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, state, units_of, unseen
+from atlas.fitting.models import (
+    ATTITUDE,
+    DIRECTION,
+    IN_BODY,
+    OMEGA,
+    B,
+    Model,
+    Values,
+    field_of,
+    flow,
+    state,
+    units_of,
+    unseen,
+)  # fmt: skip
 from atlas.fitting.parameters import Parameters
 from atlas.lazy import cached_property
 
@@ -23,6 +37,17 @@ LONG = 3000.0
 
 
 Vector: TypeAlias = Sequence[float] | FloatArray
+
+
+class Rotations(NamedTuple):
+    """Motions of which R (M, N, 3, 3) is known at the times that are asked for."""
+
+    R: FloatArray
+
+    def rotation(self, _: FloatArray) -> FloatArray:
+        """Return R."""
+        return self.R
+
 
 MEDIAN = 0.4549364
 """Median of the square of a normal variable."""
@@ -136,10 +161,13 @@ class Problem:
         """Return the residuals (M, N k) of M motions; HUGE where there is no motion."""
         if not (self.together or self.followed):
             return np.stack([self.residuals(x, places) for x in X])
-        data = self.data.part(places)
+        return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.part(places))
+
+    def _differences(self, motions: Any, data: Data) -> FloatArray:
+        """Return the residuals of a `Flow` or `Rotations`, (M, N k), huge ones where there is none."""
         with np.errstate(all="ignore"):
-            r = data.differences(flow(self.model, self.values_of_all(X), self.error)) / data.sigma
-        return np.where(abs(r) < LOST, r, HUGE).reshape(len(X), -1)
+            r = data.differences(motions) / data.sigma
+        return np.where(abs(r) < LOST, r, HUGE).reshape(len(r), -1)
 
     def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
         """Return the residuals of motions (M, N k), and their derivatives by differences (M, n, N k)."""
@@ -147,10 +175,44 @@ class Problem:
         if not (self.together or self.followed):
             r = self.apart(X, places)
             return r, np.stack([self._jacobian(x, row, places) for x, row in zip(X, r, strict=True)])
-        h = STEP * self.units_of_free
-        points = X[:, None] + np.concatenate([np.zeros((1, n)), np.diag(h)])
-        r = self.apart(points.reshape(-1, n), places).reshape(M, n + 1, -1)
-        return r[:, 0], (r[:, 1:] - r[:, :1]) / h[:, None]
+        h, data = STEP * self.units_of_free, self.data.part(places)
+        varied = np.flatnonzero([not (self.is_turned and name in ATTITUDE) for name in self.names])
+        points = np.repeat(X[:, None], 1 + varied.size, 1)
+        points[:, 1 + np.arange(varied.size), varied] += h[varied]
+        motions: Any = flow(self.model, self.values_of_all(points.reshape(-1, n)), self.error)
+        if self.is_turned:
+            with np.errstate(all="ignore"):
+                motions = Rotations(motions.rotation(data.t))
+        r = self._differences(motions, data).reshape(M, 1 + varied.size, -1)
+        J = np.empty((M, n, r.shape[-1]))
+        J[:, varied] = (r[:, 1:] - r[:, :1]) / h[varied, None]
+        if self.is_turned:
+            self._turn(J, X, motions.R[:: 1 + varied.size], r[:, 0], data)
+        return r[:, 0], J
+
+    @cached_property
+    def is_turned(self) -> bool:
+        """Whether a change of attitude is a rotation of the laboratory, less that of a field that is free or zero."""
+        free_field = {*B} & {*self.names}
+        is_zero = not (free_field or any(self.params[name].value for name in B if name in self.params))
+        is_known = not (self.tied or self.model.has_direction or self.data.kind in IN_BODY)
+        return is_known and (is_zero or free_field == {*B}) and bool({*self.names} & {*ATTITUDE})
+
+    def _turn(self, J: FloatArray, X: FloatArray, R: FloatArray, r: FloatArray, data: Data) -> None:
+        """Fill in the derivatives in the attitude of residuals r (M, N k) of motions R (M, N, 3, 3).
+
+        A rotation of the laboratory turns the field too: its derivatives are subtracted.
+        """
+        values = self.values_of_all(X)
+        a, field = (np.stack([values.get(name, np.zeros(len(X))) for name in names], -1) for names in (ATTITUDE, B))
+        back = Rotation.from_rotvec(a).inv()
+        for name in (name for name in ATTITUDE if name in self.names):
+            turn = Rotation.from_rotvec(a + STEP * np.eye(3)[ATTITUDE.index(name)]) * back
+            slopes = (self._differences(Rotations(turn.as_matrix()[:, None] @ R), data) - r) / STEP
+            for field_name, by in zip(B, (turn.apply(field) - field).T / STEP, strict=True):
+                if field_name in self.names:
+                    slopes -= by[:, None] * J[:, self.names.index(field_name)]
+            J[:, self.names.index(name)] = slopes
 
     def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
         """Return the derivatives of the residuals, (n, N k); zero where there is no motion."""

@@ -380,6 +380,24 @@ def test_solutions_that_are_equal_by_symmetry_are_listed(family: str, signal: An
         assert min(np.abs(np.subtract(solutions[i + 1], x)).max() for x in solutions[: i + 1]) > 1e-3
 
 
+@pytest.mark.parametrize("held", [(), ("B1", "B2"), ("B1", "B2", "B3")])
+@pytest.mark.parametrize("family", ["general", "asymmetric", "elliptic"])
+def test_slopes_in_the_attitude_are_those_of_motions_beside(family: str, held: tuple[str, ...]) -> None:
+    """Whether the field is free, partly free or zero: a rotation of the laboratory turns the field."""
+    t = np.linspace(0, 3, 30)
+    data = of_arrays(t, {"signal": (np.ones((30, 3)), diagonal)}, 1.0, 0.0, scalar_first=False)
+    params, _ = parameters_of(model_of(family), data, None, dict.fromkeys(held, 0.0))
+    problem = Problem(model_of(family), data, params, "linear", 1.0)
+    problem.error = 1e-11
+    values = {**OF_THREE, "ratio": 1.4, "z": 2.0}
+    x, h = np.array([values[name] for name in problem.names]), 1e-4
+    _, J = problem.turned(x[None])
+    for name in ("a1", "a2", "a3"):
+        i = problem.names.index(name)
+        up, down = problem.apart(x + h * np.array([[1.0], [-1.0]]) * np.eye(x.size)[i])
+        assert J[0, i] == pytest.approx((up - down) / (2 * h), abs=3e-5)
+
+
 @pytest.mark.slow
 def test_a_signal_found_without_a_start_has_the_truth_among_its_solutions() -> None:
     """Where the fit has another one, that of the truth is listed."""
