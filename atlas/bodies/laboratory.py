@@ -1,15 +1,18 @@
-"""A real body in SI units: the charge that it can hold, its radiation, and its magnetisation by the field.
+"""A real body in SI units: charge that it can hold, radiation, magnetisation, drag, and which of them outweighs.
 
 All parts have one charge-to-mass ratio mu, so the electric dipole moment about the centre of mass is mu times the sum
 of m x, which is zero: what turns about the centre radiates by its magnetic dipole mu m/2, m the angular momentum, and
 by its electric quadrupole only. Not in the paper, which leaves radiation out.
 """
 
-from math import cos, pi, sin
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import asin, atanh, cos, hypot, inf, pi, sin, sqrt
 from typing import Any
 
 from atlas.arithmetic.inputs import number, positive
-from atlas.bodies.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.bodies.formula_shapes import VOLUMES
+from atlas.bodies.units import BOLTZMANN, ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
 from atlas.errors import DomainError, unknown
 
 DEMAGNETIZATION = {
@@ -25,6 +28,11 @@ DEMAGNETIZATION = {
 A wall has the factor 1 along its normal n and 0 along itself, N = n n^T; a wire 1/2 across itself, N = (1 - t t^T)/2;
 these are averaged over the body.
 """
+
+GRAVITY, MOLECULE, ROOM_TEMPERATURE = 9.81, 4.65e-26, 300.0
+"""In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
+SMALL_SHARE = 0.01
+"""Share of the effect that is shown below which another is called negligible."""
 
 
 def greatest_charge(radius: Any, surface_field: float) -> float:
@@ -99,3 +107,152 @@ def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian:
         raise DomainError(f"With the susceptibility {susceptibility} and this shape 1 + chi N is not positive.")
     size = positive(volume, "The volume of the magnetised body", "m**3")
     return size * chi * chi * (N2 - N3) / (unit * (1 + chi * N3) * (1 + chi * N2))
+
+
+def demagnetization(aspect: float) -> float:
+    """Return the demagnetizing factor along the axis of a spheroid, polar over equatorial `aspect`."""
+    if abs(aspect - 1) < 1e-6:
+        return 1 / 3
+    if aspect > 1:
+        e = sqrt(1 - 1 / aspect**2)
+        return (1 - e * e) / e**3 * (atanh(e) - e)
+    e = sqrt(1 - aspect**2)
+    return (1 - aspect / e * asin(e)) / e**2
+
+
+def gas_drag(radius: float, moment: float) -> float:
+    """Return the rate by the pressure, in 1/(s Pa), at which thin nitrogen at 300 K slows the spin of a sphere."""
+    speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
+    return 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * radius**4 / moment
+
+
+@dataclass(frozen=True)
+class Spinning:
+    """A body of a shape in a field, in SI: sizes by name, charge-to-mass ratio, moments (I2, I3), |B| and |Omega|.
+
+    `rate` is that of the effect of the charge which is shown, in rad/s.
+    """
+
+    shape: str
+    sizes: Mapping[str, float]
+    mass: float
+    mu: float
+    moments: tuple[float, float]
+    B: float
+    spin: float
+    rate: float
+
+    @property
+    def radius(self) -> float:
+        """Largest distance of a point of the body from its centre, in m."""
+        size = self.sizes
+        lengths = max(size.get("radius", 0.0), size.get("equatorial", 0.0))
+        return max(hypot(lengths, size.get("height", 0.0) / 2), size.get("polar", 0.0))
+
+    @property
+    def aspect(self) -> float:
+        """Height by width of the spheroid that a solid body is taken for where fields inside it matter."""
+        size = self.sizes
+        if "polar" in size:
+            return size["polar"] / size["equatorial"]
+        return size["height"] / (2 * size["radius"]) if "height" in size else 1.0
+
+    @property
+    def potential(self) -> float:
+        """Factor |I3 - I2| b^2 of nu^2/2 in the energy of the charge in the field, in J."""
+        I2, I3 = self.moments
+        return abs(I3 - I2) * (self.mu * self.B / 2) ** 2
+
+
+@dataclass(frozen=True)
+class Disturbance:
+    """An effect that a motion leaves out: the number that decides, in a unit, and the formula as TeX.
+
+    `value` is that of the body, or the value of `letter` from which on the effect outweighs what is shown;
+    `least` and `greatest` are shares of the shown effect, at the ends of the values that `usual` names.
+    """
+
+    says: str
+    letter: str
+    value: float
+    unit: str
+    formula: str
+    usual: str
+    least: float
+    greatest: float
+
+    @property
+    def outweighs(self) -> bool:
+        """Whether the effect is larger than what is shown, at whatever value of its kind."""
+        return self.least > 1
+
+    @property
+    def verdict(self) -> str:
+        """What the number says: the effect is negligible, outweighs what is shown, or does so from it on."""
+        of = f" for {self.usual}" if self.usual else ""
+        if self.outweighs:
+            return f"outweighs what is shown{of}"
+        if self.greatest < SMALL_SHARE:
+            return f"negligible{of}"
+        if not self.usual:
+            return f"{self.greatest:.2g} of what is shown"
+        return f"outweighs what is shown from this value on; usual are {self.usual}"
+
+
+def disturbances(body: Spinning) -> Iterator[Disturbance]:
+    """Yield the effects that the motion of a charged body in a field leaves out, each beside the one of its charge.
+
+    Magnetism compares energies, gas and eddy currents the rate at which they stop a turn with that of the shown effect,
+    radiation the times. Bodies that are no spheres have the drag and the eddy currents of the sphere around them.
+    """
+    r, (_, I3) = body.radius, body.moments
+    aspect, potential, rate = body.aspect, body.potential, body.rate
+    if body.shape in VOLUMES and aspect != 1 and potential:
+        from flint import arb
+
+        volume = float(VOLUMES[body.shape](*map(arb, body.sizes.values())))
+        N = demagnetization(aspect)
+        chi = sqrt(potential * MAGNETIC_CONSTANT / (volume * abs((1 - N) / 2 - N))) / body.B
+        yield _from(
+            "magnetisation by the field, of a spheroid as high and wide", r"$\chi$", chi, "",
+            r"$\sqrt{\mu_0|I_3-I_2|b^2/V|N_2-N_3|B^2}$", (1e-6, 1e-4), "diamagnets, 1e-6 to 1e-4", 2,
+        )  # fmt: skip
+    if rate:
+        pressure = rate / (2 * pi) / gas_drag(r, I3)
+        yield _from(
+            "drag of thin nitrogen at 300 K, of a sphere around the body", "$p$", pressure, "Pa",
+            r"$3kT\,I_3f/2\pi m\bar{v}r^4$", (1e-9, 1e5), "vacuum of 1e-9 Pa to air", 1,
+        )  # fmt: skip
+        conductivity = rate / (2 * pi) * I3 * 15 / (2 * pi * r**5 * body.B**2)
+        yield _from(
+            "eddy currents, of a sphere around the body", r"$\sigma$", conductivity, "S/m",
+            r"$15\,I_3f/2\pi r^5B^2$", (1e-16, 6e7), "silica, 1e-16 S/m, to copper, 6e7 S/m", 1,
+        )  # fmt: skip
+    if potential:
+        offset = potential / 2 / (body.mass * GRAVITY)
+        yield _from(
+            "weight, where the charge holds the body and its centre lies off that of mass", r"$\delta$", offset, "m",
+            r"$|I_3-I_2|b^2/2m_0g$", (1e-3 * r, r), "offsets of a thousandth of the body to all of it", 1,
+        )  # fmt: skip
+    if body.spin:
+        power = magnetic_power(body.mu, I3 * body.spin, body.spin)
+        power += quadrupole_power(body.mu, body.moments, pi / 2, body.spin)
+        time = I3 * body.spin**2 / 2 / power if power else inf
+        if rate and time < inf:
+            share = 2 * pi / (rate * time)
+            yield Disturbance(
+                "time in which radiation takes the energy, at least", r"$\tau$", time, "s",
+                r"$I_3\Omega^2/2P$", "", share, share,
+            )  # fmt: skip
+        part = r * body.spin / SPEED_OF_LIGHT
+        yield Disturbance(
+            "greatest speed beside that of light", r"$\Omega r/c$", part, "", r"$\Omega r/c$", "", part**2, part**2
+        )
+
+
+def _from(
+    says: str, letter: str, value: float, unit: str, formula: str, ends: tuple[float, float], usual: str, power: int
+) -> Disturbance:
+    """Return the disturbance that outweighs what is shown from a value on, and grows as a power of it."""
+    low, high = ((x / value) ** power for x in ends)
+    return Disturbance(says, letter, value, unit, formula, usual, low, high)

@@ -107,6 +107,8 @@ def _texts(value: Any) -> tuple[str, ...]:
 MIN_PRECESSION = 1e-3
 """Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
 
+WITHOUT = {"energy_momentum": "the steady motions with this spin lie far outside its frame."}
+"""Why a figure is left out, where its recipe names parameters that the reader did not give."""
 FIGURES = "## Figures"
 SETTING = {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 HEAD = (
@@ -259,7 +261,7 @@ def figures_of(
         try:
             recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
         except AtlasError as reason:
-            text = str(reason).removeprefix(f"figure {name}: ")
+            text = WITHOUT.get(name, str(reason).removeprefix(f"figure {name}: "))
             left_out.append(f"The figure `{name}`: {text}".replace(f": figure {name} ", " "))
         else:
             calls = _calls(request, request.family) if "ratio" in recipe.parameters else {}

@@ -100,7 +100,7 @@ def row_of(line: int, words: Sequence[str], request: Asked, made: Card) -> Row:
 
 def titled(request: Asked, made: Card) -> str:
     """Return the title of the report of a body."""
-    return request.title or title_of(request, made, verdict(request.family, thing_of(request).kernels()))
+    return request.title or title_of(request, made, verdict(thing_of(request)))
 
 
 def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:

@@ -7,7 +7,7 @@ import json
 import math
 import re
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from hashlib import sha256
@@ -15,6 +15,8 @@ from typing import Any
 
 from atlas.arithmetic.certified_digits import MARK
 from atlas.arithmetic.uncertainty import concise
+from atlas.bodies.formula_shapes import SHAPES
+from atlas.bodies.laboratory import Disturbance, Spinning, disturbances
 from atlas.book import toml
 from atlas.book.digits import Number, plain
 from atlas.book.expansion import expanded
@@ -44,6 +46,8 @@ NAME = "your_body"
 """Name of the report, before the digest of its inputs."""
 RATES = {"elementary": ("k", "phi")}
 """Names of the rates about the field and about the axis; of other families precession_rate and spin_rate."""
+THREE_MOMENTS = "asymmetric"
+"""Name of the family of motions with three frequencies."""
 NEEDLE = 0.1
 """I = I3/I2 below which a body is called a needle."""
 NEAR_BALL = 0.01
@@ -70,8 +74,13 @@ ENTRIES = (
     Entry(
         "nutation", "period of nutation, or of the angular velocity in the body", "$T_n$", "time", "theorem-stability"
     ),
+    Entry("f1", "first frequency of the torus", "$f_1$", "1/time", ""),
+    Entry("f2", "second frequency of the torus", "$f_2$", "1/time", ""),
+    Entry("f3", "frequency about the field", "$f_3$", "1/time", ""),
 )
 """The numbers of the card, the same for every body."""
+FREQUENCIES = ("f1", "f2", "f3")
+"""Keys of the three frequencies of a torus, in whose place other motions have a period and two rates."""
 TEMPLATES = folder("templates") / "report"
 """Folder of the prose, and of the recipe of the body's picture."""
 NO_FIELD, NO_START, THREE = "there is no field", "no start was given", "the body has three moments"
@@ -104,6 +113,10 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
         return functions.sqrt(sum(x * x for x in (*across, along)))
     if not family.sampled:
         raise DomainError(NO_START)
+    if key in FREQUENCIES:
+        if family.name != THREE_MOMENTS or not any(arguments["field"]):
+            raise DomainError("it has one period and two rates")
+        return motion.frequencies[FREQUENCIES.index(key)]
     pi = functions.pi
     if key == "nutation":
         return _nutation(family, motion, functions, pi)
@@ -255,8 +268,9 @@ def stands(ratio: float) -> str:
     return "longer than a ball" if ratio < 1.0 else "flatter than a ball"
 
 
-def verdict(family: Family, motion: Any) -> str:
+def verdict(item: Thing) -> str:
     """Return what kind of motion it is, and whether a small push stays small, in words."""
+    family, motion = item.family, item.kernels()
     if not family.sampled:
         return "no start was given, so that all motions are shown and none is followed"
     if family.takes("omega2"):
@@ -265,9 +279,48 @@ def verdict(family: Family, motion: Any) -> str:
     kind = str(motion.kind)
     if kind == "ball":
         kind = "it turns as a ball does, about its momentum"
-    says = "its axis nods" if kind.startswith("nutation") else kind
-    stable = getattr(motion, "stable", None) if family.takes("coupling") else None
+    says = "its axis nods" if kind.startswith("nutation") else kind.replace("on a torus", "with three frequencies")
+    stable = is_stable(item)
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
+
+
+def is_stable(item: Thing) -> bool | None:
+    """Return whether a motion whose axis keeps its angle stays so after a push; None where no push is decided on."""
+    family, motion = item.family, item.kernels()
+    if family.takes("coupling"):
+        return getattr(motion, "stable", None)
+    if motion.kind == "spin about an axis":
+        return spins_on(*(list(map(Fraction, values)) for values in item.exact))
+    if not family.takes("ratio"):
+        return None
+    ratio, field, (omega1, omega2, omega3) = item.floats
+    if motion.kind == "spin along the field":
+        I, b = Fraction(getattr(ratio, "ratio", ratio)), Fraction(field[1])
+        gap = I * I * (Fraction(omega3) + b) ** 2 + 4 * (1 - I) * b * b
+        return gap > 0 if gap else None
+    if motion.kind == "precession":
+        from atlas.motions.elementary.certified_hyperbola import Hyperbola
+
+        if not omega1 and field[0] and omega2 != -field[0]:
+            return bool(Hyperbola(*item.exact[:2]).stable(omega2))
+    return None
+
+
+def spins_on(moments: Sequence[Fraction], field: Sequence[Fraction], omega: Sequence[Fraction]) -> bool | None:
+    """Return whether a spin about a principal axis, along the field if there is one, is linearly stable.
+
+    With W = Omega + K along axis 3, pushes obey W1' = r1 (W W2 - K K2), W2' = r2 (W W1 - K K1), K1' = W K2 - K W2,
+    K2' = K W1 - W K1, where r1 = (I2 - I3)/I1 and r2 = (I3 - I1)/I2. Solutions exp(s t) have s^4 + p s^2 + q = 0: they
+    stay small where both s^2 are negative and different. None at a border, where the linear equations do not decide.
+    """
+    axis = next(i for i in range(3) if omega[i])
+    I1, I2, I3 = (moments[(axis + i) % 3] for i in (1, 2, 3))
+    W, K, r1, r2 = omega[axis] + field[axis], field[axis], (I2 - I3) / I1, (I3 - I1) / I2
+    if not K:
+        return r1 * r2 < 0 if r1 * r2 else None
+    p, q = (1 - r1 * r2) * W * W + (r1 - r2) * K * K, -r1 * r2 * (W * W - K * K) ** 2
+    gaps = p, q, p * p - 4 * q
+    return all(x > 0 for x in gaps) if all(gaps) else None
 
 
 def place_of(family: Family, motion: Any) -> str:
@@ -345,7 +398,8 @@ def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
     b = math.hypot(*case.components)
     spin = request.values.get("omega", (0.0, 0.0, 0.0))[2]
     maps: dict[str, dict[str, Any]] = {"quadric": {}, "hyperbola": {}, "frequencies": {}, "stability": {}}
-    maps["motion_map"] = {"ratios": [case.ratio], "field": list(case.components), "cells": 60}
+    if all(case.components):
+        maps["motion_map"] = {"ratios": [case.ratio], "field": list(case.components), "cells": 60}
     return (
         maps | {"energy_momentum": {"ratios": [case.ratio], "b": [b], "M3": case.ratio * spin or 0.25 * b}} if b else {}
     )
@@ -436,25 +490,28 @@ def records_of(request: Asked) -> dict[str, Any]:
 def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values that the template sees: words, rows, and blocks in their fences."""
     family, left_out, shape = request.family, list[str](), shape_of(request)
-    motion, ratio = thing_of(request).kernels(), made["ratio"]["value"]
+    item, ratio = thing_of(request), made["ratio"]["value"]
+    motion, beside = item.kernels(), list(disturbances_of(request, made))
     figures = {block["recipe"]: fenced(block) for block in figures_of(request, left_out, maps_of(request))}
     if shape:
         recipe = f"{name_of(request)}.py"
         figures["body"] = fenced({"kind": "figure", "recipe": recipe, "id": "body", "parameters": shape})
-    says = verdict(family, motion)
+    says = verdict(item)
     closed = [fenced(block) for block in closed_of(request, left_out) if block["kind"] == "table"]
     reasons = dict[str, list[str]]()
-    for entry in made.values():
-        if entry["reason"]:
+    has_torus = family.name == THREE_MOMENTS and any(request.values["field"])
+    for key, entry in made.items():
+        if entry["reason"] and (has_torus or key not in FREQUENCIES):
             reasons.setdefault(entry["reason"], []).append(entry["says"])
     left_out += [f"{', '.join(names)}: {reason}.".capitalize() for reason, names in reasons.items()]
-    left_out += [*too_slow(motion, request.time), *_absent(request, shape)]
+    left_out += [*too_slow(motion, request.time), *_absent(request, shape, bool(beside))]
     others = [table_of(request, "properties", one.name, {"given": False}) for one in other_families(family)]
     return {
         "name": name_of(request), "title": request.title or title_of(request, made, says), "verdict": says,
         "place": place_of(family, motion), "sign": sign_of(request), "command": command_of(request),
         "note": request.note, "family": family.name,
-        "card": list(_rows(made)), "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
+        "card": list(_rows(made)), "outweighed": outweighed(beside), "disturbances": [*map(_row_of, beside)],
+        "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
         "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
         "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed),
         "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
@@ -463,7 +520,9 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
 
 def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
     """Yield the rows of the card: words, letter, value with its error, unit, proven digits, equation."""
-    for entry in made.values():
+    for key, entry in made.items():
+        if key in FREQUENCIES and entry["value"] is None:
+            continue
         value = "–" if entry["value"] is None else Number(entry["digits"]).words()
         unknown_error = entry["value"] is not None and entry["reason"]
         if entry["sigma"] or unknown_error:
@@ -473,7 +532,33 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
         yield [entry["says"], entry["letter"], value, entry["unit"] or "", proven, equation]
 
 
-def _absent(request: Asked, shape: Mapping[str, Any] | None) -> Iterator[str]:
+def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
+    """Yield what is left out, in numbers, of a body whose shape, mass and field B in SI were given."""
+    body, field = request.body or {}, request.field or {}
+    if "shape" not in body or not {"mass", "density"} & request.options.keys() or field.get("system") != "SI":
+        return
+    case = case_of(request)
+    turn = made["turn"]["value"]
+    yield from disturbances(Spinning(
+        body["shape"], {name: body[name] for name in SHAPES[body["shape"]][0] if name != "mass"}, body["mass"],
+        float(case.physical.mu), (float(case.body.I2), float(case.body.I3)), math.hypot(*field["B"]),
+        math.hypot(*request.values.get("omega", (request.values.get("omega2", 0.0),))),
+        2 * math.pi / turn if turn else made["larmor"]["value"] or 0.0,
+    ))  # fmt: skip
+
+
+def outweighed(beside: Sequence[Disturbance]) -> str:
+    """Return a sentence on the effects that outweigh what is shown, none where there is none."""
+    names = [one.says.partition(",")[0] for one in beside if one.outweighs]
+    return f"What is shown is outweighed by {' and by '.join(names)}." if names else ""
+
+
+def _row_of(one: Disturbance) -> list[str]:
+    """Return the row of an effect that is left out: words, letter, number, unit, formula, verdict."""
+    return [one.says, one.letter, Number(f"{one.value:.2e}").words(), one.unit, one.formula, one.verdict]
+
+
+def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> Iterator[str]:
     """Yield sentences on parts that this report does not have, with the reason."""
     is_top = request.family.takes("coupling")
     if not shape and not is_top:
@@ -482,4 +567,6 @@ def _absent(request: Asked, shape: Mapping[str, Any] | None) -> Iterator[str]:
         yield "Errors of the numbers: the inputs have none; type 1.20(5)um for one."
     if not request.body:
         yield "Quadric, hyperbola and the map of all motions: they are those of a symmetric body in a field."
-    yield f"{'D' if is_top else 'Gravity, d'}rag, radiation, induced magnetism, different centres of charge and mass."
+    if not is_told:
+        missing = "; in numbers for a shape with its mass or density and a field --magnetic in SI" * bool(request.body)
+        yield f"{'D' if is_top else 'Gravity, d'}rag, radiation, induced magnetism, eddy currents{missing}."

@@ -11,7 +11,7 @@ from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quatern
 from atlas.cli.options import FILE, given, numbers, stack
 from atlas.cli.points import exact_inertia, oblique_tensor, point_masses, points, principal_moments, ratio_of_points
 from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured
-from atlas.errors import nearest
+from atlas.errors import DomainError, nearest
 from atlas.measured import RATE, WANTED
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -261,6 +261,8 @@ def mass_of(options: Mapping[str, Any]) -> Any:
 
     shape = str(options["shape"]).replace("-", "_")
     lengths = [options[name] for name in SHAPES[shape][0][1:]] if shape in VOLUMES else []
+    if lengths and 0.0 in lengths:
+        raise DomainError("a shape without a height or radius has no volume, and so no mass by its --density.")
     if options.get("mass") is not None or not all(lengths) or not lengths:
         solids = ", ".join(VOLUMES).replace("_", "-")
         raise click.UsageError(f"--density is of a solid --shape, {solids}, with its sizes and without --mass.")

@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
+from difflib import get_close_matches
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
@@ -154,7 +155,8 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
 
 def best(words: Words) -> str:
     """Return the command that fits the options: with fewest unknown, then fewest missing options."""
-    option_by_name = {option.name: option for option in words.options}
+    known = {name for one in COMMANDS.values() for param in one.params for name in param.opts}
+    option_by_name = {next(iter(get_close_matches(x.name, known, 1)), x.name): x for x in words.options}
 
     def misfit(name: str) -> tuple[int, int]:
         parameters = {
@@ -250,7 +252,12 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
     """Return quantities, symbols, values with standard deviations in brackets and units, a row each; and notes."""
     spread = spread_of(family, options | {"decimal": False})
     lines = lines_of_quantities(family, spread.texts(), options, family.command.named if family.command else "")
-    return [[line.says, f"`{line.symbol}`", line.value, line.unit] for line in lines], spread.notes
+    rows = [
+        [f"{line.symbol} {line.says}" if line.says.startswith("of ") else line.says, f"`{line.symbol}`", line.value,
+         line.unit]
+        for line in lines
+    ]  # fmt: skip
+    return rows, spread.notes
 
 
 def _typed_options(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:

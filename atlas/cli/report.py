@@ -46,6 +46,8 @@ SEVERAL = {"--each": "each", "--against": "against"}
 def _of_your_body(words: Words) -> click.Command | None:
     """Return the command of the report your_body where that is its name."""
     if "your_body" not in words.loose:
+        if (body := words.names & {"--ratio", "--inertia", "--shape", "--tensor"}) and not words.names & {"--help"}:
+            raise click.UsageError(f"{min(body)} is an input of atlas report your_body, not of {' '.join(words.loose)}.")
         return None
     if words.names & set(SEVERAL):
         from atlas.cli import several_bodies
@@ -132,8 +134,11 @@ def command(
 
 
 def _inputs(settings: tuple[str, ...]) -> dict[str, str]:
-    """Return the texts of --set by name. Raises click.UsageError for another word."""
-    return dict(pair(text, "NAME=VALUE") for text in settings)
+    """Return the texts of --set by name. Raises click.UsageError for another word and for a name given twice."""
+    pairs = [pair(text, "NAME=VALUE") for text in settings]
+    if twice := [key for place, (key, _) in enumerate(pairs) if key in dict(pairs[:place])]:
+        raise click.UsageError(f"--set {twice[0]}=... stands twice; give it once.")
+    return dict(pairs)
 
 
 @click.command(

@@ -170,13 +170,20 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
     parts: tuple[Typed, Typed]
 
     def __new__(cls, strength_and_angle: tuple[Typed, Typed], unit: str = "") -> Self:
-        """Take the strength and the angle to the axis, and the unit of SI in which the components are."""
-        from flint import arb
+        """Take the strength and the angle to the axis, degrees without rounding, and the unit of the components."""
+        from flint import arb, fmpq
 
         from atlas.arithmetic.numbers import rounded
 
         size, angle = strength_and_angle
-        components = rounded(lambda: [arb(float(size)) * x for x in arb(float(angle)).sin_cos()])
+        degrees = split(angle.text) if angle.unit == "deg" and not angle.sigma else None
+        turn = fmpq(*Fraction(degrees[0]).as_integer_ratio()) / 180 if degrees else None
+        components = rounded(
+            lambda: [
+                arb(float(size)) * x
+                for x in (arb(float(angle)).sin_cos() if turn is None else arb.sin_cos_pi_fmpq(turn))
+            ]
+        )
         new = super().__new__(cls, [size.moved(x, sigma=0.0, text=f"{x!r}{unit}") for x in components])
         new.parts = strength_and_angle
         return new

@@ -34,6 +34,8 @@ ELSEWHERE = {
 """Work of another command, by the names of options under which it is looked for."""
 
 
+IN_SECONDS = ("times", "grid", "predict", "epoch", "sigma")
+"""Options whose bare numbers are in the unit of the others."""
 OF_FIELD = ("field", "magnetic", "mu", "charge", "mass")
 """Options of a field, of which none is given for a free body."""
 START = ("omega", "spin")
@@ -83,6 +85,24 @@ def check_units(option: str, value: Any) -> None:
     if bare and units:
         raise click.UsageError(
             f"{option}: {bare[0].text} has no unit, and {units[0].text} beside it has one; give each its unit, or none."
+        )
+
+
+def check_bare_numbers(options: Mapping[str, Any]) -> None:
+    """Raise click.UsageError where a number has a unit, and that of another option, not zero, has none."""
+    numbers = [
+        (name, x)
+        for name, value in options.items()
+        if name in WANTED and name not in IN_SECONDS
+        for x in getattr(value, "parts", parts_of(value))
+        if isinstance(x, Typed) and x
+    ]
+    units, bare = [x for _, x in numbers if x.unit], [(name, x) for name, x in numbers if not x.unit]
+    if units and bare:
+        name, x = bare[0]
+        unit = WANTED[name] if isinstance(WANTED[name], str) else WANTED[name][0]
+        raise click.UsageError(
+            f"--{name}: {x.text} has no unit, and {units[0].text} has one; give it one, such as {x.text}{unit}."
         )
 
 
@@ -169,6 +189,7 @@ class Command(click.Command):
                 ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
             elif name not in {"grid", "heavy"}:  # whose numbers have several units
                 check_units(option.opts[0], ctx.params.get(name))
+        check_bare_numbers(ctx.params)
         if ctx.params.get("angle") is not None:
             ctx.params |= inclined_field(ctx.params)
         reads_files = any(isinstance(param, click.Argument) for param in self.params)  # which may hold a field

@@ -68,7 +68,9 @@ def nutation(axis: str) -> tuple[Quantity, ...]:
             for name, axis_name in turns
         ),
         *(
-            Quantity(f"{name}_rate", unit=RATE, missing="no period", certified=True, **of(f"mean, about {axis_name}"))
+            Quantity(
+                f"{name}_rate", unit=RATE, missing="no period", certified=True, **of(f"mean rate about {axis_name}")
+            )
             for name, axis_name in turns
         ),
     )  # fmt: skip

@@ -196,7 +196,7 @@ def test_an_infinite_period_is_certain_and_a_free_body_turns_about_its_momentum(
         numbers = {one["name"]: one for one in found["numbers"]}
         assert (numbers["period"]["value"], numbers["period"]["sure"]) == ("infinite", "decided exactly")
     found = own(server, "state", subject="general", B2=0, B3=0)
-    assert {one["says"] for one in found["numbers"]} >= {"mean, about the momentum"}
+    assert {one["says"] for one in found["numbers"]} >= {"mean rate about the momentum"}
 
 
 def test_a_proof_waits_until_the_sliders_rest(server: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,22 +1,19 @@
 """A levitated ball with an electric dipole, its lines and their parameters; bodies that show the paper's term."""
 
 import json
-from math import asin, atanh, pi, sqrt
+from math import pi, sqrt
 from typing import Any
 
 import numpy as np
 
 from atlas.bodies.body import from_shape
-from atlas.bodies.laboratory import anisotropy
-from atlas.bodies.units import BOLTZMANN, ELECTRIC_CONSTANT, ELEMENTARY_CHARGE
+from atlas.bodies.laboratory import GRAVITY, anisotropy, demagnetization, gas_drag
+from atlas.bodies.units import ELECTRIC_CONSTANT, ELEMENTARY_CHARGE
 from atlas.book.digits import MINUS, Number
 from atlas.book.schema import StrictStruct
 from atlas.book.tables.table import Data, heads
 from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.places import folder
-
-GRAVITY, MOLECULE, ROOM_TEMPERATURE = 9.81, 4.65e-26, 300.0
-"""In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
 
 MIN_COMPONENT = 1e-3
 """Part of the least amplitude of a line below which a component of it is none."""
@@ -213,9 +210,7 @@ def beyond_larmor(setup: Design) -> Data:
         )  # fmt: skip
         potential = (I3 - I2) * b * b
         offset = abs(potential) / 2 / (mass * GRAVITY)
-        speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
-        drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * r**4 / I3
-        pressure = abs(total - induced) / (2 * pi) / drag
+        pressure = abs(total - induced) / (2 * pi) / gas_drag(r, I3)
         rates = [Number(f"{rate / (2 * pi):.7g}") if magnetic else _three(rate / (2 * pi)) for rate in (induced, total)]
         first, shares = (
             (r, b / (2 * pi), magnetisation / (2 * pi)),
@@ -238,17 +233,6 @@ def beyond_larmor(setup: Design) -> Data:
         "one turn of what the charge changes.",
         ("Three or seven digits of doubles, not proven.", "The drag is that of a sphere of the radius $r$."),
     )  # fmt: skip
-
-
-def demagnetization(aspect: float) -> float:
-    """Return the demagnetizing factor along the axis of a spheroid, polar over equatorial `aspect`."""
-    if abs(aspect - 1) < 1e-6:
-        return 1 / 3
-    if aspect > 1:
-        e = sqrt(1 - 1 / aspect**2)
-        return (1 - e * e) / e**3 * (atanh(e) - e)
-    e = sqrt(1 - aspect**2)
-    return (1 - aspect / e * asin(e)) / e**2
 
 
 def _three(value: float) -> str | Number:

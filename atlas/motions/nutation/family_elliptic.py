@@ -36,10 +36,10 @@ FAMILY = Family(
             missing="no period", certified=True,
         ),
         Quantity(
-            "precession_rate", "mean, about B, of the axis that K goes round", RATE, missing="no period",
+            "precession_rate", "mean rate about B of the axis that K goes round", RATE, missing="no period",
             certified=True,
         ),
-        Quantity("spin_rate", "mean, about the axis that K goes round", RATE, missing="no period", certified=True),
+        Quantity("spin_rate", "mean rate about the axis that K goes round", RATE, missing="no period", certified=True),
         Quantity("modulus", "of the elliptic functions", certified=True),
         Quantity("nome", "of the elliptic functions", certified=True),
     ),

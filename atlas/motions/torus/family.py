@@ -26,10 +26,10 @@ FAMILY = Family(
         Quantity("mode", "axis that the momentum goes round", tabled=False, missing="in a field"),
         Quantity("period", "period of Omega and K", TIME, missing="no one period", certified=True),
         Quantity(
-            "precession_rate", "mean, of the axis that m, or K, goes round", RATE, missing="no one period",
+            "precession_rate", "mean rate of the axis that m, or K, goes round", RATE, missing="no one period",
             certified=True,
         ),
-        Quantity("spin_rate", "mean, about that axis", RATE, missing="no one period", certified=True),
+        Quantity("spin_rate", "mean rate about that axis", RATE, missing="no one period", certified=True),
         Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
         Quantity("F", "integral of Clebsch", "(inertia/time)^2", "theorem-clebsch", certified=True),
         Quantity("MK", "(M, K)", "inertia/time^2", "theorem-lie-poisson", certified=True),
