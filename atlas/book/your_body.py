@@ -103,20 +103,11 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
     if key == "ratio":
         return _ratio(arguments)
     if key in {"larmor", "tilt"}:
-        *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
-        if not any((*across, along)):
-            raise DomainError(NO_FIELD)
-        if key == "tilt":
-            return functions.atan2(functions.sqrt(sum(x * x for x in across)), along)
-        if "field" not in arguments:
-            raise DomainError("a top has its weight and coupling in the place of a field")
-        return functions.sqrt(sum(x * x for x in (*across, along)))
+        return _of_field(key, arguments, functions)
     if not family.sampled:
         raise DomainError(NO_START)
     if key in FREQUENCIES:
-        if family.name != THREE_MOMENTS or not any(arguments["field"]):
-            raise DomainError("it has one period and two rates")
-        return motion.frequencies[FREQUENCIES.index(key)]
+        return _frequency(FREQUENCIES.index(key), family, motion, arguments)
     pi = functions.pi
     if key == "nutation":
         return _nutation(family, motion, functions, pi)
@@ -127,6 +118,25 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
     if rate == 0:
         raise DomainError("the axis does not go round")
     return 2 * pi / abs(rate)
+
+
+def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
+    """Return |B'|, or the angle between field and axis at the start. Raises DomainError where there is no field."""
+    *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
+    if not any((*across, along)):
+        raise DomainError(NO_FIELD)
+    if key == "tilt":
+        return functions.atan2(functions.sqrt(sum(x * x for x in across)), along)
+    if "field" not in arguments:
+        raise DomainError("a top has its weight and coupling in the place of a field")
+    return functions.sqrt(sum(x * x for x in (*across, along)))
+
+
+def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, Any]) -> Any:
+    """Return a frequency of the torus, f1 at place 0. Raises DomainError for a motion with a period and two rates."""
+    if family.name != THREE_MOMENTS or not any(arguments["field"]):
+        raise DomainError("it has one period and two rates")
+    return motion.frequencies[place]
 
 
 def _ratio(arguments: Mapping[str, Any]) -> Any:

@@ -34,8 +34,6 @@ ELSEWHERE = {
 """Work of another command, by the names of options under which it is looked for."""
 
 
-IN_SECONDS = ("times", "grid", "predict", "epoch", "sigma")
-"""Options whose bare numbers are in the unit of the others."""
 OF_FIELD = ("field", "magnetic", "mu", "charge", "mass")
 """Options of a field, of which none is given for a free body."""
 START = ("omega", "spin")
@@ -89,21 +87,18 @@ def check_units(option: str, value: Any) -> None:
 
 
 def check_bare_numbers(options: Mapping[str, Any]) -> None:
-    """Raise click.UsageError where a number has a unit, and that of another option, not zero, has none."""
+    """Raise click.UsageError for a length without a unit beside one with a unit, and for an angle beside any unit."""
     numbers = [
-        (name, x)
-        for name, value in options.items()
-        if name in WANTED and name not in IN_SECONDS
-        for x in getattr(value, "parts", parts_of(value))
+        (name, x) for name, value in options.items() if name in WANTED for x in parts_of(value)
         if isinstance(x, Typed) and x
-    ]
-    units, bare = [x for _, x in numbers if x.unit], [(name, x) for name, x in numbers if not x.unit]
-    if units and bare:
-        name, x = bare[0]
-        unit = WANTED[name] if isinstance(WANTED[name], str) else WANTED[name][0]
-        raise click.UsageError(
-            f"--{name}: {x.text} has no unit, and {units[0].text} has one; give it one, such as {x.text}{unit}."
-        )
+    ]  # fmt: skip
+    for name, x in numbers:
+        units = [y for other, y in numbers if y.unit and (name == "angle" or WANTED[other] == "m")]
+        if units and not x.unit and (name == "angle" or WANTED[name] == "m"):
+            raise click.UsageError(
+                f"--{name}: {x.text} has no unit, and {units[0].text} has one; give it one, such as "
+                f"{x.text}{WANTED[name]}."
+            )
 
 
 class Words:
