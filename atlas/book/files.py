@@ -35,7 +35,7 @@ def find(name: str) -> Path:
         return reports[name]
     if path.is_file():
         raise AtlasError(f"{name} is no report: a report is a .md or a .toml file.")
-    raise unknown("report", name, reports)
+    raise unknown("report", name, [*reports, "your_body"])
 
 
 def beside(name: str, folder: Path) -> Path | None:

@@ -10,11 +10,11 @@ from decimal import Decimal
 from types import SimpleNamespace
 from typing import Any
 
-from atlas.arithmetic.uncertainty import concise
 from atlas.book.digits import Number
 from atlas.book.markdown import written
 from atlas.book.page import Asked, headed
-from atlas.book.your_body import ENTRIES, NAME, card, command_of, name_of, thing_of, title_of, verdict
+from atlas.book.your_body import ENTRIES, FREQUENCIES, NAME, card, command_of, name_of, thing_of, title_of, verdict
+from atlas.motions.uncertainty import concise
 
 Card = Mapping[str, Mapping[str, Any]]
 INDEX = "index"
@@ -114,7 +114,8 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
         "caption": "The two cards, and the second less the first, to the digits that both have.",
     }  # fmt: skip
     reasons = [f"{made['says'].capitalize()} of `{name}`: {made['reason']}."
-               for name, one in zip(names, cards, strict=True) for made in one.values() if made["reason"]]  # fmt: skip
+               for name, one in zip(names, cards, strict=True) for key, made in one.items()
+               if made["reason"] and key not in FREQUENCIES]  # fmt: skip
     texts = [f"{place}: {title}. Its report is `{name}`, by `{command_of(request)}`." for place, name, title, request
              in zip(("First", "Second"), names, titles, (first, second), strict=True)]  # fmt: skip
     blocks: list[dict[str, Any]] = [{"kind": "prose", "text": "\n\n".join(texts)}, block]
@@ -125,7 +126,10 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
 
 def _rows(first: Card, second: Card) -> Iterator[list[str]]:
     """Yield words, letter, both values, their difference and the equation of each number of two cards."""
-    for a, b in zip(first.values(), second.values(), strict=True):
+    for key, a in first.items():
+        b = second[key]
+        if key in FREQUENCIES and a["value"] is None and b["value"] is None:
+            continue
         equation = next((f"@{one['equation']}" for one in (a, b) if one["equation"] and one["value"] is not None), "")
         yield [a["says"], a["letter"], value_of(a), value_of(b), difference(a, b), equation]
 

@@ -102,6 +102,7 @@ def _reports(broken: list[str]) -> Listing:
     from atlas.book import files
 
     titles = {name: title for name in files.names() if (title := _read(report_title, name, broken)) is not None}
+    titles["your_body"] = "A body of your own and its motion, by the options of atlas motion"
     return {"reports": titles}, [(name, title, "") for name, title in titles.items()]
 
 

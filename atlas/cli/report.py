@@ -46,8 +46,6 @@ SEVERAL = {"--each": "each", "--against": "against"}
 def _of_your_body(words: Words) -> click.Command | None:
     """Return the command of the report your_body where that is its name."""
     if "your_body" not in words.loose:
-        if (body := words.names & {"--ratio", "--inertia", "--shape", "--tensor"}) and not words.names & {"--help"}:
-            raise click.UsageError(f"{min(body)} is an input of atlas report your_body, not of {' '.join(words.loose)}.")
         return None
     if words.names & set(SEVERAL):
         from atlas.cli import several_bodies
