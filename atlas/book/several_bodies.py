@@ -10,11 +10,11 @@ from decimal import Decimal
 from types import SimpleNamespace
 from typing import Any
 
+from atlas.arithmetic.uncertainty import concise
 from atlas.book.digits import Number
 from atlas.book.markdown import written
 from atlas.book.page import Asked, headed
 from atlas.book.your_body import ENTRIES, FREQUENCIES, NAME, card, command_of, name_of, thing_of, title_of, verdict
-from atlas.motions.uncertainty import concise
 
 Card = Mapping[str, Mapping[str, Any]]
 INDEX = "index"

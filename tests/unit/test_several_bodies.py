@@ -96,7 +96,8 @@ def test_two_bodies_stand_side_by_side() -> None:
     ]
     name, files = against(*pair)
     text = files[f"{name}.md"]
-    assert all(one["letter"].replace("\\", "\\\\") in text or one["letter"] in text for one in card(pair[0]).values())
+    assert all(one["letter"].replace("\\", "\\\\") in text or one["letter"] in text
+               for one in card(pair[0]).values() if one["value"] is not None)  # fmt: skip
     assert "4.014179846 time" in text
     assert "no start was given" in text
 
