@@ -69,7 +69,7 @@ def link_to(row: Row) -> str:
 
 def as_words(text: str) -> str:
     """Return a text as Markdown without markup."""
-    return re.sub(r"([\\`*_{}\[\]#$<>|@^~])", r"\\\1", text)
+    return re.sub(r"([\\`*_{}\[\]#$<>|@^~]|-(?=-))", r"\\\1", text)
 
 
 def page(name: str, title: str, blocks: Sequence[Mapping[str, Any]], command: str) -> str:
