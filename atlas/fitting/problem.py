@@ -12,20 +12,7 @@ from atlas.errors import AtlasError
 from atlas.fitting.data import STEP, Data
 from atlas.fitting.flow import ERROR, FINE
 from atlas.fitting.least import RHO
-from atlas.fitting.models import (
-    ATTITUDE,
-    DIRECTION,
-    IN_BODY,
-    OMEGA,
-    B,
-    Model,
-    Values,
-    field_of,
-    flow,
-    state,
-    units_of,
-    unseen,
-)  # fmt: skip
+from atlas.fitting.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, state, units_of, unseen
 from atlas.fitting.parameters import Parameters
 from atlas.lazy import cached_property
 
@@ -195,7 +182,7 @@ class Problem:
         """Whether a change of attitude is a rotation of the laboratory, less that of a field that is free or zero."""
         free_field = {*B} & {*self.names}
         is_zero = not (free_field or any(self.params[name].value for name in B if name in self.params))
-        is_known = not (self.tied or self.model.has_direction or self.data.kind in IN_BODY)
+        is_known = not (self.tied or self.model.has_direction or "a1" in self.gauge)
         return is_known and (is_zero or free_field == {*B}) and bool({*self.names} & {*ATTITUDE})
 
     def _turn(self, J: FloatArray, X: FloatArray, R: FloatArray, r: FloatArray, data: Data) -> None:
