@@ -151,7 +151,7 @@ def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) ->
 
 
 def _sizes(numbers: Numbers) -> Numbers:
-    """Return the size of each number, for those of one matrix or vector the size of its largest component."""
+    """Return the magnitude of each number; for entries of a matrix or vector, of its largest component."""
     largest = dict[Place, float]()
     for key, x in numbers.items():
         group = key[:3] if key[0] == "samples" else key

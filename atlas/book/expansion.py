@@ -99,7 +99,7 @@ def joined(pieces: Iterable[str]) -> str:
 
 
 def mapped(value: Any, function: Callable[[str], Any]) -> Any:
-    """Return tables and lists with a function of each text in them that has a tag."""
+    """Return a nested value with `function` applied to every text that contains a tag."""
     if isinstance(value, dict):
         return {key: mapped(item, function) for key, item in value.items()}
     if isinstance(value, list):

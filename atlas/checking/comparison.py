@@ -56,7 +56,7 @@ class Comparison:
         )
 
     def _panel(self, group: str) -> Plane:
-        """Return the errors of one group of columns."""
+        """Return a panel with the errors of one group of columns against time."""
         limits = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
         curves = tuple(
             Curve(np.column_stack([check.times, np.clip(check.errors[group], *limits)]), role, check.file)

@@ -21,7 +21,7 @@ class UncertainAnswer:
 
     @classmethod
     def of(cls, answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> "UncertainAnswer":
-        """Return the answer for options with independent uncertainties."""
+        """Return the answer with its standard deviations, from options with independent uncertainties."""
         inputs, middle = uncertain(options), answer(options)
         with bar("draws") as tell:
             deviations = spread(middle, lambda steps: answer(_moved_options(options, inputs, steps)), len(inputs), tell)

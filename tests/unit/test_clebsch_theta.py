@@ -311,7 +311,7 @@ def test_a_slip_is_noticed_and_the_certified_twin_answers(
 
 
 @pytest.mark.slow
-def test_a_motion_says_what_is_known_of_it() -> None:
+def test_a_motion_names_its_proof_status() -> None:
     """`agreement` says that it is proved; at t = 0 all is exact; times have an end."""
     one = motion()
     assert re.match(r"proved for this motion, at all times within \d\.\de-[34]\d; rounding adds ", one.agreement)
@@ -330,7 +330,7 @@ def test_a_motion_says_what_is_known_of_it() -> None:
         one.rotation_grid(0.0, 1e16, 3)
 
 
-def test_what_symmetry_makes_zero_is_shown_as_zero() -> None:
+def test_components_that_vanish_by_symmetry_are_zero() -> None:
     """With the field along an axis parts of tau are zero but for rounding at 200 bits: none is between 0 and 1e-35."""
     tau = kernel((1.0, 0.6875, 0.625), (0.0, 0.0, 0.875), (0.5, 0.3125, 0.1875)).riemann_matrix
     parts = np.abs([tau.real, tau.imag])
@@ -367,7 +367,7 @@ def test_three_moments_belong_to_a_family_of_their_own_in_a_sweep() -> None:
     assert "the family asymmetric, with --set I1=0.8" in " ".join(found.output.split())
 
 
-def test_what_is_proved_is_the_largest_error_of_any_entry(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_proved_bound_is_the_largest_error_of_any_entry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of R that of N and of K/b, of Omega beside the largest rate those of K and of M over the least moment."""
     b, least, size = np.linalg.norm(QUICK[1]), 0.625, 1.25
 

@@ -126,7 +126,7 @@ def test_a_wrong_input_gets_one_line_and_status_two() -> None:
     assert "2.5" in result.stderr
 
 
-def test_what_a_terminal_would_obey_is_not_printed() -> None:
+def test_control_characters_are_not_printed() -> None:
     """Control characters in a wrong word are shown as such and not sent; a long word is shortened."""
     result = run("classify", "--ratio", "1\x1b[31m", "--field", "1", "2")
     assert "\x1b" not in result.stderr
@@ -166,7 +166,7 @@ def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch:
 
 
 @pytest.mark.slow
-def test_a_library_that_is_missing_is_told_in_one_line() -> None:
+def test_a_missing_library_is_an_error_of_one_line() -> None:
     """As after new code came with new libraries: what is missing, and what installs it."""
     block = "import sys; sys.modules['pylatexenc'] = None; from atlas.cli.app import main; main(['verify', '71'])"
     result = subprocess.run([sys.executable, "-c", block], capture_output=True, text=True, check=False)

@@ -142,7 +142,7 @@ node = shutil.which("node")
 
 
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_what_moves_stays_legible() -> None:
+def test_moving_names_stay_legible() -> None:
     """Half the pixels of the page where frames are slow, all of the screen's where they are fast; finer at rest."""
     done = subprocess.run(
         [str(node), "-e", PROGRAM, str(HTML / "scene.js")], capture_output=True, text=True, check=True, timeout=60
@@ -155,7 +155,7 @@ def test_what_moves_stays_legible() -> None:
 
 
 @pytest.mark.parametrize("name", ["hyperbola", "colours"])
-def test_what_is_flat_is_not_turned(name: str) -> None:
+def test_plane_panels_are_not_turned(name: str) -> None:
     """Neither a figure of curves, nor the key of colours, which is a drawing across the direction of view."""
     assert not script(recipes.load(name).scene())
 

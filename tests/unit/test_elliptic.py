@@ -195,7 +195,7 @@ def test_a_period_brings_the_field_back_and_turns_the_body_about_it(name: str) -
         assert np.abs(motion.field_in_body(t + motion.period / 2) - motion.field_in_body(t)).max() > 0.1
 
 
-def test_what_is_conserved_stays() -> None:
+def test_conserved_quantities_are_constant() -> None:
     """H, F, (M, K), K^2 and the energy at t = 1e6 are those of the start, and those of `clebsch`."""
     motion = atlas.EllipticMotion(*CASES["bounded oval"])
     for name, values in motion.invariants([0.0, 1.0, 1e6]).items():

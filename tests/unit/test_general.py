@@ -153,7 +153,7 @@ def test_rotation_is_the_identity_at_zero(inputs: Any) -> None:
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
-def test_what_is_conserved_stays(inputs: Any) -> None:
+def test_conserved_quantities_are_constant(inputs: Any) -> None:
     """R is orthogonal with determinant 1 to 8 ulp of 1, and the five integrals keep to 64 ulp of their terms."""
     motion = GeneralMotion(*inputs)
     times = long_times(motion, 2)

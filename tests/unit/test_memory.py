@@ -76,7 +76,7 @@ def test_sweeps_keep_the_memory_of_long_arrays() -> None:
         atlas.TopMotion((1.0, 0.5), (0.5, 1.0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=3.0),
     ],
 )
-def test_what_is_between_is_made_by_blocks(motion: Any) -> None:
+def test_intermediate_arrays_are_computed_by_blocks(motion: Any) -> None:
     """A hundred thousand matrices at once take less than 5 MB beside them, one takes less than 60 kB."""
     out, times = np.empty((99_000, 3, 3)), np.linspace(0.0, 9.0, 99_000)
     motion.rotation(times[:2])

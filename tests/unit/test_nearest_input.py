@@ -57,7 +57,7 @@ def test_a_tensor_in_single_precision_is_taken() -> None:
         (lambda: atlas.Field.si(FIELD, charge=1.0), "takes mu, or charge and mass"),
     ],
 )
-def test_what_is_refused_says_what_would_do(make: object, words: str) -> None:
+def test_a_refusal_names_a_value_that_is_accepted(make: object, words: str) -> None:
     """An impossible body names the least change that mends it."""
     assert callable(make)
     with pytest.raises(AtlasError, match=words):

@@ -286,7 +286,7 @@ def test_tops_of_a_table_have_the_period_of_a_quadrature() -> None:
 
 
 def test_charges_outside_have_the_factors_of_their_shapes() -> None:
-    """A ball: 5/3 twice. A cylinder with I = 1 and its charge on the mantle: 3/2 and 2, and A = (2 - 9/8) 2."""
+    """A ball: 5/3 twice. A cylinder with I = 1 and its charge on the side wall: 3/2 and 2, and A = (2 - 9/8) 2."""
     cylinder = {"radius": 1.0, "height": 3.0**0.5}
     given = [
         {"name": "ball", "mass": "sphere", "charge": "spherical_shell", "dimensions": {"radius": 2.0}},

@@ -48,7 +48,7 @@ def cell(scene: Scene) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(("name", "rows"), [("film_strip", 2), ("two_turns", 3)])
-def test_what_stands_side_by_side_stands_in_rows_at_one_scale(name: str, rows: int) -> None:
+def test_groups_side_by_side_are_stacked_at_one_scale(name: str, rows: int) -> None:
     """A strip in space has panels of its own, which show everything once; only names can make their scales differ."""
     strip = recipes.load(name).scene()
     after = narrowed(strip)

@@ -67,7 +67,7 @@ def begin(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables:
     ],
     ids=["old", "broken", "no venv, no network", "no venv, a user"],
 )
-def test_what_is_wrong_with_python_is_told(tmp_path: Path, programs: dict[str, str], says: str) -> None:
+def test_an_unsuitable_python_is_named(tmp_path: Path, programs: dict[str, str], says: str) -> None:
     """Its version, or what it says itself, or what the installer says."""
     status, told = set_up(tmp_path, programs)
     assert status == 2

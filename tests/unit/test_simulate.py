@@ -148,7 +148,7 @@ def test_a_failure_speaks_with_the_integrators_words(monkeypatch: pytest.MonkeyP
         lambda: atlas.simulate(atlas.SymmetricBody.thin_rod(1, 1), (1, 2), OMEGA, [1]),
     ],
 )
-def test_what_can_not_be_simulated_is_one_sentence(make: Callable[[], object]) -> None:
+def test_a_refused_simulation_is_an_error_of_one_sentence(make: Callable[[], object]) -> None:
     """Unsorted times, unknown methods, impossible bodies and tolerances raise one sentence."""
     with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
         make()

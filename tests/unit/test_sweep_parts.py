@@ -205,7 +205,7 @@ def planted(parts: Path) -> None:
 
 
 @pytest.mark.parametrize("foreign", [foreign_key, link, planted, lambda parts: parts.write_text("mine")])
-def test_what_is_not_of_a_sweep_is_refused_and_stays(tmp_path: Path, foreign: Any) -> None:
+def test_files_of_no_sweep_are_refused_and_kept(tmp_path: Path, foreign: Any) -> None:
     """A folder of the user's own, a symbolic link, a file: one line, status 2, and everything as it was."""
     foreign(tmp_path / "t.csv.parts")
     before = {path: path.read_bytes() if path.is_file() else b"" for path in tmp_path.rglob("*")}

@@ -151,7 +151,7 @@ def test_a_top_with_one_charge_to_mass_ratio_is_the_general_motion() -> None:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_what_is_conserved_stays(name: str) -> None:
+def test_conserved_quantities_are_constant(name: str) -> None:
     """h, M3 and p, as they come out of Omega and b, are at t = 0, 1 and 1e6 those of the inputs, in any unit of I."""
     inertia, coupling, direction, omega, *potential = CASES[name]
     parts = [np.multiply(x, 3.0).tolist() for x in (inertia, coupling, potential)]

@@ -180,7 +180,7 @@ def _view(
             if isinstance(value, Number):
                 composer.target(f"cell:{anchor.removeprefix('tab-')}-{number}-{place}", anchor, value.words())
     proven = all(cell.proven for row in data.rows for cell in row if isinstance(cell, Number))
-    sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
+    sentences = [*data.notes, *([] if proven else ["Uncertified values are starred."])]
     note = " ".join(filter(None, map(composer.once, sentences)))
     caption = block.caption or data.caption
     return TableView(

@@ -170,7 +170,7 @@ def _stress() -> dict[str, Data]:
         limit = Number(f"{limits[name]:g}") if name in limits else "none"
         rows.append((title(name), _ulps(ulps), limit, broken + title(regime) if ulps > MIN_ULPS else ""))
     note = (
-        f"Worst of {record['values']:,} values as on {len(record['processors'])} kinds of x86 processors, rounded up. "
+        f"Worst of {record['values']:,} values on {len(record['processors'])} kinds of x86 processors, rounded up. "
         "Half a unit is on record where less was found."
     )
     columns = heads("Quantity", ("Worst error", "ulp"), ("Limit", "ulp"), "Met where")

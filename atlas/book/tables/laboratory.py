@@ -39,7 +39,7 @@ class Dipole(StrictStruct, frozen=True):
     inclination: float
 
     def motion(self, spin: float) -> TopMotion:
-        """Return the motion with a rate of spin: U = -d E nu."""
+        """Return the `TopMotion` with `spin` turns a second and potential -d E nu."""
         I = from_shape("sphere", mass=self.density * 4 / 3 * pi * self.radius**3, radius=self.radius).I2
         direction = np.sin(self.inclination), np.cos(self.inclination)
         return TopMotion((I, I), (0.0, 0.0), direction, (0.0, 0.0, 2 * pi * spin), -self.energy)

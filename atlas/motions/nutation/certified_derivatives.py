@@ -200,7 +200,7 @@ class Groups:
         return {name: [next(entries) for _ in range(n)] for name, n in self.lengths.items()}
 
     def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
-        """Return whether slopes do not change over two steps, beside the sizes of the constants and of the slopes."""
+        """Return whether derivatives agree over two successive steps, relative to the largest of their group."""
         size, up, down = (sizes_of(x) for x in (middle, ups, downs))
         bend = sizes_of(_combined((ups, downs), (1, -1)))
         largest, complete = self._largest(np.maximum(up, down)), self._largest(size)

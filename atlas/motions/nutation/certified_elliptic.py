@@ -154,7 +154,7 @@ class EllipticMotion(Nutating):
 
     @property
     def precession(self) -> Real:
-        """Rate E_a b - b of the frame about the field in which the pair has its own rates."""
+        """Rate E_a b - b, in rad/time, of the frame about the field in which alpha and beta have their own rates."""
         return (self.E[self.places[2]] - self.frame) * self.b
 
     @by_precision

@@ -139,7 +139,7 @@ class MotionsAtTimes:
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > MAX_OMEGA3_CHANGE * largest(out)))
 
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
-        """Return a pair; `extreme` becomes the indices of motions that the pair does not cover."""
+        """Return alpha and beta at the times; the indices of motions that need the scalar path become `extreme`."""
         selected = self._selected(swings) if swings and swings.twisted[self._index].any() else None
         pair = CayleyKleinAtTimes(self._selected(constants), self._times, selected)
         self.extreme = pair.extreme
@@ -257,7 +257,7 @@ class CayleyKleinAtTimes:
         return np.asarray(third.value + product)
 
     def _entry(self, i: int, j: int) -> FloatArray:
-        """Return an entry of the matrix of (alpha, beta), (m,)."""
+        """Return the entry (i, j), shape (m,), of the matrix of (alpha, beta)."""
         w, *v = self.pair[0].real, self.pair[1].real, self.pair[1].imag, self.pair[0].imag
         if i == j:
             k, n = (i + 1) % 3, (i + 2) % 3

@@ -43,7 +43,7 @@ class Level:
 
 
 class Means:
-    """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; the start."""
+    """Arithmetic-geometric means from the roots of motions: rate M = pi/T, moduli, nome, and start."""
 
     def __init__(self, roots: TurningPoints) -> None:
         self.roots = roots

@@ -172,7 +172,7 @@ class SpherePair:
         return Change(chosen(abs(at_low.hi) > abs(at_high.hi), below, above), weights)
 
     def _length(self, sums: DoubleDouble) -> DoubleDouble:
-        """Return |alpha|^2 + |beta|^2 where the sums are these."""
+        """Return |alpha|^2 + |beta|^2 for given values of the two theta sums."""
         x, y = self.sums.start
         sum_of_two = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
         return sum_of_two[0] + sum_of_two[1]
