@@ -10,6 +10,7 @@ import pytest
 from lxml import html
 from syrupy.assertion import SnapshotAssertion
 
+from atlas.bodies.laboratory import Spinning, anisotropy, demagnetization, disturbances
 from atlas.book.load import load
 from atlas.book.page import Asked
 from atlas.book.your_body import FREQUENCIES, card, files_of, name_of, sign_of, stands, thing_of, title_of, verdict
@@ -194,3 +195,26 @@ def test_a_report_is_built_whole(tmp_path: Path, capsys: pytest.CaptureFixture[s
     with pytest.raises(SystemExit):
         main(["report", "your_body", "--from", str(inputs), "--out", str(tmp_path / "two")])
     assert (tmp_path / "two" / pdf.name).read_bytes() == pdf.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("--ratio 1.6 --field 0 2 --omega 0 0 -2.2", "unstable"),
+        ("--ratio 1.6 --field 0 2 --omega 0 0 3", "stable"),
+        ("--inertia 1 2 3 --omega 0 1 0", "unstable"),
+        ("--inertia 1 2 3 --omega 0 0 1", "stable"),
+        ("--ratio 0.7 --field 2 0 --omega 0 -1 0", "unstable"),
+    ],
+)
+def test_a_steady_motion_says_whether_it_is_stable(words: str, says: str) -> None:
+    """A disk near Larmor's turn, the middle axis, a start in the unstable band; and their stable neighbours."""
+    assert f", {says} against small nutations" in verdict(thing_of(request_of(words)))
+
+
+def test_magnetism_from_the_value_told_is_as_large_as_the_charge() -> None:
+    """The susceptibility told makes the energy of a spheroid that of its charge, to first order in chi."""
+    body = Spinning("spheroid", {"equatorial": 1e-6, "polar": 2e-6}, 1e-14, 0.1, (2e-26, 8e-27), 0.5, 0.0, 0.01)
+    chi = next(disturbances(body)).value
+    energy = anisotropy(chi, 4 / 3 * pi * 2e-18, demagnetization(2.0)) * 0.5**2
+    assert abs(energy) == pytest.approx(body.potential, rel=1e-3)
