@@ -84,7 +84,7 @@ UNTIED = {
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body "
             "from_frame in_laboratory invariants is_plane is_steady kind modulus nome period precesses_evenly "
             "precession precession_per_period quaternion roots rotation rotation_grid solution sphere "
-            "spin_per_period steady_rates swings_evenly third_axis tilt trigonometric turning_points turning_rate "
+            "spin_per_period steady_rates swings_evenly third_axis tilt turning_points turning_rate "
             "velocity velocity_sizes"
         ).split()
     },
@@ -94,7 +94,7 @@ UNTIED = {
             "angular_momentum angular_velocity b charged column complementary_modulus field_in_body from_frame heavy "
             "invariants is_plane is_steady kind modulus nome period precesses_evenly precession "
             "precession_per_period quadric quaternion roots rotation rotation_grid sleeping_bands solution sphere "
-            "spin_per_period stable steady_precessions steady_rates swings_evenly third_axis tilt trigonometric "
+            "spin_per_period stable steady_precessions steady_rates swings_evenly third_axis tilt "
             "turning_points turning_rate"
         ).split()
     },
@@ -105,7 +105,7 @@ UNTIED = {
             "frame E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame "
             "invariants is_plane is_steady kind modulus nome omega period precesses_evenly precession "
             "precession_per_period quaternion rate_of rotation rotation_grid solution sphere spin_per_period "
-            "splitting stability steady_rates swings_evenly third_axis tilt trigonometric turning_rate v"
+            "splitting stability steady_rates swings_evenly third_axis tilt turning_rate v"
         ).split()
     },
     **{
