@@ -160,7 +160,7 @@ def _sorted(values: list[acb]) -> list[acb]:
 
 
 def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
-    """Return the roots in closed form at the current precision, perhaps inaccurate; [] where a sign is unknown."""
+    """Return the roots in closed form at the current precision, perhaps inaccurate; [NaN] where a sign is unknown."""
     formula = {5: four_roots, 4: three_roots, 3: two_roots}[len(p)]
     weights = {5: (1, 4, 6, 4, 1), 4: (1, 3, 3, 1), 3: (1, 2, 1)}[len(p)]
     numbers = p if exact else [_ball(c) for c in p]

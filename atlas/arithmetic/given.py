@@ -86,7 +86,10 @@ def _broadcast_index(shape: tuple[int, ...], index: Index) -> Index:
 
 
 def exact_number(x: Any) -> Any:
-    """Return a Fraction or a rational number of flint as the equal float if there is one, else as a `Given`."""
+    """Return a Fraction or a rational number of flint as the equal float if there is one, else as a `Given`.
+
+    Raises DomainError for a number too large for a float.
+    """
     from flint import fmpq
 
     x = fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x

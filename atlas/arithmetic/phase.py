@@ -103,9 +103,9 @@ class Phases:
 
     @cached_property
     def _turns_of_integers(self) -> list[tuple[int, int, int]]:
-        """Frequencies in turns as whole numbers and the binary digits behind their point, to 2^-SCALAR_BITS.
+        """Triples (n, digits, start), one for each phase.
 
-        The phases at t = 0 come after them, in units of 2^-SCALAR_BITS.
+        The frequency is n/2^digits turns, to 2^-SCALAR_BITS; the phase at t = 0 is start/2^SCALAR_BITS turns.
         """
         turns = []
         starts = [turn_of(x) for x in self._starts] if self._starts else [None] * len(self._small)
@@ -149,7 +149,7 @@ class Phases:
         return [bool(x) for x in np.broadcast_to(np.ravel(self.rounder) == EVEN, len(self._small))]
 
     def _phases_of_one(self, t: float) -> Iterator[tuple[int, int]]:
-        """Yield the phases at one time in turns, as whole numbers and the binary digits behind their point."""
+        """Yield the phases at one time as pairs (n, digits): n/2^digits turns. Raises AtlasError beyond `longest`."""
         if not abs(t) <= self.longest:
             self.check(np.array([t]))
         p, q = t.as_integer_ratio()

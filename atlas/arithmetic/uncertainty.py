@@ -366,7 +366,10 @@ class UncertainObject:
         return self._moved[key]
 
     def _uncertain_quantity(self, name: str, get: Callable[[Any], Any]) -> Any:
-        """Return a quantity of the object with its standard deviations."""
+        """Return a quantity of the object with its standard deviations; integers and booleans unchanged.
+
+        Raises AtlasError for a quantity that is no number. Warns (AtlasWarning) where a deviation is sampled.
+        """
         import numpy as np
 
         nominal = get(self.nominal_value)

@@ -536,7 +536,8 @@ def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density
 
     The moments are exact; with a density they have 256 digits, since the volume has the factor pi.
 
-    Raises DomainError for a size that is not positive, AtlasError for a mass or size that is missing.
+    Raises DomainError for a size that is not positive (negative, for one in FLAT), AtlasError for a mass or size that
+    is missing and for a mass beside a density.
     """
     names, formula = formulas.SHAPES[name]
     named = {key: f"The {WORDS.get(key, key)}" for key in names}

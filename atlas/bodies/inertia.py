@@ -60,7 +60,10 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
 
 def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
-    """Return the matrix of `mass_matrix_of_points` in exact rational sums; in doubles above MAX_EXACT_POINTS points."""
+    """Return the matrix of `mass_matrix_of_points` in exact rational sums; in doubles above MAX_EXACT_POINTS points.
+
+    Raises AtlasError for wrong shapes, DomainError for a mass that is not positive.
+    """
     m, x = real(masses, "The masses", MASS), real(positions, "The positions", LENGTH)
     if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
         raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")

@@ -121,7 +121,7 @@ def demagnetization(aspect: float) -> float:
 
 
 def gas_drag(radius: float, moment: float) -> float:
-    """Return the rate by the pressure, in 1/(s Pa), at which thin nitrogen at 300 K slows the spin of a sphere."""
+    """Return the damping rate of the spin of a sphere in thin nitrogen at 300 K over the pressure, in 1/(s Pa)."""
     speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
     return 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * radius**4 / moment
 
@@ -188,7 +188,7 @@ class Disturbance:
 
     @property
     def verdict(self) -> str:
-        """What the number says: the effect is negligible, outweighs what is shown, or does so from it on."""
+        """Text on the effect: negligible, a share of what is shown, or larger than that, always or from `value` on."""
         of = f" for {self.usual}" if self.usual else ""
         if self.outweighs:
             return f"outweighs what is shown{of}"

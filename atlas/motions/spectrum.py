@@ -157,7 +157,11 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
 
 
 def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
-    """Return a `Spectrum` of lines by ascending frequency; amplitudes of equal frequencies are added."""
+    """Return a `Spectrum` of lines by ascending frequency; amplitudes of equal frequencies are added.
+
+    Lines below the fraction `least` of the root mean square are left out. Raises DomainError where the mean square is
+    no float.
+    """
     frequencies, unit = combinations @ wheels.rates, _size(amplitudes)
     size = _power(amplitudes, unit)
     lines = np.flatnonzero(size > (MIN_AMPLITUDE * 1e-3) ** 2 * size.max())
@@ -193,7 +197,7 @@ def _size(amplitudes: Array) -> float:
 
 
 def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
-    """Return matrices (3, 3) of the rotation about n at frequencies -1, 0, 1 times `rate`; only 0 if rate = 0."""
+    """Return the rotation about n as {-1, 0, 1: complex matrix (3, 3) at this multiple of `rate`}; {0: unit} if 0."""
     if not rate:
         return {0: np.eye(3, dtype=complex)}
     parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T

@@ -211,7 +211,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @cached_property
     def _codes(self) -> NDArray[np.intp]:
-        """Indices into CASES, one for each motion; len(CASES) for a row at the pole, where no motion starts."""
+        """Indices into CASES, one for each motion; len(CASES) where no elementary motion starts, as at the pole."""
         B2, B3, w2, *_ = np.broadcast_arrays(*self._inputs[2:], *self._inputs[:2])
         flat, steady = B3 == 0, B2 == 0
         pole = (w2 == -B2) & (low_word(self._inputs[4]) == -low_word(self._inputs[2]))
@@ -238,9 +238,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     def _from_start(  # type: ignore[override]
         cls, start: Start, omega2: Any = None, omega3: Any = None
     ) -> tuple[Any, FloatArray] | None:
-        """Return (motion, axes), the axes turned about e3 so that omega1 = B1 = 0; None unless the body is symmetric.
+        """Return (motion, axes), the axes turned about e3 so that B1 = 0; None where no elementary motion starts.
 
-        `omega2` and `omega3` replace the components of the start.
+        `omega2` and `omega3` replace the components of the start. Without them, None also for arrays, without a field
+        and for a start with nutation.
         """
         from atlas.motions.nutation.kernel_general import standing
 

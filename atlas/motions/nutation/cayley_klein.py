@@ -98,7 +98,7 @@ class Evaluation:
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return the rows of `components` where the functions are trigonometric."""
+        """Fill the rows with trigonometric functions; return half the sum and difference of the phases, (2, m)."""
         swing = self.parameters.swing
         if swing and swing.is_large:
             u, e = self._reduced(t, low)
@@ -138,7 +138,7 @@ class Evaluation:
 
 
 def products_of_one(parameters: CayleyKlein, t: float) -> list[float]:
-    """Return the ten products at one time, of a pair `at_one_time`: by floats, as `Evaluation` does by arrays.
+    """Return the ten products `PAIRS` at one time, as `Evaluation` does by arrays; for parameters `at_one_time`.
 
     Half the phases are rounded once, as there, and the bound on errors is the same.
     """

@@ -149,7 +149,10 @@ class Nutating:
         return self._moduli()[1]
 
     def _periods(self) -> tuple[arb, arb]:
-        """Return half the real and half the imaginary period. Raises DomainError if both are infinite."""
+        """Return half the real and half the imaginary period.
+
+        Raises DomainError if both are infinite, except where a steady motion is unstable.
+        """
         lattice = self.solution.lattice
         unstable = self.is_steady and self.quartic.curvature != 0
         if infinite(lattice.half) and infinite(lattice.imaginary) and not unstable:

@@ -119,7 +119,7 @@ class Nutation:
         return self.turnings[place]
 
     def _start(self) -> TurningPoint:
-        """Return the turning point where time is zero: near a separatrix the simple root, else the faster one."""
+        """Return the turning point where time is zero: on a separatrix the simple root, else the more isolated one."""
         low, high = self.quartic.low, self.quartic.high
         if self.roots[low].multiplicity > 1:
             return self.turning(high)

@@ -147,7 +147,10 @@ def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int
 def _differences(
     make: Callable[..., Constants], values: Sequence[fmpq], place: int, h: fmpq, scale: fmpq
 ) -> Variation | None:
-    """Return constants and their derivatives by differences over h; None where these are not accurate enough."""
+    """Return constants and their derivatives by differences over h; None where these are not accurate enough.
+
+    Raises DomainError on a separatrix, where the motion itself has no constants.
+    """
 
     def constants_at(steps: int) -> Constants | None:
         changed = [*values[:place], values[place] + steps * h, *values[place + 1 :]]

@@ -80,7 +80,7 @@ class Differences:
     def _derivative(
         self, here: Row, R: Sequence[Row], neighbours: Sequence[tuple[Any, arb, arb]], t: fmpq
     ) -> tuple[Row, Row, float]:
-        """Return v, R dOmega/dp of one input p, and the largest change of dR/dp over a step."""
+        """Return v, where dR/dp = [v]x R for one input p; R dOmega/dp; and the largest change of dR/dp over a step."""
         rows = [here if x is self.here else self._state(x, t) for x, _, _ in neighbours]
         _, slopes, bends = zip(*neighbours, strict=True)
         change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))

@@ -55,7 +55,10 @@ class VariedPair:
         self.swing = Swing(value, slopes, self) if "swing" in value else None
 
     def _weigh(self, i: int, value: Tables, slopes: Sequence[Tables]) -> None:
-        """Store weights, S and C alternating, of alpha (i = 0) or beta (1), of its slope by s and its derivatives."""
+        """Store weights, S and C alternating, of alpha (i = 0) or beta (1), of its slope by s and its derivatives.
+
+        Raises TooNearError where a weight on the period exceeds a float, near a separatrix.
+        """
         rate, *twists = value["slopes"]
         row, twist, sign = value[f"sum {i}"], twists[i] * acb(0, 1), 1 if self.hyperbolic else -1
         k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]

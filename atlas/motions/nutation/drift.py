@@ -164,7 +164,10 @@ def _order(motion: Any) -> list[int]:
 
 
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:
-    """Return the `Body`, the array (energy, M3, p), and nu at t = 0."""
+    """Return the `Body`, the array (energy, M3, p), and nu at t = 0.
+
+    Raises DomainError without a field, and where the axis is along it.
+    """
     names = set(motion.arguments)
     order = _order(motion)
     Omega, b = motion.angular_velocity(0.0)[order], motion.field_in_body(0.0)[order]
@@ -237,7 +240,10 @@ class Averages:
 
 
 def _turning_points(Q: FloatArray, guess: float, deficit: float) -> tuple[float, float]:
-    """Return the roots of Q in [-1, 1] that enclose the `guess` of nu or are nearest; equal for a steady motion."""
+    """Return the roots of Q in [-1, 1] that enclose the `guess` of nu or are nearest; equal for a steady motion.
+
+    Raises DomainError where the maxima of Q in (-1, 1) are negative by more than `deficit` of its largest coefficient.
+    """
     roots = np.roots(Q)
     inside = np.sort(roots.real[(abs(roots.imag) < MIN_WIDTH) & (abs(roots.real) < 1 + MIN_WIDTH)].clip(-1.0, 1.0))
     pairs = [(float(x), float(y)) for x, y in pairwise(inside) if np.polyval(Q, (x + y) / 2) > 0 or y - x < MIN_WIDTH]

@@ -177,7 +177,7 @@ class NutatingMotion(Motion[Nutation]):
         return self._in_body(np.asarray(finite(K, "K")))
 
     def _rate(self, name: str) -> FloatOrArray:
-        """Return a mean rate in rad/time: the angle per period over the period, or the rate of a free body."""
+        """Return a mean rate in rad/time: the angle per period over the period, else by the certified motion."""
         if not self.shape and not np.isfinite(self.period):
             return self._scalar(f"{name}_rate")
         rates = np.array(np.divide(getattr(self, f"{name}_per_period"), self.period))

@@ -119,7 +119,7 @@ class Roots(TurningPoints):
 
     @cached_property
     def ball(self) -> Any:
-        """Mask of balls: I = 1 and no potential."""
+        """Mask of balls, I = 1; false for tops."""
         return (self.less.hi == 0) & (self.top is None)
 
     @cached_property

@@ -88,7 +88,7 @@ def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
 
 
 def _scalars(block: Block) -> dict[str, Rounded]:
-    """Return kind, turning points, roots, period, moduli and nome of a block, each a `Rounded` by name."""
+    """Return kind, turning points, period, moduli, nome and, except of tops, roots of a block, by name."""
     with np.errstate(all="ignore"):
         r = block.roots
         is_field = r.top is None

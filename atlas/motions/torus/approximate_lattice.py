@@ -150,7 +150,10 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _real_first(conjugation: Whole) -> list[list[int]]:
-    """Return integer rows: a basis of the lattice whose first two rows span the real periods."""
+    """Return integer rows: a basis of the lattice whose first two rows span the real periods.
+
+    Raises NotCertifiedError unless there are two real periods.
+    """
     rows = [
         [*(int(x) << RELATION_BITS for x in row), *(int(i == j) for j in range(4))]
         for i, row in enumerate(conjugation - np.eye(4, dtype=int))

@@ -177,7 +177,10 @@ class Curve:
         return x if self.proven else centre(x)
 
     def paths(self, paths_per_zero: int = PATHS_PER_ZERO) -> list[tuple[acb, acb]]:
-        """Return straight paths (start, stop) between zeros, `paths_per_zero` for each, the most isolated first."""
+        """Return straight paths (start, stop) between zeros, the most isolated first.
+
+        At most `paths_per_zero` for each pair of zeros, and four times as many in all.
+        """
         paths_of_pair: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
         starts = [(zero, self.distances(zero)) for zero in self.zeros]
         for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(PATH_CELLS)):
@@ -288,7 +291,10 @@ def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
 
 
 def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
-    """Yield subintervals of (0, 1/2) in order whose ellipses contain none of the `places`."""
+    """Yield subintervals of (0, 1/2) in order whose ellipses contain none of the `places`.
+
+    Raises NotCertifiedError where one would be shorter than SHORTEST.
+    """
     pending = [(fmpq(0), fmpq(1, 2))]
     while pending:
         low, high = pending.pop()

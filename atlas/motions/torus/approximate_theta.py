@@ -154,7 +154,10 @@ class ThetaMotion:
         return np.asarray(matrix_of(self.X) @ [complex_of(x) for x in self.start])
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
-        """Return zeta at the start to all digits, by Newton's method from times T; less an even period if `reduced`."""
+        """Return zeta at the start to all digits, by Newton's method from times T; less an even period if `reduced`.
+
+        Raises NotCertifiedError where the method does not converge.
+        """
         rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.components[:6]]))
         i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
         start = self.at_start.components
@@ -252,7 +255,7 @@ class Rough:
             return np.asarray((np.array(values) / D).T)
 
     def times_near(self, times: Array, target: Array) -> Array | None:
-        """Return the times (2,) of the `target` state, by Newton's method from several starts; None without any."""
+        """Return the times (2,) of the `target` state, by Newton's method from several starts; None if all fail."""
         size, before = float(np.linalg.norm(target)), np.inf
         for _ in range(NEWTON_STEPS):
             states = self.states(times)

@@ -155,7 +155,10 @@ def _root(square: acb) -> acb:
 
 
 def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX_HALVINGS) -> acb:
-    """Return the root of r^2 at `to`, continued along the path from its value `root` at `place`."""
+    """Return the root of r^2 at `to`, continued along the path from its value `root` at `place`.
+
+    Raises NotCertifiedError where the root changes too fast.
+    """
     here = forms(place)[1]
     if (forms(place.union(to))[1] / here).real > 0:
         return root * (forms(to)[1] / here).sqrt()

@@ -98,7 +98,10 @@ class PlacedMotion:
 
     @cached_property
     def _sizes(self) -> tuple[arb, arb, arb, arb]:
-        """Bounds for both bodies: least and largest moment, |Omega| and |K|."""
+        """Bounds for both bodies: least and largest moment, |Omega| and |K|.
+
+        Raises NotCertifiedError where the moments differ too much in size.
+        """
         motion, _, distance = self._body(LEAST_BITS)
         least, most = min(motion.inertia) / MARGIN, max(motion.inertia) * MARGIN
         if distance > (MARGIN - 1) / 4 * least:
@@ -107,7 +110,10 @@ class PlacedMotion:
         return arb(least), arb(most), speed.sqrt(), arb(dot(self.field, self.field)).sqrt()
 
     def _deviation(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
-        """Return a motion along principal axes, these axes, and bounds on the differences of Omega and R until t."""
+        """Return a motion along principal axes, these axes, and bounds on the differences of Omega and R until t.
+
+        Raises NotCertifiedError where the bounds grow beyond MAX_BITS bits.
+        """
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
         least, most, w, b = self._sizes
@@ -140,7 +146,10 @@ class PlacedMotion:
         return Omega if self.is_diagonal else [x + error for x in Omega]
 
     def __getattr__(self, name: str) -> Any:
-        """Return a quantity by name; quantities of principal moments only if the tensor is diagonal."""
+        """Return a quantity by name.
+
+        Raises DomainError for a quantity of principal moments if the tensor is not diagonal.
+        """
         if name in OF_STATE and not self.is_diagonal:
             J = [x for row in self.tensor for x in row]
             H, F, c, *_ = clebsch(*J, *self.omega, *self.field)

@@ -174,7 +174,10 @@ class Torus:
             raise
 
     def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
-        """Return a proved period; an inaccurate start is first improved by Newton's method, with doubling bits."""
+        """Return a proved period; an inaccurate start is first improved by Newton's method, with doubling bits.
+
+        Raises NotCertifiedError where the method does not converge.
+        """
         r, precision = start, bits if bits <= PERIOD_BITS else FIRST_FLOW_BITS
         while precision < bits:
             r, size = self._improved(r, precision)

@@ -186,7 +186,10 @@ class Neighbours:
         ]
 
     def _tables(self, constants: Constants) -> list[list[Any]]:
-        """Return four flat lists: theta coefficients divided by the denominator's largest, ways, frequencies, frame."""
+        """Return four flat lists: theta coefficients divided by the denominator's largest, ways, frequencies, frame.
+
+        Raises DomainError where that largest coefficient is zero.
+        """
         places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in self.box]
         unit = places[self.peak][3]
         if unit == 0:

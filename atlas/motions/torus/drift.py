@@ -184,7 +184,10 @@ class Torus:
         return np.moveaxis(a, (-1, -2), (0, 1)), np.linalg.det(a)
 
     def _evened(self, y: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return states on the torus y at equal steps of both phases, from states near it, and their times."""
+        """Return states on the torus y at equal steps of both phases, from states near it, and their times.
+
+        Raises LostTorusError where the grid folds.
+        """
         x = self._projected(y, x, NEAR_TORUS)
         a, density = self._times(x)
         for _ in range(MAX_EVENING):

@@ -243,7 +243,10 @@ class ThetaKernel:
 
     @cached_property
     def _lift(self) -> tuple[FloatArray, FloatArray]:
-        """Table of continuous quaternions over half the phases, and which of the three turns change their sign."""
+        """Table of continuous quaternions over half the phases, and which of the three turns change their sign.
+
+        Raises NotCertifiedError where the sign is not decided on the finest table.
+        """
         for size in SIZES:
             line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
             half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)
