@@ -27,7 +27,7 @@ SCALARS = "period", "precession_per_period", "spin_per_period", "nome", "modulus
 
 LOST: list[tuple[Any, tuple[Any, ...], list[int]]] = [
     (GeneralMotion, (0.5, (3, 1), (0, -1.5, -2)), [6, 4, 34, 3]),
-    (GeneralMotion, (1, (1, 2), (0.3, 0.7, 0.2)), [7, 9, 35, 36, 3, 6, 0]),
+    (GeneralMotion, (1, (1, 2), (0.3, 0.7, 0.2)), [7, 12, 35, 40, 3, 6, 0]),
     (GeneralMotion, (1.5, (1, 2), (0.3, 0.7, 0.2)), [13, 13, 41, 40, 5, 9, 9, 8, 7, 6]),
     (GeneralMotion, (0.5, (1, 0.25), (0.1, -0.4, 0.3)), [14, 13, 42, 41, 5, 13, 15, 9, 8, 5]),
     (GeneralMotion, (0.75, (20, 15), (6, -24.5, -7)), [15, 20, 43, 48, 0, 0]),
