@@ -154,7 +154,7 @@ class EllipticMotion(Nutating):
 
     @property
     def precession(self) -> Real:
-        """Rate E_a b - b, in rad/time, of the frame about the field in which alpha and beta have their own rates."""
+        """Rate (E_a - frame) b, in rad/time, about the field, of the frame to which rates of alpha and beta refer."""
         return (self.E[self.places[2]] - self.frame) * self.b
 
     @by_precision
