@@ -76,7 +76,7 @@ def larmor_model() -> Model:
 
 
 def larmor_frequency_model() -> Model:
-    """Model rate of the angle of m about B, from (22): (m x dm).B over |m_perp|^2 |B|, turned clockwise."""
+    """Return the model of the clockwise rate of the angle of m about B, by (22): -(m x dm).B over |m_perp|^2 |B|."""
     m, b = vector("m"), sympy.Symbol("b", positive=True)
     field = sympy.Matrix([0, 0, b])
     dm = -mu / (2 * c) * cross(field, m)

@@ -69,7 +69,7 @@ def velocity_model() -> Model:
 
 
 def row_model() -> Model:
-    """Return the model of a row of any turning matrix: dR/dt = R hat(Omega)."""
+    """Return the model of one row of a rotation matrix R(t), dR/dt = R hat(Omega)."""
     Omega, row = vector("Omega"), vector("gamma")
     rate = (row.T * hat(Omega)).T
     return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})

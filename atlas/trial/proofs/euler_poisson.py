@@ -46,7 +46,7 @@ def _antisymmetric(S: Value) -> Value:
 
 @cache
 def multiplier_model() -> Model:
-    """Model (10) with any matrix A, and Lam, the multipliers for this A: (10) holds if and only if Lam is symmetric.
+    """Return the model of (10) with any matrix A and its multipliers Lam: (10) holds if and only if Lam is symmetric.
 
     R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is I w by the symmetry of Lam.
     """
@@ -189,7 +189,7 @@ def covariance_model(sign: int = 1) -> Model:
 
 
 def flight_model() -> Model:
-    """Model Four particles about their centre of mass; w is the rate of Omega, IdOmega that of (16) times I."""
+    """Return the model of four particles about their centre of mass; w is dOmega/dt, IdOmega is I dOmega/dt by (16)."""
     masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))
     places = {N: vector(f"x{N}_") for N in (1, 2, 3)}
     places[4] = -sum((masses[N] * places[N] for N in places), sympy.zeros(3, 1)) / masses[4]

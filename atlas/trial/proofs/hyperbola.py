@@ -91,7 +91,7 @@ def agreement_model() -> Model:
 
 
 def motion_model() -> tuple[Model, Model]:
-    """Model Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then (66), resolved or, for I = 1, at omega2 = -B2."""
+    """Return the models of motions, omega1 = 0: omega3 by (66), and the line omega2 = -B2 for I = 1."""
     zero = (omega1, sympy.Integer(0))
     ball = [zero, (omega2, -B2), (I, sympy.Integer(1))]
     return Model(LETTERS, [(omega3, constant_omega3()), zero]), Model(LETTERS, ball)

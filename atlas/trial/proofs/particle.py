@@ -99,7 +99,7 @@ def _split() -> dict[str, Value]:
 
 
 def split_model() -> Model:
-    """Model (90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
+    """Return the model of (90), B along e3, E in the plane (e2, e3), in parts along and across B; any sign of mu."""
     components = _split()
     flow = dict(zip(components["y"], components["dypar"] + components["dyperp"], strict=True))
     start = {t: sympy.Integer(0), components["y"][2]: components["ypar0"][2]}

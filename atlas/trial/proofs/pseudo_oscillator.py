@@ -53,7 +53,7 @@ def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Va
 
 @cache
 def state_model() -> Model:
-    """Model any state Omega, K of the system (34), (35) in vectors; with E', c3 and c5 as functions of the state."""
+    """Return the model of any state Omega, K of (34), (35), with E', c3 and c5 as functions of the state."""
     energy = (tensor * Omega).dot(Omega) / 2
     letters = {"omega": omega, "Omega": Omega, "K": K, "B2": B2, "B3": B3, "I": ratio, **integrals(Omega, K, ratio)}
     letters |= {"E": 2 * energy / I2, "energy": energy, "I1": I1, "I2": I2, "I3": I3, "Bsquare": dot(K, K)}
@@ -135,7 +135,7 @@ def passing_model() -> Model:
 
 
 def quadrature_model() -> Model:
-    """Model Omega3 = u is any function of time with u' = w; N = n^2 stands for E' - I u^2; Phi' = phi."""
+    """Return the model of any function Omega3 = u of time, u' = w; N = n^2 stands for E' - I u^2; Phi' = phi."""
     u, w, E, phi, Phi, phi0, f0 = sympy.symbols("u w E phi Phi phi0 f0", real=True)
     I, n = sympy.symbols("I n", positive=True)
     c1, s1, c2, s2, p, q = sympy.symbols("c1 s1 c2 s2 p q", real=True)

@@ -62,7 +62,7 @@ def free_model() -> Model:
 
 
 def lost_lines_model() -> list[Model]:
-    """Model both lines omega2 = -B2 for I <= 1: omega1 = sign sqrt(1 - I) B2 with I = 1 - s^2, any omega3."""
+    """Return the models of the lines omega2 = -B2 for I < 1: omega1 = sign sqrt(1 - I) B2, I = 1 - s^2, any omega3."""
     root = sympy.Symbol("s", positive=True)
     cases = []
     for sign in (1, -1):
@@ -127,7 +127,7 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
 
 
 def axes_model(above: bool, sheets: int) -> Model:
-    """Model Sin(beta) anywhere between 0 and 1, and the squared semi-axes of (55) for two sheets, of (57) for one."""
+    """Return the model of squared semi-axes, of (55) for two sheets, of (57) for one; sin(beta) in (0, 1)."""
     sine = 1 / (1 + sympy.Symbol("r", positive=True))
     I = 1 + excess if above else 1 / (1 + excess)
     a2, a3, square = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if sheets == 2 else 1 - I) * B2**2
@@ -142,7 +142,7 @@ def angle_model() -> Model:
 
 
 def range_model() -> Model:
-    """Model Beta, which runs over the open interval from 0 to pi/2 as B3/(I B2) runs over the positive numbers."""
+    """Return the model of beta in the open interval from 0 to pi/2, as B3/(I B2) runs over the positive numbers."""
     beta, s = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
     letters = {"beta": beta, "at_end": lambda x: x.subs(beta, sympy.pi / 2)}
     return Model(letters, [(beta, sympy.pi / 2 * s / (1 + s))], start={beta: 0})

@@ -31,7 +31,7 @@ ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, an
 
 
 def quartic_model() -> Model:
-    """Model any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
+    """Return the model of any state of the symmetric body; b^2 = K^2; Q and the cubic p depend on a symbol u."""
     basis = state_model().letters
     names = ("E", "c3", "c5", "I", "Bsquare")
     fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
