@@ -56,8 +56,8 @@ ELSEWHERE = {
     **{name: f"it is part of atlas motion, with {option} and the same options" for name, option in GONE.items()},
     **dict.fromkeys(("simulate", "integrate", "solve", "run"), "atlas motion computes a motion in closed form; in "
                     "Python, atlas.simulate integrates the equations of motion"),
-    **dict.fromkeys(("plot", "draw", "graph", "picture"), "atlas figure NAME draws a figure, and atlas page the "
-                    "figures of a motion of your own"),
+    **dict.fromkeys(("draw", "graph", "picture"), "atlas figure NAME draws a figure, atlas page the figures of a "
+                    "motion of your own, and atlas plot the columns of a table"),
     **dict.fromkeys(("gif", "video", "movie", "mp4"), "atlas animate NAME --over PARAMETER=START:STOP:COUNT writes a "
                     "gif, an apng or an mp4"),
     **dict.fromkeys(("pdf", "html", "build"), "atlas report NAME builds a report, and atlas page a page of your own"),
@@ -119,6 +119,7 @@ for name, says in {
     "data": "Write the data of a report, to be cited.",
     "figure": "Draw figures.",
     "animate": "Let a figure move: mp4, gif or apng.",
+    "plot": "Draw columns of a table.",
     "explore": "Turn bodies, move sliders, in the browser.",
     "list": "Name figures, reports, shapes, families ...",
     "hyperbola": "Sample the hyperbola (67).",

@@ -26,8 +26,8 @@ OTHERS = {
 ELSEWHERE = {
     **dict.fromkeys(("out", "o", "output", "save"), "numbers go to standard output, so that > FILE writes them; --json "
                     "prints JSON, and a table as a file is that of atlas motion --times ... --out FILE.csv"),
-    **dict.fromkeys(("plot", "graph", "draw"), "atlas figure NAME draws a figure, and atlas page the figures of a "
-                    "motion of your own"),
+    **dict.fromkeys(("plot", "graph", "draw"), "atlas figure NAME draws a figure, atlas page the figures of a "
+                    "motion of your own, and atlas plot the columns of a table"),
     **dict.fromkeys(("gif", "mp4", "video", "movie", "apng"), "atlas animate NAME --over PARAMETER=START:STOP:COUNT "
                     "writes a gif, an apng or an mp4"),
 }  # fmt: skip

@@ -35,6 +35,7 @@ FILES: dict[str, str | bytes] = {
     "word.csv": "t,x\n1,2\n\n3,two\n",
     "ratios.csv": "ratio\n0.5\n",
     "cone.csv": "mine",
+    "words.csv": "t,x\n1,two\n",
     "empty.csv": "ratio,omega2\n",
     "again.csv": "ratio,ratio\n1,2\n",
     "long.csv": "ratio\n1,2\n",
@@ -62,6 +63,11 @@ OVER = "animate cone --out {place}/new --over"
 MASS, SI = "--mass 1", "--magnetic 1 2 --mu 1"
 CASES = [
     ("report your_body", "your_body takes a body, a field and a start"),
+    ("plot {place}/ratios.csv ratio ratoi", "'ratio'"),
+    ("plot {place}/ratios.csv ratio ratio --out a.gif", "the ending is .pdf, .svg or .png, not .gif"),
+    ("plot {place}/bare.csv t x", "has no rows to draw"),
+    ("plot {place}/long.csv ratio ratio", "line 2: 2 cells under a heading of 1"),
+    ("plot {place}/words.csv t x", "the column x has text"),
     ("report your_body --from nobody", "'nobody'"),
     ("report your_body --each {place}/empty.csv", "needs a heading such as ratio,radius [um] and at least one row"),
     ("report your_body --each {place}/again.csv", "the column ratio is there twice"),
@@ -145,7 +151,7 @@ CASES = [
     ),
     ("motion --ratio 1.3(1) --field 1 2 --omega2 0.3 --decimal", "without an uncertainty"),
     ("hyperbola --ratio 1.3 --field 2(1) --angle 1", "atlas motion carries those"),
-    ("plot", "atlas figure NAME"),
+    ("graph", "atlas figure NAME"),
     ("simulate --ratio 1.5", "atlas motion computes a motion in closed form"),
     ("gif hyperbola", "atlas animate NAME"),
     ("figure hyperbola --gif", "atlas animate NAME"),

@@ -1,0 +1,140 @@
+"""``atlas plot``: columns of a table over one of its columns."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.cli.options import FILE, Place, examples, style_option
+from atlas.cli.points import cells_of
+from atlas.cli.words import Command
+from atlas.errors import AtlasError, unknown
+from atlas.files import keeping
+from atlas.measured import heading
+from atlas.targets import TARGETS, find
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FORMATS = ("pdf", "svg", "png")
+WIDTH_MM = 86.0
+"""Width of a picture without a target."""
+ASPECT = 0.66
+"""Height of a picture over its width."""
+MM_PER_INCH = 25.4
+MAX_DOTS = 200
+"""Number of rows above which dots are pixels."""
+Column = NDArray[np.float64] | NDArray[np.str_]
+
+
+@click.command(
+    "plot",
+    cls=Command,
+    epilog=examples(
+        "atlas plot table.csv ratio k",
+        "atlas plot table.parquet ratio k phi --out frequencies.pdf --for aps",
+    ),
+)
+@click.argument("table", type=FILE)
+@click.argument("x")
+@click.argument("y", nargs=-1, required=True, metavar="Y...")
+@click.option("--out", type=Place(dir_okay=False, path_type=Path), help="File, .pdf, .svg or .png; by default X.pdf.")
+@click.option("--for", "target", metavar="TARGET", help=f"Size and type for a column or slide: {', '.join(TARGETS)}.")
+@style_option
+def command(table: Path, x: str, y: tuple[str, ...], out: Path | None, target: str | None, style: str | None) -> int:
+    """Draw columns Y of a TABLE over its column X: of a sweep, a motion, or a logger; CSV, Parquet or NPZ.
+
+    Names and units of the columns are those of the table's heading. Where X grows from row to row there is a line,
+    else a dot for each row; a column Y_sigma beside Y gives error bars. Rows without a number are left out. Beside a
+    file that you edited, or put there, the new one is written, and then the exit status is 2.
+    """
+    from atlas.pictures.drawing.style import context
+
+    out = out or Path(f"{x}.pdf")
+    if (kind := out.suffix.removeprefix(".")) not in FORMATS:
+        raise click.UsageError(f"--out {out}: the ending is .pdf, .svg or .png, not {out.suffix or 'missing'}.")
+    page = find(target) if target else None
+    with context(style, page), keeping(out) as place:
+        picture = figure_of(table, x, y, page.width if page else WIDTH_MM)
+        picture.savefig(place, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
+    click.echo(out)
+    return 0
+
+
+def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure":
+    """Return the picture of the columns y over the column x of a table.
+
+    Raises
+    ------
+    AtlasError, click.UsageError
+        For a file that cannot be read, and a column that is not there or has text.
+    """
+    from matplotlib.figure import Figure
+
+    columns, units = columns_of(table)
+    abscissae = numbers_of(columns, x, table)
+    width = width_mm / MM_PER_INCH
+    figure = Figure(figsize=(width, ASPECT * width), layout="constrained")
+    axes = figure.subplots()
+    for name in y:
+        ordinates = numbers_of(columns, name, table)
+        known = np.isfinite(abscissae) & np.isfinite(ordinates)
+        is_ordered = bool((np.diff(abscissae[known]) > 0.0).all())
+        errors = numbers_of(columns, f"{name}_sigma", table)[known] if f"{name}_sigma" in columns else None
+        mark = "-" if is_ordered else "." if known.sum() <= MAX_DOTS else ","
+        axes.errorbar(abscissae[known], ordinates[known], errors, fmt=mark, label=name)
+    axes.set_xlabel(labelled(x, units))
+    axes.set_ylabel(", ".join(labelled(name, units) for name in y))
+    if len(y) > 1:
+        axes.legend()
+    return figure
+
+
+def columns_of(table: Path) -> tuple[dict[str, Column], dict[str, str]]:
+    """Return the columns of a table by name, cells as text or numbers, and the unit of each.
+
+    Raises
+    ------
+    AtlasError, click.UsageError
+        For a file that cannot be read, or that has no rows.
+    """
+    if table.suffix in {".parquet", ".npz"}:
+        from atlas.checking.binary_tables import head_and_columns
+
+        head, columns = head_and_columns(table)
+        headings = dict(heading(cell) for cell in head[-1].split(","))
+        return {**columns}, {name: headings.get(name, "") for name in columns}
+    heads, lines = cells_of(table)
+    if not lines:
+        raise click.UsageError(f"{table} has no rows to draw.")
+    units = dict(heading(cell) for cell in heads)
+    for number, cells in lines:
+        if len(cells) != len(heads):
+            raise click.UsageError(f"{table}, line {number}: {len(cells)} cells under a heading of {len(heads)}.")
+    return dict(zip(units, np.array([cells for _, cells in lines]).T, strict=True)), units
+
+
+def numbers_of(columns: Mapping[str, Column], name: str, table: Path) -> NDArray[np.float64]:
+    """Return a column as floats, shape (rows,), NaN for an empty cell.
+
+    Raises
+    ------
+    AtlasError
+        For a column that the table does not have, and for cells that are no numbers.
+    """
+    if name not in columns:
+        raise unknown("column", name, columns, f"of {table}")
+    column = columns[name]
+    try:
+        cells = np.where(column == "", "nan", column) if column.dtype.kind == "U" else column
+        return np.asarray(cells, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise AtlasError(f"{table}: the column {name} has text, which has no place on an axis.") from error
+
+
+def labelled(name: str, units: Mapping[str, str]) -> str:
+    """Return the label of an axis: a name, and its unit in brackets if it has one."""
+    return f"{name} [{units[name]}]" if units[name] else name
