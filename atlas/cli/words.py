@@ -92,11 +92,13 @@ def check_bare_numbers(options: Mapping[str, Any]) -> None:
         (name, x) for name, value in options.items() if name in WANTED for x in parts_of(value)
         if isinstance(x, Typed) and x
     ]  # fmt: skip
+    with_unit = [(name, x) for name, x in numbers if x.unit]
+    lengths = [(name, x) for name, x in with_unit if WANTED[name] == "m"]
     for name, x in numbers:
-        units = [y for other, y in numbers if y.unit and (name == "angle" or WANTED[other] == "m")]
-        if units and not x.unit and (name == "angle" or WANTED[name] == "m"):
+        beside = with_unit if name == "angle" else lengths if WANTED[name] == "m" else []
+        if beside and not x.unit:
             raise click.UsageError(
-                f"--{name}: {x.text} has no unit, and {units[0].text} has one; give it one, such as "
+                f"--{name}: {x.text} has no unit, and {beside[0][1].text} has one; give it one, such as "
                 f"{x.text}{WANTED[name]}."
             )
 
