@@ -44,7 +44,7 @@ def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit:
 
 
 def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
-    """Yield (words, quaternions (N, 4), scalar first) for both orders of components and both directions."""
+    """Yield (words, quaternions (N, 4)): as given, and rolled by one place to either side, each also conjugate."""
     conjugate = np.array([1.0, -1.0, -1.0, -1.0])
     orders = {"": 0, "with the scalar last": 1, "with the scalar first": -1}
     for order, places in orders.items():

@@ -90,7 +90,7 @@ def _in_given_axes(motion: Any) -> Reference:
 
 
 def _any_body(values: Given, start: Given, file: str) -> Reference:
-    """Return the `Reference` of any inertia tensor: certified where principal moments and a start are given."""
+    """Return the `Reference` of any inertia tensor, certified with a start. AtlasError for omega2 or omega3."""
     inertia, B = values["inertia"], np.array(_parameter(values, "field", file), dtype=float)
     a, b, c, ab, ac, bc = (*inertia, 0.0, 0.0, 0.0)[:6]
     tensor, field = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]]), B if B.size == 3 else np.array([0.0, *B])

@@ -124,7 +124,15 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
 
 
 def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str, Any]) -> dict[str, Any]:
-    """Return data by singular name, from keywords in either number. Raises TypeError for another keyword."""
+    """Return data by singular name, from keywords in either number.
+
+    Raises
+    ------
+    TypeError
+        For another keyword.
+    AtlasError
+        For data that are given in both numbers.
+    """
     singular = {"axes" if name == "axis" else f"{name}s".replace("ys", "ies"): name for name in columns}
     for name in plural:
         if name not in singular:

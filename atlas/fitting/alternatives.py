@@ -183,7 +183,7 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
 
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
-    """Yield the elementary motion in the opposite field with the same axis, if the data are axes alone."""
+    """Yield the parameters of the elementary motion in the opposite field with the same axis, for axes alone."""
     if not problem.model.is_on_hyperbola or problem.data.kind != "axis":
         return
     new = dict(values) | {name: -values[name] for name in (*B, "omega2")}
@@ -199,7 +199,7 @@ def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Itera
 def _turned_parameters(
     problem: Problem, values: Values, S: FloatArray, body_turn: FloatArray, omega: FloatArray
 ) -> Iterator[dict[str, float]]:
-    """Yield the parameters of the motion S R S' where the family has it; for tops with both signs of n."""
+    """Yield the parameters of the motion S R body_turn where the family has one; for tops with both signs of n."""
     model = problem.model
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
     turned_moments = moments @ abs(body_turn)

@@ -166,7 +166,7 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
 
 
 def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
-    """Return the centre of the circle of axes (N, 3), the rate, and the shortest rotation from e3 to their start."""
+    """Return the normal of the circle of axes (N, 3), its rate, and the shortest rotation from e3 to the first axis."""
     n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
     e1 = np.cross(np.cross(n, axes[0]), n)
     e1 /= np.linalg.norm(e1) or 1.0
