@@ -5,8 +5,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-import numpy as np
-from numpy.typing import NDArray
 
 from atlas.cli.options import FILE, Place, examples, style_option
 from atlas.cli.points import cells_of
@@ -17,7 +15,11 @@ from atlas.measured import heading
 from atlas.targets import TARGETS, find
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Column = NDArray[np.float64] | NDArray[np.str_]
 
 FORMATS = ("pdf", "svg", "png")
 WIDTH_MM = 86.0
@@ -27,7 +29,6 @@ ASPECT = 0.66
 MM_PER_INCH = 25.4
 MAX_DOTS = 200
 """Number of rows above which dots are pixels."""
-Column = NDArray[np.float64] | NDArray[np.str_]
 
 
 @click.command(
@@ -72,6 +73,7 @@ def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure
     AtlasError, click.UsageError
         For a file that cannot be read, and a column that is not there or has text.
     """
+    import numpy as np
     from matplotlib.figure import Figure
 
     columns, units = columns_of(table)
@@ -93,7 +95,7 @@ def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure
     return figure
 
 
-def columns_of(table: Path) -> tuple[dict[str, Column], dict[str, str]]:
+def columns_of(table: Path) -> tuple[dict[str, "Column"], dict[str, str]]:
     """Return the columns of a table by name, cells as text or numbers, and the unit of each.
 
     Raises
@@ -107,6 +109,8 @@ def columns_of(table: Path) -> tuple[dict[str, Column], dict[str, str]]:
         head, columns = head_and_columns(table)
         headings = dict(heading(cell) for cell in head[-1].split(","))
         return {**columns}, {name: headings.get(name, "") for name in columns}
+    import numpy as np
+
     heads, lines = cells_of(table)
     if not lines:
         raise click.UsageError(f"{table} has no rows to draw.")
@@ -117,7 +121,7 @@ def columns_of(table: Path) -> tuple[dict[str, Column], dict[str, str]]:
     return dict(zip(units, np.array([cells for _, cells in lines]).T, strict=True)), units
 
 
-def numbers_of(columns: Mapping[str, Column], name: str, table: Path) -> NDArray[np.float64]:
+def numbers_of(columns: Mapping[str, "Column"], name: str, table: Path) -> "NDArray[np.float64]":
     """Return a column as floats, shape (rows,), NaN for an empty cell.
 
     Raises
@@ -125,6 +129,8 @@ def numbers_of(columns: Mapping[str, Column], name: str, table: Path) -> NDArray
     AtlasError
         For a column that the table does not have, and for cells that are no numbers.
     """
+    import numpy as np
+
     if name not in columns:
         raise unknown("column", name, columns, f"of {table}")
     column = columns[name]

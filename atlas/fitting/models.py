@@ -121,7 +121,8 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
         omega = _on_hyperbola(moments[:, 2], K.T, parameters["omega2"]).T
     elif "z" in parameters:
         z, D = parameters["z"][:, None], moments.prod(-1, keepdims=True)
-        v = parameters["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
+        with np.errstate(invalid="ignore"):  # off the curve there is no motion
+            v = parameters["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
         omega = -(1 + v / (z * moments + D)) * K
     body = 2 * moments.max(-1) <= moments.sum(-1)
     return Flow(moments, coupling, potential, field, A, np.where(body[:, None], omega, np.nan), error)

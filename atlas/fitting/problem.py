@@ -166,9 +166,9 @@ class Problem:
         varied = np.flatnonzero([not (self.is_turned and name in ATTITUDE) for name in self.names])
         points = np.repeat(X[:, None], 1 + varied.size, 1)
         points[:, 1 + np.arange(varied.size), varied] += h[varied]
-        motions: Any = flow(self.model, self.values_of_all(points.reshape(-1, n)), self.error)
-        if self.is_turned:
-            with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"):
+            motions: Any = flow(self.model, self.values_of_all(points.reshape(-1, n)), self.error)
+            if self.is_turned:
                 motions = Rotations(motions.rotation(data.t))
         r = self._differences(motions, data).reshape(M, 1 + varied.size, -1)
         J = np.empty((M, n, r.shape[-1]))

@@ -16,7 +16,7 @@ from values import share, watched
 from atlas.cli.app import atlas, main
 from atlas.motions.register import FAMILIES
 
-BUILDERS = {"animate", "data", "explore", "page", "report", "sweep", "tex"}
+BUILDERS = {"animate", "data", "explore", "page", "plot", "report", "sweep", "tex"}
 """Commands that write files or run for long: they have tests of their own."""
 
 COMMANDS: dict[str, click.Command] = {

@@ -104,6 +104,7 @@ CASES = [
         "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
     ),
     Case("figure hyperbola --format svg", DRAWING),
+    Case("plot turns.csv t w --out w.svg", "matplotlib fontTools numpy", slow=True),
     Case("figure flight --renderer shaded", f"{DRAWING} {SHADING}", slow=True),
     Case("figure trochoids --renderer shaded", DRAWING),
     Case("animate hyperbola --over ratio=0.5:1.5:2 --dpi 30", DRAWING.replace(" multiprocessing", ""), slow=True),
