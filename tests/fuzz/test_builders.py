@@ -20,6 +20,7 @@ LINES = {
     + ["--fit no_such.csv --sigma 0.1 --fix ratio=1.5 --predict 1", "fit no_such.csv"],
     "animate": [f"trochoids --dpi 20 --over {over}" for over in RANGES] + ["trochoids --dpi 20", "no_such"],
     "explore": ["--no-browser", "top --no-browser", "trochoids --no-browser", "no_such --no-browser"],
+    "plot": ["no_such.csv t x", "/dev/null t x"],
     "tex": ["no_such", "no_such.toml"],
     "data": ["no_such", "no_such.toml"],
     "figure": [f"trochoids --for {target}" for target in ("aps", "poster", "elsevier-middle", "none", "", "beamer-x")],
