@@ -31,6 +31,7 @@ OPTIONS = {
     "page": ["--digits", "--title", "--times"],
     "animate": ["--fps", "--dpi", "--format", "--set", "--style", "--over"],
     "explore": ["--port"],
+    "plot": ["--for", "--style"],
     "tex": ["--jobs"],
     "data": ["--jobs"],
     "figure": ["--format", "--set", "--style", "--for"],
