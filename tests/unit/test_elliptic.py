@@ -418,3 +418,13 @@ def test_what_is_no_elliptic_motion_is_refused_in_one_line(case: tuple[object, .
     """Errors say what is wrong and what would be right."""
     with pytest.raises(atlas.AtlasError, match=words):
         atlas.EllipticMotion(*case)
+
+
+@pytest.mark.parametrize("offset", [1e-1, 1e-2, 1e-3, 1e-5, 1e-8])
+def test_one_time_near_a_separatrix_is_that_of_many(offset: float) -> None:
+    """R(0) is 1 to 8 units of 2^-53, and R at one time that of an array to twice as much."""
+    motion = atlas.EllipticMotion((1.0, 2.0, 3.0), (2.0 + offset, 1.0, 3.0), 10.0)
+    times = np.array([0.0, 0.3, 2.0, 17.0, 333.0])
+    alone = np.array([motion.rotation(t) for t in times])
+    assert abs(alone[0] - np.eye(3)).max() <= 8 * 2.0**-53
+    assert abs(alone - motion.rotation(times)).max() <= 16 * 2.0**-53

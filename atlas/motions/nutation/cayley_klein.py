@@ -144,9 +144,6 @@ def products_of_one(parameters: CayleyKlein, t: float) -> list[float]:
     """
     half_sum, half_difference, *half = parameters.phases.halves_of_one(t)
     functions: Any = parameters.functions
-    if isinstance(functions, Hyperbolic):
-        twist_of_sum, twist_of_difference = functions.twist_of_one
-        half_sum, half_difference = half_sum + twist_of_sum * half[0], half_difference + twist_of_difference * half[0]
     sums = (parameters.values @ functions.of_one(*half)).tolist()
     sum_turn, turn = (complex(cos(x), sin(x)) for x in (half_sum, half_difference))
     alpha = complex(sums[0], sums[2]) * sum_turn * turn

@@ -32,9 +32,6 @@ FREQUENCY_RADIUS, WEIGHT_RADIUS = 2.0**-120, 2.0**-80
 MIN_WEIGHT = 1e-70
 """Next to a separatrix alpha and beta may both become so small, over the common factor, that their squares vanish."""
 
-MAX_REACH_OF_ONE = 8.0
-"""Largest argument of hyperbolic functions that is rounded to a double: the pair is within some ulp nevertheless."""
-
 KINDS: Mapping[str, Callable[..., Functions]] = {
     "trigonometric": Trigonometric,
     "hyperbolic": Hyperbolic,
@@ -108,9 +105,10 @@ class CayleyKlein:
 
     @property
     def at_one_time(self) -> bool:
-        """Whether the pair at one time is known from floats: without `swing`, and not next to a separatrix or on it."""
-        if isinstance(self.functions, Hyperbolic):
-            return self.periodic and not self.swing and self.functions.reach < MAX_REACH_OF_ONE
+        """Whether the pair at one time is known from floats: without `swing`, and away from separatrices.
+
+        Near them the argument of the hyperbolic functions is large, and a double of it loses digits.
+        """
         return not self.swing and isinstance(self.functions, Steady | Trigonometric)
 
     @cached_property

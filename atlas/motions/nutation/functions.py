@@ -7,7 +7,7 @@ matrix.
 
 from collections.abc import Iterable, Sequence
 from functools import cache
-from math import cos, cosh, sin, tanh
+from math import cos, sin
 from typing import TypeAlias
 
 import numpy as np
@@ -126,8 +126,7 @@ class Hyperbolic:
             self.peak, self.share = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
             slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
             alpha_twist, beta_twist = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
-            self.twist_of_one = [float(x.mid()) for x in (alpha_twist + beta_twist, alpha_twist - beta_twist)]
-            self.twist = np.array(self.twist_of_one)[:, None]
+            self.twist = np.array([[float(x.mid())] for x in (alpha_twist + beta_twist, alpha_twist - beta_twist)])
         self.line = Line(slope, start)
         self.distant = words(self.reach, 2) if self.periodic and self.reach > MAX_EXPONENT else None
         self.sech = any(sum_.doubled for sum_ in sums)
@@ -193,14 +192,6 @@ class Hyperbolic:
                 down *= SECH_SCALE * np.exp(np.minimum(MAX_EXPONENT - np.abs(x), 0.0))
             n = 2 * self.powers
             np.multiply(rows[:n], down, out=rows[n : 2 * n])
-
-    def of_one(self, half: float) -> list[float]:
-        """Return the rows at one time, from half the phase in the period."""
-        x = self.line.slope * half
-        rows, W = [tanh(x), 1.0], 2 * self.share * cosh(2 * x)
-        for _ in range(1, self.powers):
-            rows += [rows[-2] * W, rows[-1] * W]
-        return rows + [y / cosh(x) for y in rows] if self.sech else rows
 
 
 class Linear:
