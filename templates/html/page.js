@@ -285,7 +285,9 @@ addEventListener("pointerdown", (event) => {
 
 // Rows of a table that sorts, by the column whose head is clicked: by numbers if they are, empty ones last.
 const amount = (cell) =>
-  Number.parseFloat(cell.textContent.replace(/×10/, "e").replaceAll("−", "-").replace(/\(.*?\)/, ""));
+  Number.parseFloat(
+    cell.textContent.replace(/×10/, "e").replaceAll("−", "-").replace(/\(.*?\)/, ""),
+  );
 for (const table of document.querySelectorAll("table.sorts")) {
   for (const [place, head] of [...table.tHead.rows[0].cells].entries()) {
     const button = element("button", { type: "button" }, ...head.childNodes);
@@ -294,7 +296,9 @@ for (const table of document.querySelectorAll("table.sorts")) {
       const up = head.ariaSort !== "ascending", rows = [...table.tBodies[0].rows];
       const order = (one, other) => {
         const [a, b] = [one, other].map((row) => row.cells[place]), [x, y] = [a, b].map(amount);
-        if (Number.isNaN(x) && Number.isNaN(y)) return a.textContent.localeCompare(b.textContent) * (up ? 1 : -1);
+        if (Number.isNaN(x) && Number.isNaN(y)) {
+          return a.textContent.localeCompare(b.textContent) * (up ? 1 : -1);
+        }
         return Number.isNaN(x) - Number.isNaN(y) || (up ? x - y : y - x);
       };
       for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
