@@ -33,6 +33,10 @@ GRAVITY, MOLECULE, ROOM_TEMPERATURE = 9.81, 4.65e-26, 300.0
 """In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
 SMALL_SHARE = 0.01
 """Share of the effect that is shown below which another is called negligible."""
+NEARLY_ROUND = 0.1
+"""Squared eccentricity of a spheroid below which its demagnetizing factors are summed as a power series."""
+TERMS = 16
+"""Terms of that series, enough for a double: 0.1^16 is a sixteenth of its rounding."""
 
 
 def greatest_charge(radius: Any, surface_field: float) -> float:
@@ -110,14 +114,22 @@ def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian:
 
 
 def demagnetization(aspect: float) -> float:
-    """Return the demagnetizing factor along the axis of a spheroid, polar over equatorial `aspect`."""
-    if abs(aspect - 1) < 1e-6:
-        return 1 / 3
+    """Return the demagnetizing factor N3 along the axis of a spheroid, polar over equatorial semi-axis `aspect`."""
+    return (1 - 2 * demagnetization_difference(aspect)) / 3
+
+
+def demagnetization_difference(aspect: float) -> float:
+    """Return N2 - N3 of a spheroid, across its axis less along it, with the sign of `aspect` - 1; 0 of a ball."""
+    x = (aspect - 1) * (aspect + 1) / aspect**2
+    if abs(x) < NEARLY_ROUND:  # the closed forms cancel here
+        return 3 * sum(x**k / ((2 * k + 1) * (2 * k + 3)) for k in range(1, TERMS))
     if aspect > 1:
-        e = sqrt(1 - 1 / aspect**2)
-        return (1 - e * e) / e**3 * (atanh(e) - e)
-    e = sqrt(1 - aspect**2)
-    return (1 - aspect / e * asin(e)) / e**2
+        e = sqrt(x)
+        N3 = (1 - x) / e**3 * (atanh(e) - e)
+    else:
+        e = sqrt(1 - aspect**2)
+        N3 = (1 - aspect / e * asin(e)) / e**2
+    return (1 - 3 * N3) / 2
 
 
 def gas_drag(radius: float, moment: float) -> float:
@@ -211,8 +223,8 @@ def disturbances(body: Spinning) -> Iterator[Disturbance]:
         from flint import arb
 
         volume = float(VOLUMES[body.shape](*map(arb, body.sizes.values())))
-        N = demagnetization(aspect)
-        chi = sqrt(potential * MAGNETIC_CONSTANT / (volume * abs((1 - N) / 2 - N))) / body.B
+        difference = abs(demagnetization_difference(aspect))
+        chi = sqrt(potential * MAGNETIC_CONSTANT / (volume * difference)) / body.B
         yield _from(
             "magnetisation by the field, of a spheroid as high and wide", r"$\chi$", chi, "",
             r"$\sqrt{\mu_0|I_3-I_2|b^2/V|N_2-N_3|B^2}$", (1e-6, 1e-4), "diamagnets, 1e-6 to 1e-4", 2,

@@ -113,7 +113,7 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
         "rows": [*_rows(*cards)],
         "caption": "The two cards, and the second less the first, to the digits that both have.",
     }  # fmt: skip
-    reasons = [f"{made['says'].capitalize()} of `{name}`: {made['reason']}."
+    reasons = [f"{made['says'][:1].upper()}{made['says'][1:]} of `{name}`: {made['reason']}."
                for name, one in zip(names, cards, strict=True) for key, made in one.items()
                if made["reason"] and key not in FREQUENCIES]  # fmt: skip
     texts = [f"{place}: {title}. Its report is `{name}`, by `{command_of(request)}`." for place, name, title, request

@@ -513,7 +513,8 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
     for key, entry in made.items():
         if entry["reason"] and (has_torus or key not in FREQUENCIES):
             reasons.setdefault(entry["reason"], []).append(entry["says"])
-    left_out += [f"{', '.join(names)}: {reason}.".capitalize() for reason, names in reasons.items()]
+    sentences = [f"{', '.join(names)}: {reason}." for reason, names in reasons.items()]
+    left_out += [text[:1].upper() + text[1:] for text in sentences]  # but B stays B
     left_out += [*too_slow(motion, request.time), *_absent(request, shape, bool(beside))]
     others = [table_of(request, "properties", one.name, {"given": False}) for one in other_families(family)]
     return {
