@@ -3,9 +3,11 @@
 import json
 import tomllib
 from dataclasses import replace
+from fractions import Fraction
 from math import hypot, inf, pi, sqrt
 from pathlib import Path
 
+import numpy as np
 import pytest
 from lxml import html
 from syrupy.assertion import SnapshotAssertion
@@ -13,7 +15,18 @@ from syrupy.assertion import SnapshotAssertion
 from atlas.bodies.laboratory import Spinning, anisotropy, demagnetization, disturbances
 from atlas.book.load import load
 from atlas.book.page import Asked
-from atlas.book.your_body import FREQUENCIES, card, files_of, name_of, sign_of, stands, thing_of, title_of, verdict
+from atlas.book.your_body import (
+    FREQUENCIES,
+    card,
+    files_of,
+    name_of,
+    sign_of,
+    spins_on,
+    stands,
+    thing_of,
+    title_of,
+    verdict,
+)
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
 from atlas.errors import AtlasError
@@ -210,6 +223,30 @@ def test_a_report_is_built_whole(tmp_path: Path, capsys: pytest.CaptureFixture[s
 def test_a_steady_motion_says_whether_it_is_stable(words: str, says: str) -> None:
     """A disk near Larmor's turn, the middle axis, a start in the unstable band; and their stable neighbours."""
     assert f", {says} against small nutations" in verdict(thing_of(request_of(words)))
+
+
+def test_a_spin_is_stable_where_no_eigenvalue_grows() -> None:
+    """The verdict on a spin about a principal axis is that of eigenvalues of the equations, by differences."""
+    rng, verdicts = np.random.default_rng(5), list[bool]()
+    for _ in range(100):
+        moments, axis = 1 + rng.random(3), int(rng.integers(3))
+        field, omega = np.zeros(3), np.zeros(3)
+        field[axis], omega[axis] = rng.uniform(-2, 2) * (rng.random() < 0.8), rng.uniform(-3, 3)
+
+        def changes(state: np.ndarray, moments: np.ndarray = moments) -> np.ndarray:
+            W, K = state[:3], state[3:]
+            turned: np.ndarray = np.cross(moments * W, W) - np.cross(moments * K, K)
+            return np.concatenate([turned / moments, np.cross(K, W)])
+
+        spin, across = np.r_[omega + field, field], [i for i in range(6) if i % 3 != axis]
+        if not field.any():
+            across = across[:2]
+        pushes = 1e-5 * np.eye(6)[across]
+        linear = np.array([changes(spin + p)[across] - changes(spin - p)[across] for p in pushes]).T / 2e-5
+        grows = bool(max(np.linalg.eigvals(linear).real) > 1e-6)
+        verdicts.append(not grows)
+        assert spins_on(*([Fraction(float(x)) for x in v] for v in (moments, field, omega))) is not grows
+    assert {*verdicts} == {True, False}
 
 
 def test_magnetism_from_the_value_told_is_as_large_as_the_charge() -> None:
