@@ -26,20 +26,34 @@ from atlas.cli.present import bar
 @click.option(
     "--over",
     metavar="KEY=START:STOP:COUNT",
-    help="The parameter that moves, its ends, and how many frames, or a list a,b,c of numbers; when left out, the "
-    "figure's time t.",
+    help="Parameter that changes from frame to frame: its first and last value (a number or a list a,b,c) and the "
+    "number of frames. Default: the figure's time t.",
 )
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Other parameters; a list is a,b,c.")
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="KEY=VALUE [...]",
+    help="Fixed parameters of the figure; a list is a,b,c.",
+)
 @click.option(
     "--format",
     "kind",
     type=click.Choice(["mp4", "gif", "apng"]),
     default="gif",
     show_default=True,
-    help="The kind of file; mp4 needs the program ffmpeg.",
+    help="Format of the file; mp4 needs the program ffmpeg.",
 )
-@click.option("--fps", type=click.FloatRange(1, 60), default=20.0, show_default=True, help="Frames a second.")
-@click.option("--dpi", type=click.IntRange(20, 600), default=120, show_default=True, help="Pixels to the inch.")
+@click.option(
+    "--fps",
+    type=click.FloatRange(1, 60),
+    default=20.0,
+    show_default=True,
+    help="Frames per second; a gif takes up to 50.",
+)
+@click.option(
+    "--dpi", type=click.IntRange(20, 600), default=120, show_default=True, help="Resolution, in pixels per inch."
+)
 @out_option("build/figures")
 @style_option
 def command(
@@ -52,12 +66,14 @@ def command(
     out: Path,
     style: str | None,
 ) -> None:
-    """Let a figure move: its recipe over the values of one parameter, every frame in one view and at one scale.
+    """Animate a figure: each frame has another value of one parameter, in the same view and at the same scale.
 
-    Figures that show a motion, such as film_strip and rolling_cones, have a time t: t=0:10:100, say, or as long as the
-    motion lasts when nothing is asked for. The file is OUT/NAME.FORMAT, written whole or not at all. Beside one that
-    you edited, or put there, it is NAME.new.FORMAT, and then the exit status is 2. With a NAME, --help tells its
-    parameters.
+    NAME is a figure of `atlas list figures`, or a recipe FILE.py of your own. `atlas animate NAME --help` explains its
+    parameters. Figures of a motion, such as film_strip and rolling_cones, have a time t; by default the frames show it
+    from the start to the end of the motion.
+
+    The file is OUT/NAME.FORMAT. A file there that you edited or made yourself is kept: the new one is then
+    NAME.new.FORMAT, and the exit status is 2.
     """
     from atlas.pictures.drawing import animation
     from atlas.places import settle_matplotlib

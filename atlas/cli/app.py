@@ -105,8 +105,10 @@ class Atlas(click.Group):
 @click.group(
     cls=Atlas,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
-    help="The exact motion of a charged symmetric body in constant electric and magnetic fields.",
-    epilog="Angles are in radians; B' = mu B/(2c) and all angular velocities share one unit of 1/time.",
+    help="Compute the exact motion of a charged rigid body in constant electric and magnetic fields.",
+    epilog="Angles are in radians. The field B' = mu B/(2c) and all angular velocities are in one unit of 1/time. "
+    "Numbers may have a unit, as 1.2um, 0.8T, 2MHz, 30deg, or an uncertainty, as 1.50(2). `atlas COMMAND --help` explains a "
+    "command.",
 )
 @click.version_option(__version__, prog_name="atlas")
 def atlas() -> None:
@@ -114,20 +116,20 @@ def atlas() -> None:
 
 
 for name, says in {
-    "report": "Build a report.",
-    "page": "Make a page of your own body and motion.",
-    "data": "Write the data of a report, to be cited.",
-    "figure": "Draw figures.",
-    "animate": "Let a figure move: mp4, gif or apng.",
-    "plot": "Draw columns of a table.",
-    "explore": "Turn bodies, move sliders, in the browser.",
-    "list": "Name figures, reports, shapes, families ...",
-    "hyperbola": "Sample the hyperbola (67).",
+    "report": "Build a report as HTML pages and a PDF.",
+    "page": "Make a page about your body and its motion.",
+    "data": "Write tables and plotted points of a report as CSV.",
+    "figure": "Draw figures as SVG, PDF and PNG.",
+    "animate": "Animate a figure as gif, apng or mp4.",
+    "plot": "Plot columns of a table.",
+    "explore": "Explore motions with sliders in the browser.",
+    "list": "List figures, reports, shapes, families, ...",
+    "hyperbola": "Tabulate the curve (67) of elementary motions.",
     "sweep": "Tabulate quantities over parameters.",
-    "check": "Grade a trajectory of your own.",
-    "fit": "Find body and field from measurements.",
+    "check": "Count the correct digits of a trajectory.",
+    "fit": "Find body, field and start from measurements.",
     "tex": "Write a report as LaTeX.",
-    "verify": "Put the paper's equations on trial.",
+    "verify": "Prove or refute the paper's equations.",
     **SUMMARIES,
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))

@@ -38,79 +38,91 @@ ROD_REASON = (
 
 def points_option(axes: str) -> Callable[[F], F]:
     """Return the option for point masses; `axes` ends its help."""
-    says = f"Body of point masses: a CSV file with the columns x, y, z, mass and, for --magnetic, charge{axes}."
+    says = f"CSV file of point masses, with the columns x, y, z, mass and, for --magnetic, charge{axes}."
     return click.option("--points", type=FILE, metavar="FILE", help=says)
 
 
 shape_options: Callable[[F], F] = stack(
-    numbers("ratio", "I = I3/I2, in (0, 2].", callback=nearest_moments),
-    click.option(
-        "--shape", metavar="NAME", help="Body given by its dimensions: ring, disk, ...; see atlas list shapes."
+    numbers(
+        "ratio", "Ratio I3/I2 of the moments of inertia along and across the axis, in (0, 2].", callback=nearest_moments
     ),
-    numbers("radius", "Radius of the shape."),
-    numbers("height", "Height of a cylinder or cylindrical shell."),
+    click.option("--shape", metavar="NAME", help="Shape of the body, such as ring; `atlas list shapes` names them."),
+    numbers("radius", "Radius of the shape, a number or with its unit, 1.2um."),
+    numbers("height", "Height of a cylinder or cylindrical shell, in the unit of --radius."),
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
-    numbers("equatorial", "Equatorial semi-axis of a spheroid."),
-    numbers("polar", "Polar semi-axis of a spheroid."),
-    numbers("density", "Density of a solid shape, in the place of --mass."),
+    numbers("equatorial", "Equatorial semi-axis of a spheroid, a number or with its unit, 1.2um."),
+    numbers("polar", "Polar semi-axis of a spheroid, in the unit of --equatorial."),
+    numbers("density", "Mass density of a solid shape, instead of --mass; with its unit, 2200kg/m3."),
 )
 body_options: Callable[[F], F] = stack(
-    numbers("inertia", "Moments of inertia in the place of --ratio.", "I2 I3", callback=nearest_moments),
+    numbers(
+        "inertia",
+        "Principal moments of inertia, in any one unit, instead of --ratio.",
+        "I2 I3",
+        callback=nearest_moments,
+    ),
     shape_options,
     points_option(""),
 )
 
 
-def field_options_of(components: str, axes: str = "") -> Callable[[F], F]:
-    """Return the options of the field; `components` is the metavar, `along` names the axes in the help."""
+def field_options_of(components: str, axes: str) -> Callable[[F], F]:
+    """Return the options of the field; `components` is the metavar, `axes` names the axes in the help."""
     return stack(
-        numbers("field", f"Components of B' = mu B/(2c){axes}, in 1/time.", components),
-        numbers("magnetic", "Components of B itself; needs --mass --charge or --mu.", components),
-        numbers("mass", "Mass of the body, with --charge."),
-        numbers("charge", "Charge of the body, either sign; with --magnetic."),
+        numbers("field", f"Components of B' = mu B/(2c) along {axes} at t = 0, in 1/time.", components),
+        numbers("magnetic", f"Components of the magnetic field B along {axes} at t = 0; needs --mu, or --mass and "
+                "--charge.", components),
+        numbers("mass", "Mass of the body."),
+        numbers("charge", "Charge of the body, either sign; goes with --magnetic and --mass."),
         click.option(
             "--mu",
             "--charge-to-mass",
             type=REAL,
-            help="Charge-to-mass ratio mu = e/m, in the place of --mass and --charge.",
+            help="Charge-to-mass ratio, either sign, instead of --mass and --charge.",
         ),
         click.option(
             "--units",
             type=click.Choice(["natural", "gaussian", "si"]),
-            help="Units of --magnetic, --mu, --mass, --charge: natural, with c = 1; gaussian: gauss, esu/g, g, esu; "
-            "si: tesla, C/kg, kg, C. By default si where a charge is given, else natural.",
+            help="Units of numbers that are typed without one: si (tesla, C/kg, kg, C, m), gaussian (gauss, esu/g, g, "
+            "esu, cm), natural (c = 1). Default: si with --charge or a typed unit, else natural.",
         ),
-    )
+    )  # fmt: skip
 
 
 field_options: Callable[[F], F] = stack(
-    field_options_of("B2 B3"),
-    numbers("angle", "Angle between field and axis; --magnetic or --field is then one number, the strength."),
+    field_options_of("B2 B3", "the body's axes"),
+    numbers(
+        "angle",
+        "Angle between field and axis, in radians or as 30deg; --field or --magnetic is then one number, the "
+        "strength of the field.",
+    ),
 )
 any_body_options: Callable[[F], F] = stack(
-    numbers("inertia", "Principal moments of inertia.", "I1 I2 I3", callback=nearest_moments),
+    numbers("inertia", "Principal moments of inertia, in any one unit.", "I1 I2 I3", callback=nearest_moments),
     points_option("; x, y, z are principal axes"),
     shape_options,
-    field_options_of("B1 B2 B3", " along the principal axes at t = 0"),
+    field_options_of("B1 B2 B3", "the principal axes"),
 )
 """Body and field where the three moments may differ."""
 tensor_option: Callable[[F], F] = numbers(
     "tensor",
-    "Inertia tensor in any axes of the body; I12 is -sum m x y, as it stands in the matrix.",
+    "Inertia tensor along any axes of the body; I12 is the element of the matrix, -sum m x y.",
     "I11 I22 I33 I12 I13 I23",
     callback=nearest_tensor,
 )
 curve_option: Callable[[F], F] = click.option(
-    "--curve", is_flag=True, help="The spectral curve of a motion on a torus, its branch points, periods and so on."
+    "--curve", is_flag=True, help="Print the spectral curve of a motion on a torus: branch points, periods, actions."
 )
 attitude_option: Callable[[F], F] = numbers(
     "attitude",
-    "R(0) as a quaternion, its scalar last; the field is then along the axes of the laboratory.",
+    "Initial rotation R(0), a unit quaternion with the scalar last; --field is then along the laboratory's axes.",
     "X Y Z W",
     callback=unit_quaternion,
 )
-start_option: Callable[[F], F] = numbers("omega", "Angular velocity at t = 0, of any motion.", "W1 W2 W3")
-spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about e3 alone.")
+start_option: Callable[[F], F] = numbers(
+    "omega", "Initial angular velocity along the body's axes, in 1/time.", "W1 W2 W3"
+)
+spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about the body's axis e3 alone, in 1/time.")
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:

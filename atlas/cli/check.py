@@ -16,14 +16,16 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 
 file_argument: Callable[[Any], Any] = click.argument("files", type=FILE, metavar="FILE.csv...", nargs=-1, required=True)
 graded_options: Callable[[Any], Any] = stack(
-    numbers("threshold", "Correct digits below which a column fails.", default="6", show_default=True),
+    numbers("threshold", "Number of correct digits below which a column fails.", default="6", show_default=True),
     click.option(
-        "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
+        "--figure",
+        type=Place(dir_okay=False, path_type=Path),
+        help="File for a plot of the error against time: .svg, .pdf or .png.",
     ),
     click.option(
         "--order",
         is_flag=True,
-        help="Order of convergence, from files of one motion with several steps, and its figure.",
+        help="Print the order of convergence, from files of one motion with different steps; --figure plots it.",
     ),
     json_option,
 )
@@ -70,31 +72,31 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @body.field_options
 @body.start_option
 @body.spin_option
-@numbers("omega2", "Second component of the angular velocity, of an elementary motion.")
-@numbers("omega3", "Third component, with --omega2, where (71) leaves it free.")
-@numbers("direction", "Vector along n of a top in its field, across and along the axis, as in atlas top.", "N2 N3")
-@numbers("coupling", "Coupling k of a top, M = I Omega + k b, as in atlas top.", "K2 K3")
-@numbers("linear", "Linear part of the potential of a top, m g l of a heavy one.")
-@numbers("quadratic", "Quadratic part of the potential of a top.")
+@numbers("omega2", "Second component of the initial angular velocity, in 1/time, of an elementary motion.")
+@numbers("omega3", "Third component, in 1/time; goes with --omega2, only where (71) leaves it free.")
+@numbers("direction", "Direction n of a top's field at t = 0, across and along the axis, as in atlas top.", "N2 N3")
+@numbers("coupling", "Coefficients k of a top, M = I Omega + k b, as in atlas top.", "K2 K3")
+@numbers("linear", "Linear coefficient of a top's potential: m g l of a heavy top.")
+@numbers("quadratic", "Quadratic coefficient of a top's potential.")
 @graded_options
 def command(files: tuple[Path, ...], **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.
 
-    FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3 in the body, or a quaternion w, x, y, z; names may
-    have units, as t [ms] or t (ms). Other columns, and rows that lack a number, are left out, with a line. The
-    parameters are options, or lines such as '# field = 1 2' at the head of the file.
+    FILE.csv has a column t and columns of the rotation matrix, R11 to R33, of the angular velocity in the body, Omega1
+    to Omega3, or of a quaternion, w, x, y, z. A name may have a unit, as t [ms] or t (ms). Other columns, and rows
+    without a number, are left out, and a line says so. Parameters are options, or lines at the head of the file, such
+    as '# field = 1 2'.
 
-    The motion is one of a symmetric body in a field, of a top (with a direction, as in atlas top), or of a body with
-    three moments of inertia (--inertia I1 I2 I3, --field B1 B2 B3 and --omega; at the head of the file '# inertia =
-    0.8 1 1.3' and so on). Without omega, or with the six elements J11 J22 J33 J12 J13 J23 of a tensor, drifts of its
-    integrals H, F, (M,K), K^2 and T are printed, and no digits. Errors of Omega are in units of its length, of a top
-    and of a body with three moments in units of the largest rate there is.
+    The trajectory is compared with the exact motion: of a symmetric body in a field, of a top (--direction, as in
+    atlas top), or of a body with three moments of inertia (--inertia I1 I2 I3, --field B1 B2 B3, --omega). Without an
+    initial angular velocity, or with a tensor '# inertia = J11 J22 J33 J12 J13 J23' in the file, only the drifts of the
+    integrals H, F, (M,K), K^2 and T are printed. Errors of Omega are relative to its length; for tops and for three
+    moments, to the largest rate of the motion.
 
-    Several files, of several integrators, say, are graded one after the other, and --figure draws the errors of all.
-    With --order they are runs of one motion with several steps, '# step = 0.01' or the mean distance of the times:
-    their largest errors tell the order of convergence.
+    Several files are graded one after the other, and --figure plots all their errors. With --order the files are
+    runs of one integrator with different steps, read from '# step = 0.01' or else from the times.
 
-    The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
+    The exit status is 1 if a column has fewer correct digits than the threshold at some time, and 2 if a file or an
     option is wrong.
     """
     parameters = given(options, ("inertia", "omega2", "omega3", *OF_TOPS))

@@ -28,18 +28,20 @@ FIRST = "general"
     ),
 )
 @click.argument("name", default="")
-@click.option("--port", type=click.IntRange(0, 65535), default=0, help="The port; a free one when left out.")
-@click.option("--no-browser", is_flag=True, help="Print the address only.")
+@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port of the server; default: any free port.")
+@click.option("--no-browser", is_flag=True, help="Print the address, and open no browser.")
 @click.pass_context
 def command(context: click.Context, name: str, port: int, no_browser: bool) -> None:
-    """Open a page on this machine with sliders for any family of motions or surfaces, or any figure.
+    """Open a page with sliders in the browser, for a family of motions or surfaces, or for a figure.
 
-    NAME is a family (elementary, general, top, elliptic, asymmetric, quadric, ...) or a recipe, also a file of your
-    own. Numbers come from the kernels while a slider moves, in proven digits when it rests; the command that gives the
-    same stands below, and the figure can be saved. The server answers on 127.0.0.1 only, and only to the browser that
-    opened the address that is printed, which works once. Ctrl-C ends it.
+    NAME is a family of `atlas list families`, a figure of `atlas list figures`, or a recipe FILE.py of your own; the
+    family general by default. The options of atlas motion may stand instead of NAME: the sliders then start at that
+    motion, along principal axes.
 
-    With the options of atlas motion in the place of NAME the sliders start at that motion, in principal axes.
+    While a slider moves, the numbers are doubles; when it rests, they have proven digits. Below them stands the command
+    that prints the same numbers, and the figure can be saved.
+
+    The server runs on this machine (127.0.0.1) until Ctrl-C. The printed address works once, in one browser.
     """
     from atlas.cli.explorer.server import OPENS, Explorer
     from atlas.cli.explorer.subjects import subject_or_file

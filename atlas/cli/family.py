@@ -77,13 +77,13 @@ UNITS = {
 units_option: Callable[[Any], Any] = click.option(
     "--units",
     type=click.Choice(list(UNITS)),
-    help="c = 1; statvolt/cm, gauss, cm, esu, g; volt/m, tesla, m, C, kg (no factor c). SI where a charge is given, "
-    "else natural.",
+    help="Units of numbers that are typed without one: si (V/m, tesla, m, s, C, kg), gaussian (statvolt/cm, gauss, cm, "
+    "s, esu, g), natural (c = 1). Default: si with --charge or a typed unit, else natural.",
 )
 
 charge_options = stack(
-    numbers("mass", "Mass, with --charge."),
-    numbers("charge", "Charge, either sign, with --mass: mu is their ratio."),
+    numbers("mass", "Mass; goes with --charge, instead of --mu."),
+    numbers("charge", "Charge, either sign; goes with --mass, instead of --mu."),
 )
 
 
@@ -492,7 +492,8 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     if not needed and p.omitted is not None:
         default, count = f"{p.omitted:g}", len(p.names)
         settings = {"default": (default,) * count} if count > 1 else {"default": default, "show_default": True}
-    return numbers(p.name, p.says, p.metavar or "", **settings)
+    says = p.says + f" In {p.unit}." * ("/" in p.unit or "^" in p.unit)
+    return numbers(p.name, says, p.metavar or "", **settings)
 
 
 def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:

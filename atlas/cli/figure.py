@@ -66,33 +66,35 @@ class FigureCommand(Command):
     ),
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
-@click.option("--all", "everything", is_flag=True, help="All figures of figures/.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Parameters; a list is a,b,c.")
+@click.option("--all", "everything", is_flag=True, help="Draw all figures.")
+@click.option(
+    "--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Parameters of the figure; a list is a,b,c."
+)
 @click.option(
     "--format",
     "formats",
     multiple=True,
     type=click.Choice(["svg", "pdf", "png", "pgf", "csv"]),
-    help="svg, pdf, png, pgf, csv (the points drawn); the first three when left out.",
+    help="Formats of the files; csv has the points drawn. Default: svg, pdf and png.",
 )
 @click.option(
     "--renderer",
     type=click.Choice(["vector", "shaded"]),
     default="vector",
     show_default=True,
-    help="Line drawing with hidden lines, or a shaded picture (PNG).",
+    help="Line drawing with hidden lines dashed, or a shaded picture as PNG.",
 )
 @click.option(
     "--for",
     "target",
     metavar="TARGET",
-    help=f"Laid out anew for a journal's column, a slide, a poster: {', '.join(TARGETS)}.",
+    help=f"Medium for which size, type and resolution are chosen: {', '.join(TARGETS)}.",
 )
-@click.option("--gallery", is_flag=True, help="A page of pictures of all recipes, or of the NAMEs.")
+@click.option("--gallery", is_flag=True, help="Make a page of small pictures of all figures, or of the named ones.")
 @out_option("build/figures")
 @style_option
 @jobs_option
-@click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken.")
+@click.option("--explain", is_flag=True, help="Say for each figure why it was drawn again or taken from the cache.")
 def command(
     names: tuple[str, ...],
     everything: bool,
@@ -106,19 +108,20 @@ def command(
     jobs: int | None,
     explain: bool,
 ) -> int:
-    """Draw figures as SVG, PDF and PNG, each written whole or not at all; `atlas list` names them.
+    """Draw figures as SVG, PDF and PNG.
 
-    A NAME that ends with .py is a recipe's file of your own, anywhere. With a NAME, --help tells its parameters.
+    NAME is a figure of `atlas list figures`, or a recipe FILE.py of your own. `atlas figure NAME --help` explains its
+    parameters.
 
     --gallery makes gallery/gallery.html, a page of small pictures, each with its code and its command.
 
-    --for makes NAME-TARGET with the width, type, lines and resolution that are asked there; the guide has the table. A
-    figure that can't be read at that width says so, and one whose panels have no room for all names those that are
-    left out; `atlas list` tells which figures need more than a column.
+    --for writes NAME-TARGET, laid out for a journal's column, a slide or a poster; the guide has a table of the sizes.
+    Panels that have no room at this width are left out, and a line names them. A figure that cannot be read at this
+    width is refused. `atlas list figures` shows which figures need more than a column.
 
-    A figure drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
-    others; then the exit status is 1. Beside a file that you edited, or put there, the new one is written, as
-    NAME.new.svg, and then the exit status is 2.
+    A figure with the same code and parameters as before is taken from the cache. If a figure fails, the others are
+    still drawn, and the exit status is 1. A file that you edited or made yourself is kept: the new one is then
+    NAME.new.svg, and the exit status is 2.
     """
     from atlas.book.building.figures import build_figures
     from atlas.pictures import recipes

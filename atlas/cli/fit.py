@@ -18,30 +18,44 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
 fit_options: Callable[[Any], Any] = stack(
     click.option(
-        "--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Family of motions."
+        "--family",
+        type=click.Choice(FAMILIES),
+        default="general",
+        show_default=True,
+        help="Family of motions that is fitted.",
     ),
     click.option(
-        "--of", "kind", type=click.Choice(KINDS), help="Columns that are fitted, where the file has several kinds."
+        "--of", "kind", type=click.Choice(KINDS), help="Quantity that is fitted, if the file has columns of several."
     ),
-    numbers("sigma", "Standard error of each number, of attitudes in radians, or with a unit: 1deg."),
-    click.option("--fix", multiple=True, metavar="NAME=VALUE [...]", help="Parameters that are known."),
-    click.option("--start", multiple=True, metavar="NAME=VALUE [...]", help="Values from which parameters are sought."),
-    numbers("epoch", "Time at which the parameters hold.", default="0", show_default=True),
+    numbers("sigma", "Standard error of each measured number; of attitudes in radians or with a unit, 1deg."),
+    click.option(
+        "--fix",
+        multiple=True,
+        metavar="NAME=VALUE [...]",
+        help="Parameters that are known and stay fixed, such as ratio=1.5.",
+    ),
+    click.option(
+        "--start",
+        multiple=True,
+        metavar="NAME=VALUE [...]",
+        help="Start values of parameters for the fit; none is needed.",
+    ),
+    numbers("epoch", "Time t at which the fitted initial velocity and attitude hold.", default="0", show_default=True),
     click.option(
         "--loss",
         type=click.Choice(LOSSES),
         default="linear",
         show_default=True,
-        help="Loss of the residuals; all but linear bear outliers.",
+        help="Loss function of the residuals, as in SciPy; all but linear are robust against outliers.",
     ),
     click.option(
         "--predict",
         multiple=True,
         type=REAL,
         metavar="T [T ...]",
-        help="Times at which the measured quantity is predicted.",
+        help="Print predictions of the measured quantity at these times, with standard errors.",
     ),
-    numbers("horizon", "Time until which predictions are within ERROR.", "ERROR"),
+    numbers("horizon", "Print the time until which predictions have a standard error below ERROR.", "ERROR"),
 )
 
 
@@ -58,22 +72,26 @@ fit_options: Callable[[Any], Any] = stack(
 @click.argument("file", type=FILE, metavar="FILE.csv")
 @fit_options
 @click.option(
-    "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw data, curve, residuals: svg, pdf, png."
+    "--figure",
+    type=Place(dir_okay=False, path_type=Path),
+    help="File for a plot of data, curve and residuals: .svg, .pdf or .png.",
 )
 @json_option
 def command(file: Path, **options: Any) -> int:
     """Find inertia, field and start of a motion from measured attitudes, axes, angular velocities or fields.
 
-    FILE.csv has a column t and R11 to R33, or a quaternion w, x, y, z, or R13, R23, R33 of the axis alone, or Omega1 to
-    Omega3 or K1 to K3 along the axes of the body, with units if there are any, as t [ms]; results are then in s
-    and 1/s. Single entries of R are a signal. A line '# sigma = 0.01' may stand at its head, or a column sigma beside
-    the data; without it the scatter about the motion tells sigma. No start is needed. Other columns, and rows that lack
-    a number, are left out, with a line.
+    FILE.csv has a column t and one measured quantity: the rotation matrix, R11 to R33; a quaternion, w, x, y, z; the
+    axis, R13, R23, R33; a signal, other elements of R; or, along the axes of the body, the angular velocity, Omega1 to
+    Omega3, or the field, K1 to K3. A name may have a unit, as t [ms]; results are then in s and 1/s. Other columns,
+    and rows without a number, are left out, and a line says so.
 
-    Parameters that the data leave open are named, and so are doubts about the family: a reduced chi square far from 1,
-    residuals that are correlated, a few that are far larger than the rest, or other parameters that give the same data
-    by symmetry. The exit status is 1 if there is such a warning, 2 if the file or an option is wrong. In JSON the
-    horizon is null if a prediction is that good nowhere, or at any time; "missing" says which.
+    The standard error of the data is --sigma, a line '# sigma = 0.01' at the head of the file, or a column sigma.
+    Without any of them it is estimated from the residuals.
+
+    Warnings name the parameters that the data do not determine, and reasons to doubt the family: a reduced chi square
+    far from 1, correlated residuals, outliers, or other parameters that give the same data by symmetry. The exit status
+    is 1 if there is a warning, and 2 if the file or an option is wrong. In JSON the horizon is null where no time, or
+    any time, has such a prediction; the key "missing" says which.
     """
     result = fitted(file, options)
     record, lines = ahead(result, options)

@@ -33,17 +33,27 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @body_options
 @field_options
-@click.option("--omega2", multiple=True, type=REAL, metavar="W [W ...]", help="Values of omega2 of the points.")
+@click.option(
+    "--omega2",
+    multiple=True,
+    type=REAL,
+    metavar="W [W ...]",
+    help="Values of omega2, in 1/time, at which the curve is tabulated.",
+)
 @click.option(
     "--count",
     type=click.IntRange(2, 100_000),
     default=12,
     show_default=True,
-    help="Number of points on both branches, without --omega2.",
+    help="Number of points on both branches together, if --omega2 is not given.",
 )
 @output_options
 def command(**options: Any) -> None:
-    """Sample the hyperbola (67): omega3, the frequencies k and phi, and the nutation frequency squared."""
+    """Tabulate the curve (67) of elementary motions over omega2.
+
+    The columns are omega3, the frequencies k of precession and phi of proper rotation, and the square of the frequency
+    of small nutations, which is negative where the motion is unstable.
+    """
     points = list(options["omega2"]) or sampled(curve_of(options), options["count"])
 
     def floats() -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from atlas.cli.options import json_option
+from atlas.cli.options import examples, json_option
 from atlas.cli.present import dump
 from atlas.cli.words import Command
 from atlas.errors import AtlasError
@@ -38,15 +38,15 @@ STANDARD = ("figures", "reports", "shapes")
 """Lists that are printed where none is named."""
 
 
-@click.command("list", cls=Command)
+@click.command("list", cls=Command, epilog=examples("atlas list", "atlas list families", "atlas list figures --json"))
 @click.argument("which", required=False, metavar="[" + "|".join(HEADINGS) + "]", type=click.Choice(list(HEADINGS)))
 @json_option
 def command(which: str | None, as_json: bool) -> int:
-    """Name the figures, the reports and the shapes of bodies, or the entries of one other list.
+    """List the figures, the reports and the shapes of bodies; or one list, by its name.
 
-    Each parameter of a figure stands with its default and its range, if it has one; `atlas figure NAME --help` explains
-    them. A figure that is too wide for a journal's column shows the width it needs. A recipe or a report that cannot be
-    read does not hide the others; then the exit status is 1.
+    Figures are listed with their parameters, defaults and ranges; `atlas figure NAME --help` explains the parameters. A
+    figure that is too wide for a journal's column is listed with the width that it needs. If a recipe or a report
+    cannot be read, the others are still listed, and the exit status is 1.
     """
     broken = list[str]()
     lists = {name: LISTS[name](broken) for name in ([which] if which else STANDARD)}

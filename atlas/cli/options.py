@@ -67,7 +67,7 @@ def numbers(name: str, says: str, metavar: str = "", **settings: Any) -> Callabl
 
 
 json_option: Callable[[F], F] = click.option(
-    "--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."
+    "--json", "as_json", is_flag=True, help="Print JSON on standard output, and nothing else."
 )
 
 output_options: Callable[[F], F] = stack(
@@ -75,10 +75,14 @@ output_options: Callable[[F], F] = stack(
     click.option(
         "--digits",
         type=click.IntRange(1, 1000),
-        help="Number of certified significant digits; in JSON numbers are then strings. Three moments of inertia "
-        "take a minute for 300 of them, and five minutes and 1 GB for 1000.",
+        help="Print this many certified significant digits; in JSON as strings. With three moments of inertia, 300 "
+        "digits take a minute, 1000 take five minutes and 1 GB.",
     ),
-    click.option("--decimal", is_flag=True, help="Take typed decimals exactly: 0.1 is 1/10, not the nearest double."),
+    click.option(
+        "--decimal",
+        is_flag=True,
+        help="With --digits, take typed decimals exactly: 0.1 is 1/10, not the nearest double.",
+    ),
 )
 
 
@@ -93,22 +97,30 @@ def out_option(standard: str) -> Callable[[F], F]:
 
 
 jobs_option: Callable[[F], F] = click.option(
-    "--jobs", "-j", type=click.IntRange(min=1), help="Number of figures drawn at a time; by default one per core."
+    "--jobs",
+    "-j",
+    type=click.IntRange(min=1),
+    help="Number of figures drawn at the same time; one per core by default.",
 )
 
 
 style_option: Callable[[F], F] = click.option(
     "--style",
     metavar="FILE",
-    help="A style sheet of Matplotlib (.mplstyle), or the name of one, on top of the own look.",
+    help="Style sheet of Matplotlib (.mplstyle file or name), applied after the default style.",
 )
 
 
 times_options: Callable[[F], F] = stack(
     click.option(
-        "--times", multiple=True, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT[:log]."
+        "--times",
+        multiple=True,
+        type=REAL,
+        metavar="T [T ...]",
+        help="Times to print, such as 0 1 2.5 or START:STOP:COUNT (:log for even steps of the logarithm), in s or in "
+        "the unit of time of the other options.",
     ),
-    numbers("grid", "Times by their step; or a range START:STOP:COUNT.", "START STEP COUNT"),
+    numbers("grid", "Uniform times: the first, the step, their number; or START:STOP:COUNT.", "START STEP COUNT"),
 )
 
 

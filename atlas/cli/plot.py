@@ -42,15 +42,19 @@ MAX_DOTS = 200
 @click.argument("table", type=FILE)
 @click.argument("x")
 @click.argument("y", nargs=-1, required=True, metavar="Y...")
-@click.option("--out", type=Place(dir_okay=False, path_type=Path), help="File, .pdf, .svg or .png; by default X.pdf.")
-@click.option("--for", "target", metavar="TARGET", help=f"Size and type for a column or slide: {', '.join(TARGETS)}.")
+@click.option(
+    "--out", type=Place(dir_okay=False, path_type=Path), help="File for the plot: .pdf, .svg or .png. Default: X.pdf."
+)
+@click.option(
+    "--for", "target", metavar="TARGET", help=f"Medium for which size and type are chosen: {', '.join(TARGETS)}."
+)
 @style_option
 def command(table: Path, x: str, y: tuple[str, ...], out: Path | None, target: str | None, style: str | None) -> int:
-    """Draw columns Y of a TABLE over its column X: of a sweep, a motion, or a logger; CSV, Parquet or NPZ.
+    """Plot columns Y of a table over its column X; the table is a CSV, Parquet or NPZ file.
 
-    Names and units of the columns are those of the table's heading. Where X grows from row to row there is a line,
-    else a dot for each row; a column Y_sigma beside Y gives error bars. Rows without a number are left out. Beside a
-    file that you edited, or put there, the new one is written, and then the exit status is 2.
+    X and Y are names in the heading of the table, without units. Where X grows from row to row, a line is drawn, else a
+    dot for each row. A column Y_sigma gives error bars. Rows without a number are left out. A file that you edited or
+    made yourself is kept: the new one is then X.new.pdf, and the exit status is 2.
     """
     from atlas.pictures.drawing.style import context
 

@@ -11,7 +11,11 @@ from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
 
 set_option = click.option(
-    "--set", "settings", multiple=True, metavar="NAME=VALUE [...]", help="Inputs that the report declares."
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="NAME=VALUE [...]",
+    help="Inputs of the report; `atlas report NAME --help` lists them.",
 )
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 
@@ -75,20 +79,20 @@ def _of_your_body(words: Words) -> click.Command | None:
 )
 @click.argument("names", nargs=-1, metavar="[NAME|FILE.md|FILE.toml]...")
 @set_option
-@click.option("--inputs", "listed", type=click.Choice(["json"]), help="List the inputs; nothing is built.")
+@click.option("--inputs", "listed", type=click.Choice(["json"]), help="Print the inputs as JSON, and build nothing.")
 @out_option("build/report")
 @click.option(
     "--format",
     "formats",
     multiple=True,
     type=click.Choice(["html", "pdf", "single"]),
-    help="html, pdf, both when left out; single is one page with all that belongs to it as one file. What is left out "
-    "stays as it is.",
+    help="html: pages in a folder; pdf; single: one HTML file that holds all pages and figures. Default: html and pdf. "
+    "Files of other formats stay as they are.",
 )
 @style_option
 @jobs_option
 @click.option(
-    "--explain", is_flag=True, help="Say for each figure why it was drawn or taken from the cache, and its cost."
+    "--explain", is_flag=True, help="Say for each figure why it was drawn again or taken from the cache, and its cost."
 )
 def command(
     names: tuple[str, ...],
@@ -100,16 +104,16 @@ def command(
     jobs: int | None,
     explain: bool,
 ) -> int:
-    """Build reports: of each HTML pages that open from disk, and a PDF to print.
+    """Build reports, each as HTML pages that open from disk and as a PDF.
 
-    NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. Only what
-    depends on something that has changed is built. A figure that fails leaves a framed note in its place, and then the
-    exit status is 1. Beside the PDF, NAME.costs.json has the cost of each figure, in processor time.
+    NAME is a report of `atlas list reports`; the atlas by default. FILE is a report of your own. Pages and figures are
+    made again only if their sources have changed. A figure that fails is replaced by a framed note, and the exit status
+    is 1. NAME.costs.json, beside the PDF, has the processor time of each figure.
 
-    The inputs that a report declares are set by --set; its folder then bears a digest of their values.
+    --set gives inputs that a report declares; the name of its folder then ends in a digest of their values.
 
-    Your own files in the folder of the pages stay. Beside a page or PDF that you edited the new one is written, as
-    NAME.new.html, and then the exit status is 2.
+    Your own files in the folder are kept. So is a page or PDF that you edited: the new one is then NAME.new.html, and
+    the exit status is 2.
     """
     from atlas.book.building.report import FORMATS, build_report
     from atlas.book.files import find
@@ -148,13 +152,14 @@ def _inputs(settings: tuple[str, ...]) -> dict[str, str]:
 @style_option
 @jobs_option
 def data(name: str, settings: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> None:
-    """Write the tables of a report, and the points that its figures draw, as CSV and, with pyarrow, as Parquet.
+    """Write the tables of a report and the points of its figures as CSV and, if pyarrow is installed, as Parquet.
 
-    NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. The file
-    datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
-    draws the figure, and the digest. CSV has all digits that are printed, Parquet the nearest doubles. The folder is
-    written whole, with the same bytes each time; your own files stay. Beside a file that you edited the new one
-    is written, as NAME.new.csv, and then the exit status is 2.
+    NAME is a report of `atlas list reports`; the atlas by default. FILE is a report of your own. CSV has all digits of
+    the report, Parquet the nearest doubles. The file datapackage.json, a Data Package that can be cited, lists for each
+    table its columns with units and digits, its equations, its digest, and the command that draws the figure.
+
+    The same report gives the same bytes. Your own files in the folder are kept. So is a file that you edited: the new
+    one is then NAME.new.csv, and the exit status is 2.
     """
     from atlas.book.building.composed import build_data
 
@@ -175,15 +180,17 @@ def data(name: str, settings: tuple[str, ...], out: Path, style: str | None, job
 @style_option
 @jobs_option
 def tex(name: str, settings: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> None:
-    r"""Write a report as LaTeX: numbers by key, tables, figures, references, and a paper in REVTeX.
+    r"""Write a report as LaTeX: numbers, tables, figures and references for a manuscript, and a paper in REVTeX.
 
-    NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. In a
-    manuscript, \input{atlas-numbers} and write \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it
-    rounded to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are
-    tables of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
+    NAME is a report of `atlas list reports`; the atlas by default. FILE is a report of your own.
 
-    Your own files in the folder stay. Beside a file that you edited the new one is written, as paper.new.tex, and
-    then the exit status is 2.
+    In your manuscript, write \input{atlas-numbers}. Then \atlas{motion/k} is a number with its unit, and
+    \atlas[3]{motion/k} the number rounded to three figures; it is an error to ask for more figures than are proven.
+    \input{tables/ID} is a table (booktabs, siunitx), \input{figures/ID} a figure with its caption. paper.tex prints
+    all of them.
+
+    Your own files in the folder are kept. So is a file that you edited: the new one is then paper.new.tex, and the exit
+    status is 2.
     """
     from atlas.book.building.composed import build_tex
 

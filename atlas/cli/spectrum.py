@@ -10,10 +10,12 @@ from atlas.cli.present import Line, Printout, show
 spectrum_options = stack(
     click.option(
         "--spectrum", type=click.Choice(["axis", "rotation", "angular_velocity", "field"]), is_flag=False,
-        flag_value="axis", metavar="[OF]",
-        help="Lines of the axis, or of the rotation, angular_velocity or field in the body: frequencies, amplitudes.",
+        flag_value="axis", metavar="[axis|rotation|angular_velocity|field]",
+        help="Print frequencies and amplitudes of a Fourier series: of the body's axis (default), the rotation matrix, the "
+        "angular_velocity or the field in the body.",
     ),
-    numbers("least", "Least amplitude of a line, as a part of the whole.", default="1e-3", show_default=True),
+    numbers("least", "Leave out lines of --spectrum whose amplitude is below this fraction of the root mean square.",
+            default="1e-3", show_default=True),
 )  # fmt: skip
 
 

@@ -25,15 +25,18 @@ from atlas.motions.register import FAMILIES
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
 
-FAMILY is {NAMES}, or motion where the parameters say which; a wrong name of a parameter or quantity is answered with
-the right ones. A row takes microseconds, of the family general some tens of them, of asymmetric up to seconds. A CSV
-file has units in its heading, as in k [1/time]. Where an angle per period, or another quantity, has no value, its cell
-is empty, and the column missing says why. Of inputs with an uncertainty, as 1.50(2), each number has its standard
-deviation in a column NAME_sigma; a row outside the domain, as on a pole or beta for B = 0, ends the sweep
-with status 2, its number and the reason. Parts that are done are kept in the folder OUT.parts: a sweep that was
-stopped goes on when it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of
-fsspec for it), takes a Parquet data set: files that pandas and Dask read as one table. Beside a file that you edited,
-or put there, the table is OUT.new.csv, and then the exit status is 2.
+FAMILY is {NAMES}; or motion, and the parameters choose the family. `atlas list families` and `atlas list quantities`
+name parameters and quantities. A row takes microseconds, of the family general tens of microseconds, of asymmetric up
+to seconds.
+
+The heading of a CSV file has units, as k [1/time]. A quantity without a value leaves its cell empty, and the column
+missing says why. If inputs have an uncertainty, as 1.50(2), a column NAME_sigma has the standard deviation. A row
+outside the domain, such as a pole, ends the sweep with status 2; the error names the row.
+
+A sweep that was stopped goes on when it is called again: finished parts are kept in the folder OUT.parts. With a folder
+or an address such as s3://bucket/table.parquet (and the package of fsspec for it), the table is a Parquet data set,
+which pandas and Dask read as one table. A file that you edited or made yourself is kept: the new table is then
+OUT.new.csv, and the exit status is 2.
 """
 
 MAX_RANGE_LENGTH = 10**7
@@ -73,44 +76,51 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
             "settings",
             multiple=True,
             metavar="NAME=VALUES [...]",
-            help="Parameters: a number, several with commas, or START:STOP:COUNT; :log for even steps of the "
-            "logarithm.",
+            help="Values of a parameter: a number, numbers with commas, or START:STOP:COUNT (:log for even steps of "
+            "the logarithm).",
         ),
         *of_body,
         click.option(
             "--list",
             "listing",
             type=click.Path(dir_okay=False, path_type=Path),
-            help="CSV file with a heading and a row of parameters for each row of the table.",
+            help="CSV file of parameters: a heading with their names, and a row for each row of the table.",
         ),
         click.option(
             "--quantity",
             "quantities",
             multiple=True,
             metavar="NAME [NAME ...]",
-            help="Quantities to compute: k, R11, all of R.",
+            help="Quantities to compute, such as k, R11 or R.",
         ),
         click.option(
             "--file",
             "toml",
             type=click.Path(dir_okay=False, path_type=Path),
-            help="TOML file with family, parameters and quantities, in the place of the options.",
+            help="TOML file with family, parameters and quantities, instead of the options.",
         ),
-        click.option("--out", type=OUT, help="The table: .csv, .npz, .parquet; a folder table.parquet/ or an address."),
+        click.option(
+            "--out",
+            type=OUT,
+            help="Table to write: a file .csv, .npz or .parquet, a folder table.parquet/, or an address.",
+        ),
         click.option(
             "--digits",
             type=click.IntRange(1, 1000),
-            help="Number of certified significant digits; the table then has text.",
+            help="Compute this many certified significant digits; the cells are then text.",
         ),
         click.option(
-            "--rows", type=click.IntRange(1), default=None, help="Rows per part; by default a part takes some seconds."
+            "--rows",
+            type=click.IntRange(1),
+            default=None,
+            help="Rows per part; by default, as many as take some seconds.",
         ),
         click.option(
             "--jobs",
             "-j",
             type=click.IntRange(min=1),
             default=None,
-            help="Number of processes; by default one per core.",
+            help="Number of processes; one per core by default.",
         ),
     )
 

@@ -12,7 +12,7 @@ from atlas.cli.typed import parts_of
 out_option: Callable[[Any], Any] = click.option(
     "--out",
     type=Place(dir_okay=False, path_type=Path),
-    help="Write the motion at its times as a table, .csv, .npz or .parquet, in the axes given.",
+    help="Write the motion at --times to a table, .csv, .npz or .parquet; vectors are along the axes of the inputs.",
 )
 
 

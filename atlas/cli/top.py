@@ -19,30 +19,31 @@ CHARGES = ("charged", "coat", "points")
 OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polarizability", "units")
 
 top_options: Callable[[F], F] = stack(
-    click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Lagrange's top: gravity, and the distance of "
-                 "the centre of mass along the axis from the point at which the body is held, in SI; --inertia is "
-                 "about the centre of mass. Needs --mass, but with --points."),
-    numbers("magnetic", "A charged body in this magnetic field, which is the direction too. Needs --charged, --coat or "
-            "--points. With --heavy, a charged heavy top, up is along the field, or as --direction says against it.",
+    click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Heavy top: gravity G in m/s^2, and the distance "
+                 "L in m along the axis from the fixed point to the centre of mass; --inertia is about the centre of "
+                 "mass. Needs --mass or --points."),
+    numbers("magnetic", "Charged body in this magnetic field, across and along the axis; n is the direction of the field. "
+            "Needs --charged, --coat or --points. With --heavy, up is along the field, or against it by --direction.",
             "B2 B3"),
-    numbers("mass", "Mass of the body: with --heavy or --shape."),
-    click.option("--shape", metavar="NAME", help="A body with dimensions for --inertia: ring, disk, ...; see atlas "
-                 "list."),
-    numbers("radius", "Radius of the shape, see atlas list."),
-    numbers("height", "Height of the shape, see atlas list."),
-    numbers("equatorial", "Equatorial semi-axis of the shape, see atlas list."),
-    numbers("polar", "Polar semi-axis of the shape, see atlas list."),
-    click.option("--points", type=FILE, metavar="FILE", help="Point masses and "
-                 "charges instead: a CSV file with the columns x, y, z, mass, charge; the axis is z."),
-    numbers("charged", "Moments of the charges, across and along the axis, about the centre of mass, with --heavy "
-            "about the point: charge times length squared.", "J2 J3"),
-    click.option("--coat", metavar="NAME", help="The charge is spread over this shape, of the dimensions of the body; "
+    numbers("mass", "Mass of the body; goes with --heavy or --shape."),
+    click.option("--shape", metavar="NAME", help="Shape of the body instead of --inertia, such as disk; `atlas list "
+                 "shapes` names them."),
+    numbers("radius", "Radius of the shape."),
+    numbers("height", "Height of a cylinder or cylindrical shell."),
+    numbers("equatorial", "Equatorial semi-axis of a spheroid."),
+    numbers("polar", "Polar semi-axis of a spheroid."),
+    click.option("--points", type=FILE, metavar="FILE", help="CSV file of point "
+                 "masses and charges, with the columns x, y, z, mass, charge; the axis is z."),
+    numbers("charged", "Second moments of the charge (charge times length squared) about the transverse axis and about the "
+            "body's axis, through the centre of mass; with --heavy through the fixed point.", "J2 J3"),
+    click.option("--coat", metavar="NAME", help="Shape over which the charge is spread, with the dimensions of the body; "
                  "needs --charge."),
-    numbers("charge", "Charge of the coat, either sign."),
-    numbers("moment", "Magnetic moment along the axis, with --magnetic."),
-    numbers("polarizability", "Moments that a unit field induces across and along the axis.", "A2 A3"),
-    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Of --magnetic and its options: kg, m, "
-                 "C, T (the default), or g, cm, statC, G."),
+    numbers("charge", "Charge spread over the shape of --coat, either sign."),
+    numbers("moment", "Magnetic moment along the axis; goes with --magnetic."),
+    numbers("polarizability", "Magnetic moment per unit field that is induced across and along the axis; goes with "
+            "--magnetic.", "A2 A3"),
+    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Units of --magnetic and its "
+                 "options: si (kg, m, C, T), the default, or gaussian (g, cm, statC, G)."),
 )  # fmt: skip
 
 

@@ -31,30 +31,31 @@ COLUMNS = (
     epilog=examples("atlas verify 48 71", "atlas verify 48 --script > proof.py", "atlas verify --json"),
 )
 @click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
-@click.option("--record", is_flag=True, help="Keep the verdicts as the recorded ones that reports show.")
-@click.option("--anew", is_flag=True, help="Run every proof, also those that have a verdict.")
+@click.option("--record", is_flag=True, help="Save the verdicts of all equations as the record that reports show.")
+@click.option("--anew", is_flag=True, help="Run every proof again instead of taking verdicts from the cache.")
 @click.option(
     "--jobs",
     "-j",
     type=click.IntRange(min=1),
     default=1,
     show_default=True,
-    help="Number of trials that run at a time.",
+    help="Number of proofs that run at the same time.",
 )
-@click.option("--script", is_flag=True, help="Print the proof of one equation as a script of SymPy, nothing else.")
+@click.option("--script", is_flag=True, help="Print the proof of one equation as a SymPy script, and nothing else.")
 @json_option
 def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script: bool, as_json: bool) -> int:
-    """Try equations and claims of the paper, all if none is named, on the form as printed.
+    """Prove or refute equations and claims of the paper as printed; all of them if none is named.
 
-    An equation is named by its printed number, 72 or "(72)", those of the appendix also by the journal's, A5. One
-    without a number, and a theorem, is named by its name in the ledger or by a LaTeX label of the paper's source.
+    NUMBER is the printed number of an equation, 72 or "(72)"; in the appendix also the journal's, A5. NAME is a theorem
+    or an equation without a number, by its name in the ledger or its LaTeX label in the paper's source.
 
-    A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
-    supported, or definition where there is nothing to prove. Slips are graded. Of an equation that is named, both sides
-    are shown as polynomials in free parameters. The exit status is 1 if a verdict differs from the recorded one.
+    A verdict is proved, refuted, undecided, supported (by examples, not proved), or definition. A refuted equation is
+    shown with a counterexample in numbers and a corrected form, which is proved; slips of the pen are graded. For a
+    named equation both sides are printed as polynomials in free parameters. The exit status is 1 if a verdict differs
+    from the recorded one.
 
-    --script prints plain SymPy that runs without atlas: its last line names the equation that is proved or refuted,
-    and it exits with 1 if that is not so.
+    --script prints a SymPy program that runs without atlas. Its last line names the equation that is proved or
+    refuted; it exits with status 1 if the proof fails.
     """
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")

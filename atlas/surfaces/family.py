@@ -27,9 +27,9 @@ FAMILY = Family(
     promises={"beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4},
     command=Command(
         "classify",
-        "Name the quadric of constant Omega3.",
-        "Name the quadric of constant Omega3 and give its canonical form.\n\n"
-        "The kind is decided on I3 against I2 and the components of the field as given.",
+        "Classify the surface of starts with constant Omega3.",
+        "Name the quadric of initial angular velocities with constant Omega3, and print its canonical form.\n\n"
+        "The kind of quadric is decided from I2, I3 and the components of the field as typed, without rounding.",
         (
             "atlas classify --ratio 1.5 --field 1 2",
             "atlas classify --shape cylindrical-shell --radius 1 --height 0.5 --field 1 2 --json",

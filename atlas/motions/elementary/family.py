@@ -46,7 +46,8 @@ FAMILY = Family(
         FIELD,
         Parameter("omega2", "Second component of the initial angular velocity.", RATE, (0.7,), (-3.0, 3.0)),
         Parameter(
-            "omega3", "Third component, where (71) leaves it free (B = 0, B2 = 0, the pole).", RATE, (), (-3.0, 3.0),
+            "omega3", "Third component of the initial angular velocity, only where (71) leaves it free: B = 0, B2 = 0, or the pole "
+            "omega2 = -B2.", RATE, (), (-3.0, 3.0),
             needed=False,
         ),
     ),
@@ -90,12 +91,13 @@ FAMILY = Family(
     Command(
         "motion",
         "Compute any motion of any body.",
-        "Rotation matrix R(t), angular velocity and what else there is of a motion, whose family is named: the "
-        "elementary one (71) to (85) that starts with --omega2; any other, not in the paper, that starts with "
-        "--omega W1 W2 W3 or --spin W3, of a symmetric body in elliptic functions. A body of three moments (--inertia "
-        "I1 I2 I3, --points), a tensor in any axes, and any body in a field of three components, --field B1 B2 B3, all "
-        "along the axes of the body at t = 0, move by theta functions of two variables, proved for the motion or held "
-        "against the certified one; with --digits every digit is proven at any time.",
+        "Compute the rotation matrix R(t), the angular velocity and the constants of a motion.\n\n"
+        "Give a body, a field and a start. A start --omega2 is an elementary motion, (71) to (85). A start --omega W1 "
+        "W2 W3 or --spin W3 is any motion, not in the paper. All components are along the axes of the body at t = 0.\n\n"
+        "A symmetric body (--ratio, --shape or --inertia I2 I3) in a field B2 B3 moves in elliptic functions. A body "
+        "with three moments (--inertia I1 I2 I3, --points, --tensor), and any body in a field B1 B2 B3, moves in theta "
+        "functions of two variables, which are proved for this motion or compared with certified digits. With --digits "
+        "every digit printed is proven, at any time.",
         (
             "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 --json",
             "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1e6 --digits 50",
@@ -164,10 +166,10 @@ BALL = Family(
     "motion of a charged ball, B along e3",
     "motions.elementary.{}_ball.BallMotion",
     (
-        Parameter("inertia", "Moment of inertia I0.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
+        Parameter("inertia", "Moment of inertia I0, in any unit.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
         Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c), either sign.", RATE, (0.5,), (-3.0, 3.0)),
         Parameter(
-            "momentum", "m(0) = (0, m2, m3), B along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"),
+            "momentum", "Initial angular momentum (0, m2, m3), B along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"),
             metavar="M2 M3",
         ),
     ),
@@ -186,8 +188,8 @@ BALL = Family(
     {"ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8},
     Command(
         "ball",
-        "Rotate a charged ball (26) to (29).",
-        "General motion of a charged ball: R(t) and m(t) (26) to (29).",
+        "Compute the rotation of a charged ball.",
+        "Compute the rotation matrix R(t) and the angular momentum m(t) of a charged ball, (26) to (29).",
         ("atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",),
         "charged ball",
     ),

@@ -11,10 +11,10 @@ FAMILY = Family(
         MOMENTS,
         PRINCIPAL_FIELD,
         Parameter(
-            "z", "Place on the curve v^2 = prod(z + D/I_i), D = I1 I2 I3. In the unit of inertia squared.",
+            "z", "Parameter z of the motion. It must not make v^2 = (z + D/I1) (z + D/I2) (z + D/I3) negative, D = I1 I2 I3.",
             "inertia^2", (1.7,), (-0.2, 4.0),
         ),
-        Parameter("branch", "Sign of v, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
+        Parameter("branch", "Sign of v in the angular velocity, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
     ),
     (
         Quantity("kind", "type of motion"),
@@ -58,9 +58,10 @@ FAMILY = Family(
     },
     Command(
         "elliptic",
-        "Compute an elliptic motion: three different moments.",
-        "The paper's family for a body with any three moments of inertia: Omega = -[1 + v (z II + D)^-1] K for all "
-        "times, v^2 = prod(z + D/I_i), D = I1 I2 I3 (not in the paper).",
+        "Compute the paper's motions for three different moments.",
+        "Compute the rotation matrix and angular velocity of the paper's family for any three moments of inertia.\n\n"
+        "The angular velocity is Omega = -[1 + v (z II + D)^-1] K at all times. K is the field B' in the body, II the "
+        "tensor of inertia, D = I1 I2 I3, v^2 = (z + D/I1) (z + D/I2) (z + D/I3). The family is not in the paper.",
         (
             "atlas elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7 --times 0 1 1e6",
             "atlas elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z -1.2 --branch -1 --times 1e12 --digits 40",

@@ -22,24 +22,24 @@ FAMILY = Family(
     "motions.nutation.{}_top.TopMotion",
     (
         Parameter(
-            "inertia", "Moments of inertia across and along the axis.", "inertia", (1.0, 0.5), (0.05, 2.0),
+            "inertia", "Moments of inertia across and along the axis, in any unit.", "inertia", (1.0, 0.5), (0.05, 2.0),
             columns=("I2", "I3"), metavar="I2 I3",
         ),
         Parameter(
-            "coupling", "M = I Omega + k b, b the direction n in the body.", "inertia/time", (0.0, 0.0), (-3.0, 3.0),
+            "coupling", "Coefficients k across and along the axis of M = I Omega + k b; default 0 0.", "inertia/time", (0.0, 0.0), (-3.0, 3.0),
             needed=False, omitted=0.0, columns=("k2", "k3"), metavar="K2 K3",
         ),
         Parameter(
-            "direction", "Vector along n in the body at t = 0, across and along the axis.", "", (0.6, 0.8), (-1.0, 1.0),
+            "direction", "Direction n of the field in the body at t = 0, across and along the axis; any length.", "", (0.6, 0.8), (-1.0, 1.0),
             columns=("n2", "n3"), metavar="N2 N3",
         ),
         OMEGA,
         Parameter(
-            "linear", "Potential linear nu + quadratic nu^2/2; m g l of a heavy top.", "inertia/time^2", (3.0,),
+            "linear", "Coefficient of nu in the potential: m g l of a heavy top.", "inertia/time^2", (3.0,),
             (-5.0, 5.0), needed=False, omitted=0.0,
         ),
         Parameter(
-            "quadratic", "Its other coefficient, of an anisotropy.", "inertia/time^2", (0.0,), (-5.0, 5.0),
+            "quadratic", "Coefficient of nu^2/2 in the potential: an anisotropy.", "inertia/time^2", (0.0,), (-5.0, 5.0),
             needed=False, omitted=0.0,
         ),
     ),
@@ -70,8 +70,10 @@ FAMILY = Family(
     Command(
         "top",
         "Compute any motion of a symmetric top: heavy, charged, magnetised.",
-        "Nutation, rotation matrix R(t) and angular velocity of a symmetric top in a uniform field: M = I Omega + k b, "
-        "potential linear nu + quadratic nu^2/2, nu the cosine between the axis and n (not in the paper).",
+        "Compute the nutation, rotation matrix R(t) and angular velocity of a symmetric top in a uniform field.\n\n"
+        "The top has the angular momentum M = I Omega + k b and the potential linear nu + quadratic nu^2/2. Here n is "
+        "the direction of the field, b the same vector along the body's axes, nu the cosine of the angle between n and "
+        "the axis. --heavy and --magnetic compute these coefficients from a body. Tops are not in the paper.",
         (
             "atlas top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --times 0 1 1e6",
             "atlas top --inertia 1 0.75 --coupling 1 1.5 --direction 1 2 --omega 0.3 0.7 0.2 --times 1e12 --digits 40",

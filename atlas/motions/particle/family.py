@@ -19,10 +19,10 @@ FAMILY = Family(
     "motions.particle.{}.ParticleMotion",
     (
         Parameter("mu", "Charge-to-mass ratio, either sign.", "charge/mass", (1.0,), (-3.0, 3.0)),
-        _vector("electric", "E", "electric field", (0.2, 0.5, 0.0), "Electric field E; zero when left out."),
-        _vector("magnetic", "B", "magnetic field", (0.0, 0.0, 1.0), "Magnetic field B; zero when left out."),
-        _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0; the origin when left out."),
-        _vector("velocity", "v", SPEED, (1.0, 0.0, 0.0), "Velocity at t = 0; zero when left out."),
+        _vector("electric", "E", "electric field", (0.2, 0.5, 0.0), "Electric field E; default 0 0 0."),
+        _vector("magnetic", "B", "magnetic field", (0.0, 0.0, 1.0), "Magnetic field B; default 0 0 0."),
+        _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0, a length; default 0 0 0."),
+        _vector("velocity", "v", SPEED, (1.0, 0.0, 0.0), "Velocity at t = 0; default 0 0 0."),
         Parameter(
             "c",
             "Speed of light, 1 in SI.",
@@ -64,8 +64,8 @@ FAMILY = Family(
     ),
     command=Command(
         "particle",
-        "Move a point charge.",
-        "Position and velocity of a point charge in any constant E and B (93) to (99).",
+        "Compute the path of a point charge.",
+        "Compute position and velocity of a point charge in constant fields E and B, (93) to (99).",
         (
             "atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",
             "atlas particle --mass 9.11e-31 --charge -1.602e-19 --magnetic 0 0 1e-3 --velocity 1e5 0 0 --times 1e-9",
