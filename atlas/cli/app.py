@@ -107,8 +107,8 @@ class Atlas(click.Group):
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
     help="Compute the exact motion of a charged rigid body in constant electric and magnetic fields.",
     epilog="Angles are in radians. The field B' = mu B/(2c) and all angular velocities are in one unit of 1/time. "
-    "Numbers may have a unit, as 1.2um, 0.8T, 2MHz, 30deg, or an uncertainty, as 1.50(2). `atlas COMMAND --help` explains a "
-    "command.",
+    "Numbers may have a unit, as 1.2um, 0.8T, 2MHz, 30deg, or an uncertainty, as 1.50(2). `atlas COMMAND --help` "
+    "explains a command.",
 )
 @click.version_option(__version__, prog_name="atlas")
 def atlas() -> None:

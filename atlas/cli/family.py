@@ -492,8 +492,9 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     if not needed and p.omitted is not None:
         default, count = f"{p.omitted:g}", len(p.names)
         settings = {"default": (default,) * count} if count > 1 else {"default": default, "show_default": True}
-    says = p.says + f" In {p.unit}." * ("/" in p.unit or "^" in p.unit)
-    return numbers(p.name, says, p.metavar or "", **settings)
+    quantity, semicolon, condition = p.says.rstrip(".").partition(";")
+    unit = f", in {p.unit}" if "/" in p.unit or "^" in p.unit else ""
+    return numbers(p.name, f"{quantity}{unit}{semicolon}{condition}.", p.metavar or "", **settings)
 
 
 def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:

@@ -19,11 +19,12 @@ CHARGES = ("charged", "coat", "points")
 OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polarizability", "units")
 
 top_options: Callable[[F], F] = stack(
-    click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Heavy top: gravity G in m/s^2, and the distance "
-                 "L in m along the axis from the fixed point to the centre of mass; --inertia is about the centre of "
-                 "mass. Needs --mass or --points."),
-    numbers("magnetic", "Charged body in this magnetic field, across and along the axis; n is the direction of the field. "
-            "Needs --charged, --coat or --points. With --heavy, up is along the field, or against it by --direction.",
+    click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Heavy top: gravity G in m/s^2, "
+                 "and the distance L in m along the axis from the fixed point to the centre of mass; --inertia is about "
+                 "the centre of mass. Needs --mass or --points."),
+    numbers("magnetic", "Charged body in this magnetic field, across and along the axis; n is the direction of "
+            "the field. Needs --charged, --coat or --points. With --heavy, up is along the field, or against it by "
+            "--direction.",
             "B2 B3"),
     numbers("mass", "Mass of the body; goes with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="Shape of the body instead of --inertia, such as disk; `atlas list "
@@ -34,10 +35,10 @@ top_options: Callable[[F], F] = stack(
     numbers("polar", "Polar semi-axis of a spheroid."),
     click.option("--points", type=FILE, metavar="FILE", help="CSV file of point "
                  "masses and charges, with the columns x, y, z, mass, charge; the axis is z."),
-    numbers("charged", "Second moments of the charge (charge times length squared) about the transverse axis and about the "
-            "body's axis, through the centre of mass; with --heavy through the fixed point.", "J2 J3"),
-    click.option("--coat", metavar="NAME", help="Shape over which the charge is spread, with the dimensions of the body; "
-                 "needs --charge."),
+    numbers("charged", "Second moments of the charge (charge times length squared) about the transverse axis and about "
+            "the body's axis, through the centre of mass; with --heavy through the fixed point.", "J2 J3"),
+    click.option("--coat", metavar="NAME", help="Shape over which the charge is spread, with the dimensions of the "
+                 "body; needs --charge."),
     numbers("charge", "Charge spread over the shape of --coat, either sign."),
     numbers("moment", "Magnetic moment along the axis; goes with --magnetic."),
     numbers("polarizability", "Magnetic moment per unit field that is induced across and along the axis; goes with "

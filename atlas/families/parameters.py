@@ -14,7 +14,7 @@ FIELD = Parameter(
 )
 OMEGA = Parameter(
     "omega",
-    "Initial angular velocity along the body's axes.",
+    "Initial angular velocity; along the body's axes.",
     RATE,
     (0.3, 0.7, 0.2),
     (-3.0, 3.0),

@@ -147,7 +147,7 @@ def _rows_given(item: Thing) -> Iterator[Row]:
         for place, (name, component) in enumerate(zip(p.names, components, strict=True)):
             if component is not None:
                 number = component if isinstance(component, Number) else Number.as_given(component)
-                says = "" if place else re.split(r"[.]|, in 1/", p.says)[0]
+                says = "" if place else re.split("[.;]", p.says)[0]
                 yield lettered(says), f"`{name}`", number, item.unit(p.unit), "", "given"
 
 

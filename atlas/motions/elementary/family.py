@@ -46,8 +46,8 @@ FAMILY = Family(
         FIELD,
         Parameter("omega2", "Second component of the initial angular velocity.", RATE, (0.7,), (-3.0, 3.0)),
         Parameter(
-            "omega3", "Third component of the initial angular velocity, only where (71) leaves it free: B = 0, B2 = 0, or the pole "
-            "omega2 = -B2.", RATE, (), (-3.0, 3.0),
+            "omega3", "Third component of the initial angular velocity; only where (71) leaves it free: B = 0, B2 = 0, "
+            "or the pole omega2 = -B2.", RATE, (), (-3.0, 3.0),
             needed=False,
         ),
     ),
@@ -93,7 +93,7 @@ FAMILY = Family(
         "Compute any motion of any body.",
         "Compute the rotation matrix R(t), the angular velocity and the constants of a motion.\n\n"
         "Give a body, a field and a start. A start --omega2 is an elementary motion, (71) to (85). A start --omega W1 "
-        "W2 W3 or --spin W3 is any motion, not in the paper. All components are along the axes of the body at t = 0.\n\n"
+        "W2 W3 or --spin W3 is any motion, not in the paper. Components are along the axes of the body at t = 0.\n\n"
         "A symmetric body (--ratio, --shape or --inertia I2 I3) in a field B2 B3 moves in elliptic functions. A body "
         "with three moments (--inertia I1 I2 I3, --points, --tensor), and any body in a field B1 B2 B3, moves in theta "
         "functions of two variables, which are proved for this motion or compared with certified digits. With --digits "
@@ -166,11 +166,11 @@ BALL = Family(
     "motion of a charged ball, B along e3",
     "motions.elementary.{}_ball.BallMotion",
     (
-        Parameter("inertia", "Moment of inertia I0, in any unit.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
-        Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c), either sign.", RATE, (0.5,), (-3.0, 3.0)),
+        Parameter("inertia", "Moment of inertia I0.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
+        Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c); either sign.", RATE, (0.5,), (-3.0, 3.0)),
         Parameter(
-            "momentum", "Initial angular momentum (0, m2, m3), B along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"),
-            metavar="M2 M3",
+            "momentum", "Initial angular momentum (0, m2, m3); B is along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0),
+            columns=("m2", "m3"), metavar="M2 M3",
         ),
     ),
     (

@@ -11,10 +11,10 @@ FAMILY = Family(
         MOMENTS,
         PRINCIPAL_FIELD,
         Parameter(
-            "z", "Parameter z of the motion. It must not make v^2 = (z + D/I1) (z + D/I2) (z + D/I3) negative, D = I1 I2 I3.",
+            "z", "Parameter z of the motion; (z + D/I1) (z + D/I2) (z + D/I3) must not be negative, D = I1 I2 I3.",
             "inertia^2", (1.7,), (-0.2, 4.0),
         ),
-        Parameter("branch", "Sign of v in the angular velocity, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
+        Parameter("branch", "Sign of v in the motion, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
     ),
     (
         Quantity("kind", "type of motion"),

@@ -26,21 +26,21 @@ FAMILY = Family(
             columns=("I2", "I3"), metavar="I2 I3",
         ),
         Parameter(
-            "coupling", "Coefficients k across and along the axis of M = I Omega + k b; default 0 0.", "inertia/time", (0.0, 0.0), (-3.0, 3.0),
-            needed=False, omitted=0.0, columns=("k2", "k3"), metavar="K2 K3",
+            "coupling", "Coefficients k across and along the axis, M = I Omega + k b; default 0 0.", "inertia/time",
+            (0.0, 0.0), (-3.0, 3.0), needed=False, omitted=0.0, columns=("k2", "k3"), metavar="K2 K3",
         ),
         Parameter(
-            "direction", "Direction n of the field in the body at t = 0, across and along the axis; any length.", "", (0.6, 0.8), (-1.0, 1.0),
-            columns=("n2", "n3"), metavar="N2 N3",
+            "direction", "Direction n of the field in the body at t = 0, across and along the axis; any length.", "",
+            (0.6, 0.8), (-1.0, 1.0), columns=("n2", "n3"), metavar="N2 N3",
         ),
         OMEGA,
         Parameter(
-            "linear", "Coefficient of nu in the potential: m g l of a heavy top.", "inertia/time^2", (3.0,),
+            "linear", "Coefficient of nu in the potential; m g l of a heavy top.", "inertia/time^2", (3.0,),
             (-5.0, 5.0), needed=False, omitted=0.0,
         ),
         Parameter(
-            "quadratic", "Coefficient of nu^2/2 in the potential: an anisotropy.", "inertia/time^2", (0.0,), (-5.0, 5.0),
-            needed=False, omitted=0.0,
+            "quadratic", "Coefficient of nu^2/2 in the potential; an anisotropy.", "inertia/time^2", (0.0,),
+            (-5.0, 5.0), needed=False, omitted=0.0,
         ),
     ),
     (
