@@ -82,7 +82,7 @@ class FigureCommand(Command):
     type=click.Choice(["vector", "shaded"]),
     default="vector",
     show_default=True,
-    help="Line drawing with hidden lines dashed, or a shaded picture as PNG.",
+    help="Line drawing, or a shaded picture as PNG.",
 )
 @click.option(
     "--for",

@@ -20,8 +20,8 @@ OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polar
 
 top_options: Callable[[F], F] = stack(
     click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Heavy top: gravity G in m/s^2, "
-                 "and the distance L in m along the axis from the fixed point to the centre of mass; --inertia is about "
-                 "the centre of mass. Needs --mass or --points."),
+                 "and the distance L in m along the axis from the fixed point to the centre of mass; --inertia is "
+                 "about the centre of mass. Needs --mass or --points."),
     numbers("magnetic", "Charged body in this magnetic field, across and along the axis; n is the direction of "
             "the field. Needs --charged, --coat or --points. With --heavy, up is along the field, or against it by "
             "--direction.",
