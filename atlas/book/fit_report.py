@@ -2,8 +2,9 @@
 
 import re
 import shlex
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import PurePath
 from pprint import pformat
 from typing import Any
@@ -12,7 +13,10 @@ import numpy as np
 
 from atlas.book.digits import MINUS
 from atlas.book.markdown import written
-from atlas.book.page import Asked, figures_of, headed, name_of
+from atlas.book.parts import Asked, figures_of, headed
+
+MAX_NAME_LENGTH = 48
+"""Largest length of the name of a page; longer names end with a digest."""
 
 MIN_CORRELATION = 0.5
 """Correlations that are told."""
@@ -72,22 +76,25 @@ class Fitted:
 
     @property
     def name(self) -> str:
-        """Name of its files, from the typed words."""
-        return self.called or name_of(["fit", PurePath(self.words[1]).stem, *self.words[2:]])
+        """Name of its files, from the typed words, with a digest if it is long."""
+        words = ["fit", PurePath(self.words[1]).stem, *self.words[2:]]
+        name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
+        short = f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
+        return self.called or (name if len(name) <= MAX_NAME_LENGTH else short)
 
     @property
     def _file(self) -> str:
         """Name of the data file, without characters of Markdown."""
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
-    def sources(self, exists: Callable[[str], bool]) -> dict[str, str]:
+    def sources(self) -> dict[str, str]:
         """Return the texts of the report file and of its picture's recipe, by file name."""
         return {
-            f"{self.name}.md": headed(self, written(self.definition(exists))),
-            f"{self.name}.py": headed(self, self._recipe()),
+            f"{self.name}.md": headed(self.name, written(self.definition()), self.command),
+            f"{self.name}.py": headed(self.name, self._recipe(), self.command),
         }
 
-    def definition(self, exists: Callable[[str], bool]) -> dict[str, Any]:
+    def definition(self) -> dict[str, Any]:
         """Return the report as a dict of values for its file."""
         left_out, motion = list[str](), self.motion
         blocks = [
@@ -97,7 +104,7 @@ class Fitted:
             *self._correlations(),
             *([] if self.fit.warnings else [self._horizons()]),
             *([_prose("What was asked of the time to come:", "", "```", *self.ahead, "```")] if self.ahead else []),
-            *self._motion(left_out, exists),
+            *self._motion(left_out),
             _prose(
                 "## The same again", "", "This page, and its numbers with all covariances:", "", "```console",
                 f"$ {self.command}", f"$ {shlex.join(['atlas', 'fit', *self.words[1:], '--json'])}", "```",
@@ -186,14 +193,11 @@ class Fitted:
             f"standard error is smaller. The data end at {fit.t.max():.6g}.",
         }  # fmt: skip
 
-    def _motion(self, left_out: list[str], exists: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
-        """Yield the blocks of the motion's figures, and a link to its own page."""
-        name = self.motion
-        place = f"[`{name.command}`]({name.name}.html)" if exists(name.name) else f"`{name.command}`"
-        yield _prose(
-            "## The motion", "", f"With these values and R(0) = 1; {place} makes its own page, with its rates."
-        )
-        yield from figures_of(name, left_out)
+    def _motion(self, left_out: list[str]) -> Iterator[dict[str, Any]]:
+        """Yield the blocks of the motion's figures, below the command of its own report."""
+        command = self.motion.command
+        yield _prose("## The motion", "", f"With these values and R(0) = 1; `{command}` makes its own report.")
+        yield from figures_of(self.motion, {key: dict[str, Any]() for key in self.motion.family.figures}, left_out)
 
     def _recipe(self) -> str:
         """Return the recipe that draws data, curve and residuals."""

@@ -7,14 +7,15 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
-from types import SimpleNamespace
 from typing import Any
 
 from atlas.arithmetic.uncertainty import concise
+from atlas.book.card import ENTRIES, ONE_PERIOD, card, thing_of
 from atlas.book.digits import Number
 from atlas.book.markdown import written
-from atlas.book.page import Asked, headed
-from atlas.book.your_body import ENTRIES, FREQUENCIES, NAME, card, command_of, name_of, thing_of, title_of, verdict
+from atlas.book.parts import Asked, headed
+from atlas.book.verdict import verdict
+from atlas.book.your_body import NAME, name_of, title_of
 
 Card = Mapping[str, Mapping[str, Any]]
 INDEX = "index"
@@ -77,7 +78,7 @@ def page(name: str, title: str, blocks: Sequence[Mapping[str, Any]], command: st
     abstract = "Numbers are those of the cards, to their proven digits."
     pages = [{"slug": "index", "title": "Cards", "blocks": blocks}]
     report = {"name": name, "title": title, "front_matter": False, "abstract": abstract, "pages": pages}
-    return headed(SimpleNamespace(name=name), written(report), command)
+    return headed(name, written(report), command)
 
 
 def table_of(rows: Iterable[Row]) -> str:
@@ -114,13 +115,13 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
         "caption": "The two cards, and the second less the first, to the digits that both have.",
     }  # fmt: skip
     reasons = [f"{made['says'][:1].upper()}{made['says'][1:]} of `{name}`: {made['reason']}."
-               for name, one in zip(names, cards, strict=True) for key, made in one.items()
-               if made["reason"] and key not in FREQUENCIES]  # fmt: skip
-    texts = [f"{place}: {title}. Its report is `{name}`, by `{command_of(request)}`." for place, name, title, request
+               for name, one in zip(names, cards, strict=True) for made in one.values()
+               if made["reason"] not in {None, ONE_PERIOD}]  # fmt: skip
+    texts = [f"{place}: {title}. Its report is `{name}`, by `{request.command}`." for place, name, title, request
              in zip(("First", "Second"), names, titles, (first, second), strict=True)]  # fmt: skip
     blocks: list[dict[str, Any]] = [{"kind": "prose", "text": "\n\n".join(texts)}, block]
     blocks += [{"kind": "prose", "text": "\n- ".join(["## What is left out\n", *reasons])}] if reasons else []
-    command = f"{command_of(first)} --against {names[1]}.inputs.toml"
+    command = f"{first.command} --against {names[1]}.inputs.toml"
     return name, {f"{name}.md": page(name, "Two bodies side by side", blocks, command)}
 
 
@@ -128,7 +129,7 @@ def _rows(first: Card, second: Card) -> Iterator[list[str]]:
     """Yield words, letter, both values, their difference and the equation of each number of two cards."""
     for key, a in first.items():
         b = second[key]
-        if key in FREQUENCIES and a["value"] is None and b["value"] is None:
+        if a["value"] is None and b["value"] is None:
             continue
         equation = next((f"@{one['equation']}" for one in (a, b) if one["equation"] and one["value"] is not None), "")
         yield [a["says"], a["letter"], value_of(a), value_of(b), difference(a, b), equation]

@@ -9,8 +9,9 @@ from typing import Any
 
 from atlas.arithmetic.annotations import BodyLike, FieldLike, RealArrayLike
 from atlas.arithmetic.inputs import real
+from atlas.cli.body_request import NAME
 from atlas.cli.present import bar
-from atlas.cli.your_body import NAME, built, places_of, request_of, text_of, words_of
+from atlas.cli.your_body import built, places_of, request_of, text_of, words_of
 from atlas.errors import AtlasError
 from atlas.trial.ledger.plain import html_table
 

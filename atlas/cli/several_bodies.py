@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from atlas.cli.body_request import NAME, typed_in
 from atlas.cli.options import FILE, jobs_option, out_option
-from atlas.cli.page import build
 from atlas.cli.points import cells_of
 from atlas.cli.present import bar, status_of
-from atlas.cli.your_body import NAME, built, request_of, typed_in, words_of
+from atlas.cli.your_body import build, built, request_of, words_of
 from atlas.errors import AtlasError
 from atlas.measured import heading
 

@@ -1,9 +1,7 @@
 """``atlas report your_body``: the report of a body, a field and a start, given as to `atlas motion`."""
 
 import json
-import tomllib
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -11,99 +9,75 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.family import values_of
+from atlas.cli.body_request import COMMANDS, ENDING, EXPLAIN, NAME, ByOptions
 from atlas.cli.options import examples
-from atlas.cli.page import ByOptions, build, commands_of
-from atlas.cli.present import explain_build, status_of
-from atlas.cli.uncertain import UncertainAnswer, uncertain
+from atlas.cli.present import bar, explain_build, status_of
 from atlas.cli.words import Words
 from atlas.errors import AtlasError, unknown
+from atlas.files import write
 from atlas.measured import split
-from atlas.places import folder
 
 if TYPE_CHECKING:
     from atlas.book.building.report import Built
-    from atlas.book.page import Asked
+    from atlas.book.parts import Asked
 
 FORMATS = ("html", "pdf")
-NAME = "your_body"
-EXPLAIN = "--explain"
-ENDING = ".inputs.toml"
-"""How the name of a file of inputs ends."""
 
 
-def with_errors(wanted: Any, options: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
-    """Return a request with the standard deviations of the numbers of its card, and its options."""
-    from atlas.book.your_body import numbers
-
-    family, names = wanted.family, [p.name for p in wanted.family.parameters]
-
-    def answered(moved: dict[str, Any]) -> dict[str, Any]:
-        return numbers(family, dict(zip(names, values_of(family, moved, exact=False), strict=True)))
-
-    if uncertain(options):
-        deviations = UncertainAnswer.of(answered, options | {"decimal": False}).spread.sigma
-        wanted = replace(wanted, sigma={place[0]: x for place, x in deviations.items()})
-    return wanted, options
-
-
-def built(wanted: "Asked", out: Path, jobs: int | None) -> "tuple[Built, dict[str, Any]]":
+def built(
+    wanted: "Asked", out: Path, jobs: int | None, formats: Sequence[str] = FORMATS
+) -> "tuple[Built, dict[str, Any]]":
     """Write the report of a request, its card and its inputs into a folder; return the build and the card."""
+    from atlas.book.card import ENTRIES
     from atlas.book.your_body import files_of, name_of
 
     name, files = name_of(wanted), files_of(wanted)
-    return build(name, files, out, jobs, FORMATS), json.loads(files[f"{name}.card.json"])
+    record = json.loads(files[f"{name}.card.json"])
+    return build(name, files, out, jobs, formats), {one.key: record[one.key] for one in ENTRIES}
+
+
+def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, formats: Sequence[str]) -> "Built":
+    """Write the sources of a report and build it. Raises AtlasError where a source was edited by the user."""
+    from atlas import processes
+
+    file = out / f"{name}.md"
+    if not file.exists():  # its figures are to be drawn: their libraries are loaded meanwhile
+        processes.prepare(processes.DRAWING)
+    from atlas.book.building.report import build_report
+    from atlas.book.parts import edited
+
+    for path in (out / source for source in sources if source.endswith((".md", ".py"))):
+        if path.exists() and edited(path.read_text(encoding="utf-8")):
+            raise AtlasError(
+                f"{path} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move "
+                "it."
+            )
+    with bar("report") as tell:
+        for source, content in sources.items():
+            write(out / source, content)
+        return build_report(file, out, tell, formats=formats, jobs=jobs)
 
 
 def places_of(built: "Built") -> list[Path]:
-    """Return the places of the files of a report: its first page, its PDF, its card and its inputs."""
+    """Return the places of the files of a report: its page, its PDF, its card and its inputs."""
     return [built.index, built.pdf, *(built.pdf.with_name(built.name + end) for end in (".card.json", ENDING))]
 
 
 class YourBody(ByOptions):
-    """Command group that selects the family by the options, which may come from a file of inputs."""
+    """The group of this report, with its name."""
 
     def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the usage with the name of the report."""
         formatter.write_usage(f"atlas report {NAME}", "[motion|top|classify] OPTIONS")
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the name of the report away, and the words of --from FILE for the file."""
-        ctx.meta[EXPLAIN] = EXPLAIN in args
-        args = [word for word in args if word not in {NAME, EXPLAIN}]
-        if "--from" in args:
-            at = args.index("--from")
-            args = [*typed_in("--from", *args[at + 1 : at + 2]), *args[:at], *args[at + 2 :]]
+        """Refuse a report of nothing, in words on what it takes."""
         if not Words(args).names:
             raise click.UsageError(
                 f"{NAME} takes a body, a field and a start, as atlas motion does: --ratio 0.7 --field 1 2 --omega2 0.7."
             )
         return super().parse_args(ctx, args)
 
-
-def typed_in(option: str, file: str = "") -> list[str]:
-    """Return the words that a file of inputs holds, one of the gallery by its name alone.
-
-    Raises
-    ------
-    click.UsageError
-        For another file.
-    """
-    gallery = {path.name.removesuffix(ENDING): path for path in (folder("reports") / "bodies").glob(f"*{ENDING}")}
-    if file and not Path(file).suffix and not Path(file).exists() and file not in gallery:
-        raise click.UsageError(f"{option}: {unknown('body', file, gallery, 'in the gallery')}")
-    try:
-        content = tomllib.loads(gallery.get(file, Path(file)).read_text(encoding="utf-8"))
-        return [str(word) for word in content["typed"]]
-    except (KeyError, OSError, TypeError, ValueError) as error:
-        raise click.UsageError(
-            f"{option} takes a file NAME{ENDING} that {NAME} wrote, not {file or 'nothing'!r}."
-        ) from error
-
-
-COMMANDS = commands_of(with_errors, "build/report", "Make a report")
-for name in ("ball", "elliptic", "particle"):  # which are refused with the page that they have
-    COMMANDS[name].hidden = True
 
 OPTIONS = {option.removeprefix("--"): param for command in COMMANDS.values() for param in command.params
            for option in param.opts if param.name not in {"out", "jobs", "note"}}  # fmt: skip
@@ -187,9 +161,14 @@ def command() -> None:
 @command.result_callback()
 def make(request: "tuple[Asked, dict[str, Any]]") -> int:
     """Write the report of a request and print where its files are; return the exit status."""
-    wanted, options = request
-    report, _ = built(wanted, options["out"], options["jobs"])
-    for place in places_of(report):
+    return told(*request, FORMATS)
+
+
+def told(wanted: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
+    """Write the report of a request in some formats and print where its files are; return the exit status."""
+    report, _ = built(wanted, options["out"], options["jobs"], formats)
+    places = places_of(report)
+    for place in [report.single, *places[1:]] if "single" in formats else places:
         click.echo(place)
     if click.get_current_context().meta[EXPLAIN]:
         explain_build(report)

@@ -186,6 +186,10 @@ class Family:
         """Return whether the family has a parameter of this name."""
         return any(p.name == name for p in self.parameters)
 
+    def quantity(self, name: str) -> Quantity | None:
+        """Return the quantity of this name, None where the family has none."""
+        return next((q for q in self.quantities if q.name == name), None)
+
     @property
     def page(self) -> str:
         """Name in `atlas page NAME`: the command's, or the family's where several families share a command."""

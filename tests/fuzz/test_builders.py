@@ -28,7 +28,7 @@ LINES = {
 """What each is given before it is changed; tex and data build reports, which test_reports changes."""
 
 OPTIONS = {
-    "page": ["--digits", "--title", "--times"],
+    "page": ["--digits", "--title", "--times", "--only"],
     "animate": ["--fps", "--dpi", "--format", "--set", "--style", "--over"],
     "explore": ["--port"],
     "plot": ["--for", "--style"],

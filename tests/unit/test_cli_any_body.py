@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.cli.app import atlas as command
+from atlas.cli.body_request import COMMANDS, ByOptions
+from atlas.cli.body_request import asked as page_asked
 from atlas.cli.explore import started
-from atlas.cli.page import COMMANDS, ByOptions
-from atlas.cli.page import asked as page_asked
 from atlas.cli.points import oblique_tensor
 from atlas.errors import NearlySymmetricWarning
 from atlas.motions.register import FAMILIES as REGISTER

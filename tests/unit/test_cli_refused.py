@@ -69,6 +69,7 @@ CASES = [
     ("plot {place}/long.csv ratio ratio", "line 2: 2 cells under a heading of 1"),
     ("plot {place}/words.csv t x", "the column x has text"),
     ("report your_body --from nobody", "'nobody'"),
+    ("report your_body --only cart --ratio 0.7 --field 1 2", "no part 'cart' of the report (did you mean 'card'?)"),
     ("report your_body --each {place}/empty.csv", "needs a heading such as ratio,radius [um] and at least one row"),
     ("report your_body --each {place}/again.csv", "the column ratio is there twice"),
     ("report your_body --each {place}/long.csv", "line 2: 2 cells under a heading of 1"),

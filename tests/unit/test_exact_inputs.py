@@ -18,12 +18,12 @@ from atlas.arithmetic.numbers import nearest, rational, workprec
 from atlas.bodies.certified_body import shape_moments
 from atlas.bodies.integrals import shape_factors
 from atlas.book import body_and_field as body_records
-from atlas.book.page import case_of, definition
+from atlas.book.parts import case_of, table_of
 from atlas.book.tables.properties import Thing
 from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
-from atlas.cli.page import COMMANDS
-from atlas.cli.page import asked as page_request
+from atlas.cli.body_request import COMMANDS
+from atlas.cli.body_request import asked as page_request
 from atlas.errors import DomainError, NearlySymmetricWarning
 from atlas.motions.elementary.certified_hyperbola import Hyperbola as CertifiedHyperbola
 from atlas.motions.elementary.formula_hyperbola import closing
@@ -210,7 +210,7 @@ def test_a_page_of_three_components_takes_the_product_without_rounding() -> None
     words = "--inertia .8 1 1.3 --magnetic .2 .7 -.3 --mu 1.3 --omega .3 .7 .2"
     with COMMANDS["asymmetric"].make_context("asymmetric", words.split()) as context:
         asked = page_request(FAMILIES["asymmetric"], context.params)
-    parameters = definition(asked, lambda _: False)["pages"][0]["blocks"][0]["parameters"]
+    parameters = table_of(asked, "properties", "asymmetric", asked.exact_values)["parameters"]
     thing = Thing.of(Request([body_records.body_and_field(None, None)], parameters, 10))
     product = [Fraction(1.3) * Fraction(B) / 2 for B in (0.2, 0.7, -0.3)]
     assert [Fraction(int(x.p), int(x.q)) for x in thing.balls().field] == product
@@ -224,7 +224,7 @@ def test_a_page_in_natural_units_takes_the_product_without_rounding() -> None:
     with COMMANDS["general"].make_context("general", words.split()) as context:
         asked = page_request(FAMILIES["general"], context.params)
     assert case_of(asked).exact_components == tuple(Fraction(1.5) * Fraction(B) / 2 for B in (-1.429, 1.091))
-    assert "/" not in definition(asked, lambda _: False)["parameters"]["fields"]["field"]["title"]
+    assert "/" not in asked.field["title"]
 
 
 def test_a_page_of_points_takes_their_ratio_without_rounding(tmp_path: Path) -> None:

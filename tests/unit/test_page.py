@@ -1,4 +1,4 @@
-"""`atlas page`: the page of one object, its numbers, one file that asks for nothing, and what it refuses."""
+"""`atlas page`: parts of the report of one object, its numbers, one file that asks for nothing, what it refuses."""
 
 import base64
 import hashlib
@@ -22,15 +22,16 @@ from tests_support import few_figures
 from atlas import processes
 from atlas.book.body_and_field import Body, Field, body_and_field
 from atlas.book.building.formats import single
+from atlas.book.card import thing_of
 from atlas.book.markdown import read
-from atlas.book.page import Asked, definition
+from atlas.book.parts import Asked
 from atlas.book.tables import compute
 from atlas.book.tables.closed import convergents
 from atlas.book.tables.properties import lettered
 from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
-from atlas.cli.page import COMMANDS, asked, best
+from atlas.cli.body_request import COMMANDS, asked, best
 from atlas.cli.words import Words
 from atlas.errors import AtlasError
 from atlas.motions.elementary.kernel import ElementaryMotion
@@ -45,7 +46,7 @@ BALL = "ball --larmor 0.5 --momentum 0.3 -0.7"
 @pytest.fixture(scope="module", autouse=True)
 def one_figure() -> Iterator[None]:
     """Leave pages one figure; all are drawn in the reports."""
-    with few_figures(elementary="hyperbola", quadric="stability"):
+    with few_figures(elementary="motion", quadric="stability"):
         yield
 
 
@@ -63,10 +64,11 @@ def page(words: str, out: Path) -> list[str]:
 
 
 def test_the_pdf_begins_with_its_title_and_its_numbers(made: Path) -> None:
-    """No cover, no contents, no lists: the first page has the title, what is given and omega3."""
+    """No cover, no contents, no lists: the first pages have the title, the card, what is given and omega3."""
     pages = [one.extract_text() for one in PdfReader(made.with_suffix(".pdf")).pages]
-    assert pages[0].startswith("Steady precession of a charged symmetric body")
-    assert all(words in pages[0] for words in ("ratio 1.3, field 1 2, omega2 0.7", "omega3 0.886", "Table 1"))
+    first = " ".join(" ".join(pages[:2]).split())
+    assert first.startswith("A body with I = 1.3 turns about the field once in 4.014 units of time; precession, stable")
+    assert all(words in first for words in ("--ratio 1.3 --field 1 2 --omega2 0.7", "omega3 0.886", "Table 2"))
     numbered = re.compile(r"^Contents|^Figures 1|^\d(\.\d)? (Properties|Neighbours)", re.MULTILINE)
     assert not any(numbered.search(text) for text in pages)
     assert "How this was made" in pages[-1]
@@ -157,14 +159,12 @@ def ball(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 
 @pytest.mark.slow
-def test_neighbours_are_linked_when_they_are_there(tmp_path: Path) -> None:
-    """A page beside this one is a link in the row of its command; an object of no body has none."""
-    (tmp_path / "classify-ratio-1-field-0-2.html").write_text("x", "utf-8")
-    made = Path(page("--ratio 1.5 --field 0 2", tmp_path)[0])
-    links = reader.fromstring(made.read_bytes()).xpath("//figure[@id='tab-neighbours']//a[@href]")
-    assert [link.get("href") for link in links] == ["classify-ratio-1-field-0-2.html"]
-    assert links[0].text_content() == "atlas page classify --ratio 1 --field 0 2"
-    left_out = "".join(reader.fromstring(made.read_bytes()).xpath("//main//li//text()"))
+def test_a_body_without_a_start_has_all_parts(tmp_path: Path) -> None:
+    """Figures of its surface and its curve, commands of its neighbours, and why a figure is missing."""
+    tree = reader.fromstring(Path(page("--ratio 1.5 --field 0 2", tmp_path)[0]).read_bytes())
+    (neighbours,) = tree.xpath("//figure[@id='tab-neighbours']")
+    assert "atlas page --ratio 1 --field 0 2" in neighbours.text_content()
+    left_out = "".join(tree.xpath("//main//li//text()"))
     assert "The figure stability: With B2 = 0" in left_out
 
 
@@ -196,8 +196,8 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
     """The page says what to do instead, in one line with status 2, and the good page stays."""
     made = shutil.copytree(ball[0].parent, tmp_path, dirs_exist_ok=True) / ball[0].name
     good, file = made.read_bytes(), made.parent / f"{made.name.removesuffix('.html')}.md"
-    assert file.read_text("utf-8").startswith("+++\n# Made by `atlas page ball --larmor 0.5 --momentum 0.3 -0.7`")
-    file.write_text(file.read_text("utf-8").replace("charged ball", "my ball"), "utf-8")
+    assert file.read_text("utf-8").startswith("+++\n# Made by `atlas page --larmor 0.5 --momentum 0.3 -0.7`")
+    file.write_text(file.read_text("utf-8").replace("This report is that of", "This is my ball,"), "utf-8")
     with pytest.raises(SystemExit) as ended:
         main(["page", *BALL.split(), "--out", str(tmp_path)])
     assert ended.value.code == 2
@@ -268,11 +268,17 @@ def unbuilt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
     return record
 
 
+def table_of(record: dict[str, Any]) -> dict[str, Any]:
+    """Return the block of the properties of a page."""
+    blocks = record["pages"][0]["blocks"]
+    return next(block for block in blocks if block.get("table") == "properties")
+
+
 def test_a_negative_field_keeps_its_sign_in_si(unbuilt: Callable[[str], dict[str, Any]]) -> None:
     """B' against e2 stays there, though the report's own frame would turn it round; rates are in 1/s."""
     record = unbuilt("--ratio 1.5 --mass 2 --charge -3 --magnetic 1 2")
     assert record["parameters"]["fields"]["field"]["prime"] == [-0.75, -1.5]
-    assert record["pages"][0]["blocks"][0]["parameters"]["time"] == "s"
+    assert table_of(record)["parameters"]["time"] == "s"
 
 
 def test_a_field_may_be_a_rate_with_a_unit(unbuilt: Callable[[str], dict[str, Any]]) -> None:
@@ -350,11 +356,11 @@ def test_a_precession_too_slow_to_be_drawn_is_told(
     body = "--shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e"
     monkeypatch.chdir(tmp_path)
     made = unbuilt(f"motion {body} --magnetic 0.4T 0.6928T --spin 2MHz")
-    prose = made["pages"][0]["blocks"][-1]["text"]
+    prose = "".join(block.get("text", "") for block in made["pages"][0]["blocks"])
     assert "followed for the precession" in prose
     assert "a whole turn takes 492 s" in prose
     assert "7.71e-07 s" in prose
-    (listing,) = (block for block in made["pages"][0]["blocks"] if block["kind"] == "listing")
+    (listing,) = (block for block in made["pages"][0]["blocks"] if block.get("id") == "neighbours")
     assert made["parameters"]["fields"]["field"]["title"] == "field of (0.4, 0.6928) T"
     for _, line in listing["rows"]:  # no start stands twice, and no density without its shape
         words = re.sub(r"^`atlas page |`$", "", line).split()
@@ -408,10 +414,10 @@ def test_a_report_of_several_pages_is_not_one_file() -> None:
 @pytest.mark.slow
 def test_a_body_without_a_field_is_free_and_its_times_have_a_unit() -> None:
     """No caption and no heading calls it charged, or says how strong no field is; a time is never a bare number."""
-    made = definition(Asked(FAMILIES["asymmetric"], {}, {
+    request = Asked(FAMILIES["asymmetric"], {}, {
         "inertia": [1.0, 3.0836, 3.235], "field": [0.0, 0.0, 0.0], "omega": [-1.7, 0.25, 0.588],
-    }, time="s"), lambda _: False)  # fmt: skip
-    assert made["title"] == "Any motion of a free body of any three moments"
+    }, time="s")  # fmt: skip
+    assert thing_of(request).says == "Any motion of a free body of any three moments"
     for unit, words in (("s", "over 20.8 s,"), ("time", "over 20.8 units of time,")):
         scene = load("asymmetric_motion").scene(
             inertia=(1.0, 3.0836, 3.235), field=(0.0, 0.0, 0.0), omega=(-1.7, 0.25, 0.588), unit=unit
@@ -423,11 +429,11 @@ def test_a_body_without_a_field_is_free_and_its_times_have_a_unit() -> None:
 
 def test_a_field_at_an_angle_stands_as_it_was_typed() -> None:
     """In the options, and so in the name and the commands, and in words; the components are nowhere but in values."""
-    words = "motion --ratio 1.5 --magnetic 0.8T --angle 30deg --mu 1C/kg --omega2 0.3"
-    context = COMMANDS["motion"].make_context("motion", words.split()[1:])
+    words = "--ratio 1.5 --magnetic 0.8T --angle 30deg --mu 1C/kg --omega2 0.3"
+    context = COMMANDS["motion"].make_context("motion", words.split())
     with context:
         wanted = asked(FAMILIES["elementary"], context.params)
-    assert wanted.command == f"atlas page {words}"
+    assert wanted.command == f"atlas report your_body {words}"
     assert wanted.field["title"] == "field of 0.8T at 30deg"
 
 
@@ -474,17 +480,6 @@ def test_a_neighbour_has_no_negative_zero() -> None:
         "general", omega=(-0.0, -1.0, 2.0)
     )
     assert near.options["omega"] == ("0", "-1", "2")
-
-
-def test_a_long_name_of_a_page_ends_with_a_digest() -> None:
-    """It stays as short as can be read in a list of files, and two that begin alike are told apart."""
-    whole, one, other = (
-        Asked(FAMILIES["general"], {"omega": ("1" * 31 + last,)}, {}).name for last in ("2222", "22223", "22224")
-    )
-    assert whole == f"motion-omega-{'1' * 31}2222"
-    assert len(whole) == 48
-    assert [(name[:49], len(name)) for name in (one, other)] == [(f"{whole}-", 57)] * 2
-    assert one != other
 
 
 def test_convergents_are_best_fractions() -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import atlas
+from atlas.book.card import card
 from atlas.book.several_bodies import against, as_words, difference, value_of
-from atlas.book.your_body import card
 from atlas.cli.app import main
 from atlas.cli.several_bodies import rows_of
 from atlas.cli.your_body import request_of, words_of

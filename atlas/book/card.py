@@ -1,0 +1,240 @@
+"""The card of a body: six numbers with their digits, or the reason why there is none."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from atlas.arithmetic.certified_digits import MARK
+from atlas.book.parts import Asked, case_of
+from atlas.book.tables.properties import Thing
+from atlas.book.tables.table import Request, certified, quantity
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.register import Family
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A number of the card: its key, words, letter in TeX, unit of the register, equations."""
+
+    key: str
+    says: str
+    letter: str
+    unit: str
+    equation: str
+
+
+ENTRIES = (
+    Entry("ratio", "ratio of the moments", "$I=I_3/I_2$", "", "(33)"),
+    Entry("larmor", "field as a rate", r"$|\mathbf{B}'|$", "1/time", "(27)"),
+    Entry("tilt", "angle between axis and B\N{PRIME} at the start", r"$\theta_0$", "rad", ""),
+    Entry("turn", "time of one turn about the field", "$T$", "time", "(79)"),
+    Entry("spin", "rate about the body's axis", r"$\phi$", "1/time", "(72)"),
+    Entry(
+        "nutation", "period of nutation, or of the angular velocity in the body", "$T_n$", "time", "theorem-stability"
+    ),
+    Entry("f1", "first frequency of the torus", "$f_1$", "1/time", ""),
+    Entry("f2", "second frequency of the torus", "$f_2$", "1/time", ""),
+    Entry("f3", "frequency about the field", "$f_3$", "1/time", ""),
+)
+"""The numbers of the card, the same for every body."""
+FREQUENCIES = ("f1", "f2", "f3")
+"""Keys of the three frequencies of a torus, in whose place other motions have a period and two rates."""
+NO_FIELD, NO_START, THREE = "there is no field", "no start was given", "the body has three moments"
+ONE_PERIOD = "it has one period and two rates"
+"""Why most motions have no frequencies of a torus."""
+
+
+def has_card(family: Family) -> bool:
+    """Return whether objects of a family are bodies with an axis, in a field or free."""
+    return any(p.name == "ratio" or (p.name == "inertia" and p.columns) for p in family.parameters)
+
+
+def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
+    """Return the numbers of the card that a body has, in doubles, by key."""
+    motion = family.kernels()(*arguments.values())
+    found = dict[str, float]()
+    for one in ENTRIES:
+        try:
+            found[one.key] = float(_number(one.key, family, motion, arguments, math))
+        except (DomainError, ZeroDivisionError, OverflowError):
+            continue
+    return {key: value for key, value in found.items() if math.isfinite(value)}
+
+
+def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
+    """Return a number of the card by functions of doubles, `math`, or of balls. Raises DomainError with the reason."""
+    if not has_card(family):
+        raise DomainError(f"it has the numbers of a body with an axis, and this is the {family.says}")
+    if key == "ratio":
+        return _ratio(arguments)
+    if key in {"larmor", "tilt"}:
+        return _of_field(key, arguments, functions)
+    if key in FREQUENCIES:
+        return _frequency(FREQUENCIES.index(key), family, motion, arguments)
+    if not family.sampled:
+        raise DomainError(NO_START)
+    if key == "nutation":
+        return _nutation(family, motion, functions)
+    names = ("precession_rate", "spin_rate") if family.quantity("precession_rate") else ("k", "phi")
+    rate = getattr(motion, names[key == "spin"])
+    if key == "spin":
+        return rate
+    if rate == 0:
+        raise DomainError("the axis does not go round")
+    return 2 * functions.pi / abs(rate)
+
+
+def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
+    """Return |B'|, or the angle between field and axis at the start. Raises DomainError where there is no field."""
+    *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
+    if not any((*across, along)):
+        raise DomainError(NO_FIELD)
+    if key == "tilt":
+        return functions.atan2(functions.sqrt(sum(x * x for x in across)), along)
+    if "field" not in arguments:
+        raise DomainError("a top has its weight and coupling in the place of a field")
+    return functions.sqrt(sum(x * x for x in (*across, along)))
+
+
+def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, Any]) -> Any:
+    """Return a frequency of the torus, f1 at place 0. Raises DomainError for a motion with a period and two rates."""
+    if not (family.quantity("frequencies") and any(arguments["field"])):
+        raise DomainError(ONE_PERIOD)
+    return motion.frequencies[place]
+
+
+def _ratio(arguments: Mapping[str, Any]) -> Any:
+    """Return I3/I2 of a symmetric body. Raises DomainError for three moments."""
+    if "ratio" in arguments:
+        return getattr(arguments["ratio"], "ratio", arguments["ratio"])
+    moments = arguments["inertia"]
+    if len(moments) == 3:
+        raise DomainError(THREE)
+    return moments[1] / moments[0]
+
+
+def _nutation(family: Family, motion: Any, functions: Any) -> Any:
+    """Return the period of nutation, of small ones about a steady motion. Raises DomainError where there is none."""
+    stability = family.quantity("stability") if family.takes("omega2") else None
+    if stability is None:
+        return motion.period
+    square = stability.value(motion, exact=functions is not math)
+    if not square > 0:
+        raise DomainError("small nutations do not swing back: the motion is not stable")
+    return 2 * functions.pi / functions.sqrt(square)
+
+
+class Balls:
+    """Functions of balls and exact fractions in the place of those of `math`."""
+
+    def __init__(self) -> None:
+        from flint import arb
+
+        self.pi = arb.pi()
+
+    @staticmethod
+    def ball(x: Any) -> Any:
+        """Return a fraction or a ball as a ball."""
+        from flint import arb, fmpq
+
+        return arb(fmpq(x.numerator, x.denominator)) if isinstance(x, Fraction | int) else arb(x)
+
+    def sqrt(self, x: Any) -> Any:
+        """Return the square root."""
+        return self.ball(x).sqrt()
+
+    def atan2(self, y: Any, x: Any) -> Any:
+        """Return the angle of the point (x, y)."""
+        return self.ball(y).atan2(self.ball(y), self.ball(x))
+
+
+def card(request: Asked) -> dict[str, dict[str, Any]]:
+    """Return the card: of each key value, digits as text, unit, sigma, proven digits, equation; or the reason.
+
+    A double that is not within its proven digits gives way to them: squares of tiny or huge rates are no doubles.
+    """
+    item = thing_of(request)
+    names = [p.name for p in request.family.parameters]
+    exact, floats = dict(zip(names, item.exact, strict=True)), dict(zip(names, item.floats, strict=True))
+    there, motion = numbers(request.family, floats), request.family.kernels()(*item.floats)
+    centre = centre_of(request)
+    made = dict[str, dict[str, Any]]()
+    for one in ENTRIES:
+        text = _proven(one.key, item, exact, request.digits)
+        equation = one.equation if request.family.takes("ratio") else ""
+        entry: dict[str, Any] = {
+            "says": one.says.replace("the field", centre), "letter": one.letter,
+            "value": _value(there.get(one.key), text), "unit": _unit(one.unit, request.time),
+            "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
+            "equation": equation or None, "reason": None,
+        }  # fmt: skip
+        if entry["value"] is None:
+            entry |= {"unit": None, "reason": reason_of(one.key, request.family, motion, floats)}
+        else:
+            entry |= {"digits": text or f"{entry['value']:.10g}", "proven_digits": significant(text)}
+        if entry["sigma"] == math.inf:
+            entry |= {"sigma": None, "proven_digits": 0, "reason": "the errors of the inputs tell no deviation of it"}
+        made[one.key] = entry
+    return made
+
+
+def _value(value: float | None, text: str) -> float | None:
+    """Return a double, or that of its proven digits where they differ."""
+    if text and not (value and math.isclose(value, float(text), rel_tol=10.0 ** (1 - significant(text)))):
+        return float(text)
+    return value
+
+
+def significant(text: str) -> int:
+    """Return the number of significant digits in a text."""
+    return len(text.partition("e")[0].replace("-", "").replace(".", "").lstrip("0"))
+
+
+def _unit(unit: str, time: str) -> str:
+    """Return a unit of the register by the unit of time that the inputs have."""
+    return unit.replace("time", "s" if time in {"s", "1/s"} else time)
+
+
+def reason_of(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> str:
+    """Return why the card lacks a number."""
+    try:
+        _number(key, family, motion, arguments, math)
+    except DomainError as reason:
+        return str(reason).rstrip(".")
+    except ZeroDivisionError:
+        return "the axis does not go round"
+    except OverflowError:
+        return "it is beyond the largest double"
+    return "the motion has no period"
+
+
+def _proven(key: str, item: Thing, exact: Mapping[str, Any], digits: int) -> str:
+    """Return the proven digits of a number of the card, none where there is no proof."""
+    try:
+        made = item.balls()
+        if key == "ratio" and hasattr(exact.get("ratio"), "I2"):
+            from atlas.bodies.certified_body import ratio_of
+
+            number = quantity(certified(lambda: ratio_of(exact["ratio"]), digits), digits)
+        else:
+            number = quantity(certified(lambda: _number(key, item.family, made, exact, Balls()), digits), digits)
+    except (AtlasError, TypeError, AttributeError, ZeroDivisionError):
+        return ""
+    return number.digits.removesuffix(MARK) if number.proven else ""
+
+
+def thing_of(request: Asked) -> Thing:
+    """Return the object of a request. Raises AtlasError where there is no such object."""
+    return Thing.of(
+        Request([case_of(request)], {"family": request.family.name, **request.exact_values}, request.digits)
+    )
+
+
+def centre_of(request: Asked) -> str:
+    """Return the direction that the axis goes round, in words."""
+    if request.family.takes("coupling"):
+        return "the vertical"
+    components = case_of(request).components if request.body else request.values.get("field", ())
+    return "the field" if any(components) else "its momentum"

@@ -1,0 +1,108 @@
+"""The numbers of a report elsewhere: at the shell, in Python, and in reports of neighbouring objects."""
+
+import inspect
+import shlex
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from atlas.book.digits import plain
+from atlas.book.parts import Asked, case_of
+from atlas.errors import DomainError
+
+
+def near(request: Asked) -> Iterator[tuple[str, Asked]]:
+    """Yield (words, request) for neighbouring objects."""
+    values, name = request.values, request.family.name
+    if not request.body:
+        return
+    B2, B3 = case_of(request).components
+    if "omega2" in values:
+        w2 = values["omega2"]
+        without_third = {"omega3": None} if "omega3" in values else {}
+        starts = {
+            r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair": -2 * B2 - w2,
+            "at rest": 0.0,
+            r"$\phi=0$: it turns as a whole": -2 * B2,
+        }
+        for words, omega2 in starts.items():
+            if B2 and omega2 not in {w2, -B2}:
+                yield words, request.changed(name, omega2=omega2, **without_third)
+    if "omega" in values:
+        w1, w2, w3 = values["omega"]
+        pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
+        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", request.changed(name, omega=pair, spin=None)
+        if B2 and w2 != -B2:
+            same = request.changed("elementary", omega2=w2, omega=None, spin=None)
+            yield r"the motion without nutation with this $\omega_2$", same
+    yield from _of_other_bodies(request)
+    if request.family.sampled:
+        yield (
+            "all motions of this body in this field",
+            request.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),
+        )
+
+
+def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
+    """Yield (words, request) of the same motion for a ball, and for a disk or loop."""
+    ratio = case_of(request).ratio
+    shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
+    if request.body and "density" in request.options:
+        shape |= {"density": None, "mass": request.body["mass"]}
+    for border, words in ((1.0, "the same in a ball, $I=1$"), (2.0, "the same in a disk or loop, $I=2$")):
+        if ratio != border and "points" not in request.options:
+            yield words, request.changed(request.family.name, **shape, ratio=border)
+
+
+def reproduced(request: Asked, motion: Any) -> str:
+    """Return fenced lines of the shell and of Python that print the same numbers."""
+    family = request.family
+    kernels = family.kernels()
+    values = zip(
+        inspect.signature(kernels).parameters, (_python(request, p.name) for p in family.parameters), strict=True
+    )
+    arguments = ", ".join(f"{name}={value}" for name, value in values if value)
+    lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})"]
+    lines += [f"print(it.{q.name})" for q in family.quantities if _is_printed(q, motion)]
+    command = family.command.name if family.command else family.name
+    digits = [] if request.deviations else ["--digits", str(request.digits)]
+    return "\n".join(
+        [
+            "On the command line:", "", "```console",
+            f"$ {shlex.join(['atlas', command, *request.typed, *digits])}", "```", "",
+            "In Python, as doubles next to them:", "", "```python", *lines, "```",
+        ]
+    )  # fmt: skip
+
+
+def _is_printed(quantity: Any, motion: Any) -> bool:
+    """Return whether a quantity of the motion, without its own getter, has digits to print."""
+    if quantity.get or not (quantity.certified or quantity.printed):
+        return False
+    try:
+        getattr(motion, quantity.name)
+    except DomainError:
+        return False
+    return True
+
+
+def _python(request: Asked, name: str) -> str:
+    """Return a parameter as it is written in Python, nothing for one that is left out."""
+    body, field = request.body or {}, request.field or {}
+    if name == "ratio":
+        if "shape" in body:
+            sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
+            return f"atlas.SymmetricBody.{body['shape']}({sizes})"
+        return (
+            plain(body["ratio"])
+            if "ratio" in body
+            else f"atlas.SymmetricBody{tuple(float(Fraction(x)) for x in body['inertia'])}"
+        )
+    if name == "field" and field:
+        if "prime" in field:
+            return str(tuple(float(Fraction(x)) for x in field["prime"]))
+        mu = field.get("charge_to_mass", 0.0)
+        mu = float(Fraction(mu)) if mu else f"{body['charge']!r} / {body['mass']!r}"
+        return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).pair"
+    value = request.values.get(name)
+    return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)

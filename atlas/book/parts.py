@@ -1,0 +1,237 @@
+"""The request of a report of one object, and the blocks of its tables and figures."""
+
+import re
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from dataclasses import field as attribute
+from hashlib import sha256
+from math import pi
+from typing import Any
+
+from atlas.book.body_and_field import Body, Field, body_and_field
+from atlas.book.digits import plain
+from atlas.book.files import RULE
+from atlas.book.schema import convert
+from atlas.book.tables import compute
+from atlas.book.tables.table import Request
+from atlas.errors import AtlasError
+from atlas.motions.register import FAMILIES, Family
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Request of a report.
+
+    options   the options that say which object it is, each with the typed words, by name
+    body, field   their records in a report file, where the family has them; `time` is the unit of time
+    units     the system of units, si or gaussian, of a family whose parameters have different units
+    values    the other parameters of the family; `exact` those that no floats hold, as fractions in text
+    called    the name of its files, if it has one of its own
+    parts     the parts that the report has; `only`, the same as typed, "" for all
+    is_page   whether the command is that of a page
+    note      a sentence on its axes
+    deviations   quantity, symbol, value with its standard deviation, unit: rows, where inputs have an uncertainty;
+              `deviation_notes` say how they were found, `sigma` has the standard deviations of the numbers of a card
+    """
+
+    family: Family
+    options: Mapping[str, tuple[str, ...]]
+    values: Mapping[str, Any]
+    body: Mapping[str, Any] | None = None
+    field: Mapping[str, Any] | None = None
+    time: str = "time"
+    units: str = ""
+    digits: int = 10
+    title: str = ""
+    called: str = ""
+    parts: Sequence[str] = ()
+    only: str = ""
+    is_page: bool = False
+    note: str = ""
+    deviations: Sequence[Sequence[str]] = ()
+    deviation_notes: Sequence[str] = ()
+    sigma: Mapping[str, float] | None = None
+    exact: Mapping[str, Sequence[str]] = attribute(default_factory=dict)
+
+    @property
+    def typed(self) -> list[str]:
+        """Options of the object, as typed."""
+        return [word for name, texts in self.options.items() for word in (f"--{name}", *texts)]
+
+    @property
+    def words(self) -> list[str]:
+        """Words of the command that makes the report: the family where options do not tell it, and all options."""
+        own = {"title": self.title, "name": self.called, "digits": self.digits if self.digits != 10 else "",
+               "only": self.only}  # fmt: skip
+        options = [word for name, value in own.items() if value for word in (f"--{name}", str(value))]
+        return [*[self.family.page] * self.family.takes("coupling"), *self.typed, *options]
+
+    @property
+    def exact_values(self) -> dict[str, Any]:
+        """Parameters by name, with fractions in the place of floats that would be rounded."""
+        return {**self.values, **self.exact}
+
+    @property
+    def command(self) -> str:
+        """The command that makes the report."""
+        if self.is_page:
+            return shlex.join(["atlas", "page", *replace(self, only="").words])
+        return shlex.join(["atlas", "report", "your_body", *self.words])
+
+    def changed(self, family: str, **options: Any) -> "Asked":
+        """Return the request for a neighbouring object; an option with value None is removed."""
+        new = {name: _texts(value) for name, value in options.items() if value is not None}
+        kept_options = {
+            name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
+        }
+        ratio = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
+        return replace(
+            self,
+            called="",
+            title="",
+            family=FAMILIES[family],
+            options=kept_options | new if "ratio" in kept_options else ratio | kept_options | new,
+        )
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(plain(x + 0.0) for x in (value if isinstance(value, list | tuple) else (value,)))
+
+
+MIN_PRECESSION = 1e-3
+"""Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
+
+WITHOUT = {"energy_momentum": "the steady motions with this spin lie far outside its frame."}
+"""Why a figure is left out, where its recipe names parameters that the reader did not give."""
+HEAD = (
+    "# Made by `{command}`, digest {digest}.\n"
+    "# Change it as you like, and build it by `atlas report {name}.md --format single pdf`.\n\n"
+)
+
+
+def headed(name: str, content: str, command: str) -> str:
+    """Return a file's content below a head with its digest and the command that makes it."""
+    start = f"{RULE}\n" * content.startswith(RULE)
+    content = content.removeprefix(start)
+    digest = sha256(content.encode()).hexdigest()[:12]
+    return start + HEAD.format(command=command.replace("\n", " "), digest=digest, name=name) + content
+
+
+def edited(file: str) -> bool:
+    """Whether the content of a report's file differs from the digest in its head."""
+    head, _, content = file.partition("\n\n")
+    matched = re.search(r"digest (\w+)\.", head)
+    return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
+
+
+def setting_of(request: Asked) -> Iterator[dict[str, Any]]:
+    """Yield the table of the body and the field B as given, and what follows from them, if B is given."""
+    if request.field and "B" in request.field:
+        yield {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
+
+
+def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
+    """Yield the table of standard deviations, if inputs have uncertainties."""
+    if request.deviations:
+        yield {
+            "kind": "listing", "id": "deviations", "rows": [list(row) for row in request.deviations],
+            "columns": ["Quantity", "Symbol", "Value", "Unit"],
+            "caption": " ".join(["The same with the uncertainties of the inputs, which are independent.",
+                                 *request.deviation_notes]),
+        }  # fmt: skip
+
+
+def other_families(family: Family) -> list[Family]:
+    """Return the other families of a body in a field that need no further inputs."""
+    names = {p.name for p in family.parameters}
+    parameters = {other.name: {p.name for p in other.parameters} for other in FAMILIES.values() if other is not family}
+    return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
+
+
+def _calls(request: Asked, family: Family) -> dict[str, str]:
+    """Return the keys by which a block names the body and the field, if the family takes them."""
+    return {
+        key: key
+        for key, name in (("body", "ratio"), ("field", "field"))
+        if request.body and any(p.name == name and not p.option for p in family.parameters)
+    }
+
+
+def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the block of a computed table of a family, with its parameters' values."""
+    unit = {"units": request.units} if request.units else {"time": request.time} if request.time != "time" else {}
+    return {
+        "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(request, FAMILIES[family]),
+        "digits": request.digits, "parameters": {"family": family, **values, **unit},
+    }  # fmt: skip
+
+
+def too_slow(motion: Any, time: str) -> Iterator[str]:
+    """Yield sentences on rotations too slow or too small to be seen in a figure of some periods of nutation."""
+    from atlas.pictures.any_motion import slow_turn
+    from atlas.pictures.captions import lasting
+
+    unit = "s" if time in {"s", "1/s"} else time
+    try:
+        period, angle, rate = float(motion.period), float(motion.precession_per_period), float(motion.precession_rate)
+    except (AttributeError, AtlasError):
+        return
+    turn = f"a whole turn takes {lasting(2 * pi / abs(rate), unit)}" if rate else ""
+    if angle and slow_turn(motion, 5 * period):
+        yield (
+            f"The nutation, of the period {lasting(period, unit)}, which is too small to be seen: the axis is followed "
+            f"for the precession, by {angle:.3g} rad in that time; {turn}."
+        )
+    elif 0 < abs(angle) < MIN_PRECESSION:
+        yield (
+            f"The precession about the field: in a period of nutation, {lasting(period, unit)}, the axis turns by "
+            f"{angle:.3g} rad, so that figures of some periods show none of it; {turn}."
+        )
+
+
+def figures_of(
+    request: Asked, recipes_of: Mapping[str, Mapping[str, Any]], left_out: list[str]
+) -> Iterator[dict[str, Any]]:
+    """Yield the blocks of figures by recipe, with given parameters; add to `left_out` why figures are missing.
+
+    A figure is left out where its recipe refuses the parameters.
+    """
+    from atlas.bodies.units import system
+    from atlas.pictures import recipes
+
+    case = case_of(request)
+    for name, given in recipes_of.items():
+        recipe = recipes.load(name)
+        values = {key: value for key, value in request.values.items() if key in recipe.parameters} | dict(given)
+        if recipe.parameters.get("unit") == "time":
+            values["unit"] = request.time
+        if request.units and "length" in recipe.parameters:
+            values["length"] = system(request.units).length_unit
+        parameters = {"ratio": case.ratio, "field": case.components} if request.body else {}
+        try:
+            recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
+        except AtlasError as reason:
+            text = WITHOUT.get(name, str(reason).removeprefix(f"figure {name}: "))
+            left_out.append(f"The figure `{name}`: {text}".replace(f": figure {name} ", " "))
+        else:
+            calls = _calls(request, request.family) if "ratio" in recipe.parameters else {}
+            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **calls, "parameters": values}
+
+
+def case_of(request: Asked) -> Any:
+    """Return the request's `BodyAndField`."""
+    body = convert(request.body, Body) if request.body else None
+    return body_and_field(body, convert(request.field, Field) if request.field else None)
+
+
+def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+    """Yield the table of the nearest closed motions, if there are any; else add the reason to `left_out`."""
+    if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
+        block = table_of(request, "closed", request.family.name, request.exact_values)
+        try:
+            compute("closed", Request([case_of(request)], block["parameters"], request.digits))
+        except AtlasError as reason:
+            left_out.append(f"The nearest closed motions: {reason}")
+        else:
+            yield block

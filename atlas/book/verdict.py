@@ -1,0 +1,94 @@
+"""Words on a body and its motion: between needle and disk, what kind of motion, whether it is stable."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from atlas.book.tables.properties import Thing
+from atlas.motions.register import Family
+
+NEEDLE = 0.1
+"""I = I3/I2 below which a body is called a needle."""
+NEAR_BALL = 0.01
+"""|I - 1| below which a body is called nearly a ball."""
+
+
+def stands(ratio: float) -> str:
+    """Return where a body stands between a needle and a disk, in words."""
+    if ratio == 1.0:
+        return "a ball: every axis is like every other"
+    if ratio == 2.0:
+        return "as flat as a body can be, a disk or a loop"
+    if abs(ratio - 1.0) < NEAR_BALL:
+        return "nearly a ball"
+    if ratio < NEEDLE:
+        return "nearly a needle"
+    return "longer than a ball" if ratio < 1.0 else "flatter than a ball"
+
+
+def verdict(item: Thing) -> str:
+    """Return what kind of motion it is, and whether a small push stays small, in words."""
+    family, motion = item.family, item.kernels()
+    if not family.sampled:
+        return "no start was given, so that all motions are shown and none is followed"
+    if nutation := family.quantity("nutation"):
+        return f"{motion.case}, {nutation.value(motion)} against small nutations"
+    kind = str(motion.kind)
+    if kind == "ball":
+        kind = "it turns as a ball does, about its momentum"
+    says = "its axis nods" if kind.startswith("nutation") else kind.replace("on a torus", "with three frequencies")
+    stable = is_stable(item)
+    return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
+
+
+def is_stable(item: Thing) -> bool | None:
+    """Return whether a motion whose axis keeps its angle stays so after a push; None where no push is decided on."""
+    family, motion = item.family, item.kernels()
+    if family.takes("coupling"):
+        return getattr(motion, "stable", None)
+    if motion.kind == "spin about an axis" and family.takes("omega"):
+        return spins_on(*(list(map(Fraction, values)) for values in item.exact))
+    if not family.takes("ratio"):
+        return None
+    ratio, field, (omega1, omega2, omega3) = item.floats
+    if motion.kind == "spin along the field":
+        I, b = Fraction(getattr(ratio, "ratio", ratio)), Fraction(field[1])
+        gap = I * I * (Fraction(omega3) + b) ** 2 + 4 * (1 - I) * b * b
+        return gap > 0 if gap else None
+    if motion.kind == "precession":
+        from atlas.motions.elementary.certified_hyperbola import Hyperbola
+
+        if not omega1 and field[0] and omega2 != -field[0]:
+            return bool(Hyperbola(*item.exact[:2]).stable(omega2))
+    return None
+
+
+def spins_on(moments: Sequence[Fraction], field: Sequence[Fraction], omega: Sequence[Fraction]) -> bool | None:
+    """Return whether a spin about a principal axis, along the field if there is one, is linearly stable.
+
+    With W = Omega + K along axis 3, pushes obey W1' = r1 (W W2 - K K2), W2' = r2 (W W1 - K K1), K1' = W K2 - K W2,
+    K2' = K W1 - W K1, where r1 = (I2 - I3)/I1 and r2 = (I3 - I1)/I2. Solutions exp(s t) have s^4 + p s^2 + q = 0: they
+    stay small where both s^2 are negative and different. None at a border, where the linear equations do not decide.
+    """
+    axis = next(i for i in range(3) if omega[i])
+    I1, I2, I3 = (moments[(axis + i) % 3] for i in (1, 2, 3))
+    W, K, r1, r2 = omega[axis] + field[axis], field[axis], (I2 - I3) / I1, (I3 - I1) / I2
+    if not K:
+        return r1 * r2 < 0 if r1 * r2 else None
+    p, q = (1 - r1 * r2) * W * W + (r1 - r2) * K * K, -r1 * r2 * (W * W - K * K) ** 2
+    gaps = p, q, p * p - 4 * q
+    return all(x > 0 for x in gaps) if all(gaps) else None
+
+
+def place_of(family: Family, motion: Any) -> str:
+    """Return where the start lies beside the curve of motions without nutation, in words."""
+    if not family.sampled:
+        return "Any other start makes the axis nod."
+    if family.takes("omega2"):
+        return "The given start lies on it: the axis keeps its angle with the field."
+    if motion.kind == "ball":
+        return "All axes of a ball are alike: the drawn one turns about the angular momentum, and that about the field."
+    nods = str(motion.kind).startswith("nutation")
+    return (
+        "The given start lies off it, so that the axis nods." if nods else "From the given start the axis does not nod."
+    )

@@ -1,0 +1,332 @@
+"""The request of a report of a body, a field and a start, that the options of a command are."""
+
+import re
+import tomllib
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from difflib import get_close_matches
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from atlas.cli import body
+from atlas.cli.app import GONE
+from atlas.cli.axes import in_principal_axes, motion_in_given_axes
+from atlas.cli.family import family_of, in_field, in_plane, lines_of_quantities, object_options, spread_of, values_of
+from atlas.cli.options import jobs_option, out_option, stack
+from atlas.cli.points import points
+from atlas.cli.top import top_units
+from atlas.cli.typed import Inclined, parts_of
+from atlas.cli.uncertain import UncertainAnswer, certain, uncertain
+from atlas.cli.words import Command, Words
+from atlas.errors import unknown
+from atlas.motions.register import FAMILIES, Family
+from atlas.places import folder
+
+if TYPE_CHECKING:
+    from atlas.book.parts import Asked
+
+DEVIATIONS = "atlas.cli.body_request.deviations"
+"""Key of the deviations of quantities of inputs in other axes than the report has."""
+EXPLAIN = "--explain"
+NAME = "your_body"
+ENDING = ".inputs.toml"
+"""How the name of a file of inputs ends."""
+PARTS = ("card", "body", "motion", "maps", "elsewhere", "left-out")
+"""Parts of a report, in their order."""
+PAGE = "card,motion,elsewhere,left-out"
+"""Those that `atlas page` has, where a start is given."""
+OWN = {"out", "digits", "title", "name", "jobs", "note", "only"}
+"""Options of a report, not of its object."""
+
+
+def report_options(out: str) -> Callable[[Any], Any]:
+    """Return the decorator of a report's options; `out` is the default folder."""
+    return stack(
+        out_option(out),
+        click.option("--title", help="Title of the report."),
+        click.option("--name", metavar="NAME", help="Name of its files, in the place of your_body."),
+        jobs_option,
+    )
+
+
+def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str:
+    """Return parts in their order, "" for all. Raises AtlasError for an unknown one."""
+    chosen = text.split(",") if text else []
+    for name in chosen:
+        if name not in PARTS:
+            raise unknown("part", name, PARTS, "of the report")
+    return ",".join(name for name in PARTS if name in chosen) if {*chosen} < {*PARTS} else ""
+
+
+def command_of(family: Family) -> click.Command:
+    """Make the command of a family, which returns the request that its options are, and these."""
+    more = [
+        report_options("build/report"),
+        click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
+        click.option("--only", metavar="PART,...", default="", callback=in_order, help=f"Parts: {', '.join(PARTS)}."),
+        click.option("--note", default="", hidden=True),
+    ]
+
+    def run(**options: Any) -> tuple["Asked", dict[str, Any]]:
+        return with_errors(asked(family, options), options)
+
+    says = f"Make a report: {family.says}."
+    command = click.command(family.page, cls=Command, carries=True, help=says, hidden=family.page in GONE)
+    return command(stack(*object_options(family), *more)(run))
+
+
+COMMANDS: dict[str, click.Command] = {one.page: command_of(one) for one in FAMILIES.values() if one.command}
+"""By the name of the command; the families that are no command of their own have no name here, only options."""
+
+
+def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
+    """Return a request with the standard deviations of the numbers of its card, and its options."""
+    from atlas.book.card import numbers
+
+    family, names = wanted.family, [p.name for p in wanted.family.parameters]
+
+    def answered(moved: dict[str, Any]) -> dict[str, Any]:
+        return numbers(family, dict(zip(names, values_of(family, moved, exact=False), strict=True)))
+
+    if uncertain(options):
+        deviations = UncertainAnswer.of(answered, options | {"decimal": False}).spread.sigma
+        wanted = replace(wanted, sigma={place[0]: x for place, x in deviations.items()})
+    return wanted, options
+
+
+class ByOptions(click.Group):
+    """A group that finds the command by the options, where none is named; they may come from a file of inputs."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Insert the command before its options, of the family to which they belong."""
+        ctx.meta[EXPLAIN] = EXPLAIN in args
+        args = [word for word in args if word not in {NAME, EXPLAIN}]
+        if "--from" in args:
+            at = args.index("--from")
+            args = [*typed_in("--from", *args[at + 1 : at + 2]), *args[:at], *args[at + 2 :]]
+        if args and args[0] in GONE:
+            raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
+        if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
+            args = ["fit", "--fit", *args[1:]]
+        words = Words(args)
+        if not words.names & {*ctx.help_option_names}:
+            if args[:1] == ["motion"]:
+                args = [FAMILIES[family_of(words)].page, *args[1:]]
+            elif args and args[0].startswith("--"):
+                args = ["fit" if "--fit" in words.names else best(words), *args]
+            if args and args[0] in FAMILIES and FAMILIES[args[0]].in_given_axes:
+                args = in_own_axes(args, ctx) or args
+        return super().parse_args(ctx, args)
+
+
+def typed_in(option: str, file: str = "") -> list[str]:
+    """Return the words that a file of inputs holds, one of the gallery by its name alone.
+
+    Raises
+    ------
+    click.UsageError
+        For another file.
+    """
+    gallery = {path.name.removesuffix(ENDING): path for path in (folder("reports") / "bodies").glob(f"*{ENDING}")}
+    if file and not Path(file).suffix and not Path(file).exists() and file not in gallery:
+        raise click.UsageError(f"{option}: {unknown('body', file, gallery, 'in the gallery')}")
+    try:
+        content = tomllib.loads(gallery.get(file, Path(file)).read_text(encoding="utf-8"))
+        return [str(word) for word in content["typed"]]
+    except (KeyError, OSError, TypeError, ValueError) as error:
+        raise click.UsageError(
+            f"{option} takes a file NAME{ENDING} that {NAME} wrote, not {file or 'nothing'!r}."
+        ) from error
+
+
+def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
+    """Return the arguments of a motion in given axes as those along the own axes of its class; none if the same."""
+    with COMMANDS[args[0]].make_context(args[0], args[1:], parent) as context:
+        options = context.params
+        motion = motion_in_given_axes(options)
+        if motion is None:
+            return []
+        if uncertain(options):
+            parent.meta[DEVIATIONS] = _deviations(FAMILIES[motion.family], options)
+            options = context.params = {name: certain(value) for name, value in options.items()}
+            motion = motion_in_given_axes(options)
+        principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
+        if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
+            return []
+        own = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
+        own_words = [
+            word
+            for name, option in own.items()
+            if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
+            for word in (option, str(options[name]))
+        ]
+    click.echo(principal.note, err=True, nl=bool(principal.note))
+    return [principal.family.page, *principal.options, *own_words, "--note", principal.note]
+
+
+def best(words: Words) -> str:
+    """Return the command that fits the options: with fewest unknown, then fewest missing options."""
+    known = {name for one in COMMANDS.values() for param in one.params for name in param.opts}
+    option_by_name = {next(iter(get_close_matches(x.name, known, 1)), x.name): x for x in words.options}
+
+    def misfit(name: str) -> tuple[int, int]:
+        parameters = {
+            opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts
+        }
+        strange = sum(
+            opt not in parameters or parameters[opt].nargs not in {len(x.values), len(x.components)}
+            for opt, x in option_by_name.items()
+        )
+        starts = not {"--omega", "--spin"} & option_by_name.keys() if "--spin" in parameters else 0
+        return strange, starts + sum(param.required for opt, param in parameters.items() if opt not in option_by_name)
+
+    return min(COMMANDS, key=misfit)
+
+
+def asked(family: Family, options: dict[str, Any]) -> "Asked":
+    """Return the request of a report from the options of its command."""
+    from atlas.book.parts import Asked
+
+    body.check_speeds(options)
+    typed_options = typed_options_of(options.keys() - OWN, options)
+    options_asked = dict(
+        zip(
+            (p.name for p in family.parameters),
+            values_of(family, options | {"decimal": False}, exact=False),
+            strict=True,
+        )
+    )
+    family.kernels()(*options_asked.values())  # refuses an impossible object before figures are drawn
+    values = {
+        p.name: _plain(options_asked[p.name])
+        for p in family.parameters
+        if p.option and options_asked[p.name] is not None
+    }
+    exact = {
+        name: [str(Fraction(x)) for x in value]
+        for name in values
+        if isinstance(value := options_asked[name], tuple) and any(isinstance(x, Fraction) for x in value)
+    }
+    values |= {"c": options_asked["c"]} if "c" in options_asked else {}
+    records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.takes("coupling") else {}
+    if "c" in options_asked and (units := body.system_of(options)) != "natural":
+        records = {"time": "s", "units": units}
+    if in_field(family):
+        records = {"time": body.units_of(options).get("time", "time")}
+    if "ratio" in options_asked:
+        records["body"] = _body(options)
+    if in_plane(family):
+        records["field"] = _field(options)
+    title, digits, called = options["title"] or "", options["digits"], file_name(options)
+    context = click.get_current_context(silent=True)
+    deviations = context.meta.get(DEVIATIONS) if context else None
+    if deviations or uncertain(options):
+        deviations = deviations or _deviations(family, options)
+        records |= dict(zip(("deviations", "deviation_notes"), deviations, strict=True))
+    only, is_page = options["only"], bool(context and context.parent and context.parent.command.name == "page")
+    only = only if family.sampled or not is_page else ""  # all that there is of a body without a start
+    return Asked(
+        family, typed_options, values, **records, digits=digits, title=title, called=called, note=options["note"],
+        exact=exact, parts=only.split(",") if only else PARTS, only=only, is_page=is_page,
+    )  # fmt: skip
+
+
+def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
+    """Return quantities, symbols, values with standard deviations in brackets and units, a row each; and notes."""
+    spread = spread_of(family, options | {"decimal": False})
+    lines = lines_of_quantities(family, spread.texts(), options, family.command.named if family.command else "")
+    rows = [
+        [f"{line.symbol} {line.says}" if line.says.startswith("of ") else line.says, f"`{line.symbol}`", line.value,
+         line.unit]
+        for line in lines
+    ]  # fmt: skip
+    return rows, spread.notes
+
+
+def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Return the options typed at the command line among `names`, each with its words."""
+    context = click.get_current_context()
+    words_by_option: dict[str, tuple[str, ...]] = {}
+    for param in context.command.params:
+        value = options[param.name] if param.name in names else None
+        if value is None or context.get_parameter_source(param.name) is not click.core.ParameterSource.COMMANDLINE:
+            continue
+        option = param.opts[0].removeprefix("--")
+        values = value.parts if isinstance(value, Inclined) else (value,)
+        words_by_option |= dict(zip((option, "angle"), map(_texts, values), strict=False))
+    return words_by_option
+
+
+def file_name(options: dict[str, Any]) -> str:
+    """Return the files' name from --name, or "". Raises click.UsageError for other characters."""
+    if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
+        raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
+    return called
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(getattr(x, "text", str(x)) for x in parts_of(value))
+
+
+def _plain(value: Any) -> Any:
+    return [float(x) for x in value] if isinstance(value, tuple) else float(value)
+
+
+def _exact(x: Any) -> float | str:
+    """Return a number for a report file: a float, or text of a fraction where no float equals it."""
+    from atlas.arithmetic.certified_inputs import rational
+    from atlas.arithmetic.given import as_float_or_fraction
+
+    number = as_float_or_fraction(rational(x, "a number"))
+    return str(number) if isinstance(number, Fraction) else number
+
+
+def _body(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the body as a report file has it."""
+    of_field = {"field", "magnetic", "mu", "units"}
+    parameters = {
+        name: _plain(value)
+        for name, value in body.body_parameters(options).items()
+        if name not in of_field and not isinstance(value, str)
+    }
+    if options["points"] is not None:
+        parameters |= {"inertia": [*map(_exact, points(options["points"]).exact)]}
+    if parameters.pop("density", None) is not None:
+        parameters["mass"] = float(body.mass_of(options))
+    if options["shape"] is not None:
+        parameters = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | parameters
+    title = options["shape"].replace("-", " ").replace("_", " ") if options["shape"] else "body"
+    return {"title": title, **parameters}
+
+
+def _field(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the record of the field for a report file: as B in the plane of the report's axes, else as B'."""
+    B2, B3 = body.chosen_field(options)
+    if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
+        return {
+            "title": f"field {_field_words(options['field'] or (float(B2), float(B3)))}",
+            "prime": [*map(_exact, (B2, B3))],
+        }
+    system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
+    field = (
+        {}
+        if options["mu"] is None and options["points"] is None
+        else {"charge_to_mass": _exact(body.exact_charge_to_mass(options | {"decimal": False}))}
+    )
+    unit = {"SI": "T", "Gaussian": "G"}[system]
+    return {
+        "title": f"field of {_field_words(options['magnetic'], unit)}",
+        "system": system,
+        "B": [0.0, *_plain((x, y))],
+        **field,
+    }
+
+
+def _field_words(field: Any, unit: str = "") -> str:
+    """Return a field in words: strength and angle if so typed, else components."""
+    if isinstance(field, Inclined):
+        return " at ".join(x.text for x in field.parts)
+    return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"
