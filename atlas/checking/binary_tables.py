@@ -43,6 +43,8 @@ def head_and_columns(path: Path) -> tuple[list[str], Columns]:
         raise
     except Exception as error:  # pyarrow has errors of its own
         raise AtlasError(f"{path.name} cannot be read as {path.suffix}: {' '.join(str(error).split())}.") from error
+    if not any(map(np.size, columns.values())):
+        raise AtlasError(f"{path.name} is empty; it needs columns such as t, R11, R12, R13 with numbers.")
     for name, column in columns.items():
         if column.shape != next(iter(columns.values())).shape[:1]:
             raise AtlasError(f"{path.name}: {name} has the shape {column.shape}; each column is an array (N,).")

@@ -35,7 +35,8 @@ QUESTIONS = {
     r"r\w?\d+|rot.*|dcm.*|m\d\d": "matrices that take the body to the laboratory are R11 to R33, row and column",
     r"(roll|pitch|yaw|phi|theta|psi|euler).*": "of Euler angles SciPy makes x, y, z, w = Rotation.from_euler(...)"
     ".as_quat()",
-    r"t.*|.*time.*|.*sec.*": "the time is called t, with its unit, as t [ms]",
+    "[xyz]": "of a gyroscope x, y, z are called gyro_x, gyro_y, gyro_z, and a quaternion has a scalar w beside them",
+    r"t([mnuµ]?s(ec)?|\d*|sim)|.*(time|sec|elapsed|clock).*": "the time is called t, with its unit, as t [ms]",
 }
 """Patterns of misspelt names of columns, with the sentence on each."""
 

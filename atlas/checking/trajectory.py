@@ -58,7 +58,7 @@ NAMED = re.compile(
 """The names of columns in a comment, as NumPy's savetxt writes them."""
 
 
-HOLES = ("na", "n/a", "null", "none")
+HOLES = ("na", "n/a", "#n/a", "null", "none", "-")
 """Texts of cells without a number, besides NaN and the empty text."""
 
 POLICIES = ("omit", "raise")
@@ -99,6 +99,8 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
             path.name, title.written, parameters, _sliced(columns, title, path.name), title.left_out, title.units
         )
         return
+    if path.is_dir():
+        raise AtlasError(f"{path.name} is a folder; a table is a file, or the folder x.parquet of a sweep.")
     separator = ""
     with path.open("rb") as raw:
         encoding = "utf-16" if raw.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"

@@ -7,14 +7,14 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import FILE, Place, examples, given, json_option, numbers, stack
+from atlas.cli.options import TABLE, Place, examples, given, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 from atlas.cli.words import Command
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Options that only a top has."""
 
-file_argument: Callable[[Any], Any] = click.argument("files", type=FILE, metavar="FILE.csv...", nargs=-1, required=True)
+file_argument = click.argument("files", type=TABLE, metavar="FILE.csv...", nargs=-1, required=True)
 graded_options: Callable[[Any], Any] = stack(
     numbers("threshold", "Number of correct digits below which a column fails.", default="6", show_default=True),
     click.option(

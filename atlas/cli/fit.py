@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import FILE, Place, examples, json_option, numbers, stack
+from atlas.cli.options import TABLE, Place, examples, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 from atlas.cli.typed import REAL
 from atlas.cli.words import Command
@@ -69,7 +69,7 @@ fit_options: Callable[[Any], Any] = stack(
         "atlas fit mine.csv --predict 1000 --horizon 0.1 --json",
     ),
 )
-@click.argument("file", type=FILE, metavar="FILE.csv")
+@click.argument("file", type=TABLE, metavar="FILE.csv")
 @fit_options
 @click.option(
     "--figure",

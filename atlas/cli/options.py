@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.typed import REAL
+from atlas.cli.typed import REAL, check_units
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -89,6 +89,9 @@ output_options: Callable[[F], F] = stack(
 FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
 """A file that is there."""
 
+TABLE = click.Path(exists=True, path_type=Path)
+"""A file that is there, or the folder of a Parquet data set."""
+
 
 def out_option(standard: str) -> Callable[[F], F]:
     """Return the option for the folder that files go to."""
@@ -139,6 +142,7 @@ def chosen_times(options: dict[str, Any]) -> list[float]:
     if options["times"]:
         raise click.UsageError("give --times or --grid, not both.")
     start, step, count = options["grid"]
+    check_units("--grid", (start, step))
     if count != int(count) or not 0 < count <= 1e6:
         raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
     denominator = start.exactly().denominator * step.exactly().denominator

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from atlas.cli.options import FILE, Place, examples, style_option
+from atlas.cli.options import TABLE, Place, examples, style_option
 from atlas.cli.points import cells_of
 from atlas.cli.words import Command
 from atlas.errors import AtlasError, unknown
@@ -39,7 +39,7 @@ MAX_DOTS = 200
         "atlas plot table.parquet ratio k phi --out frequencies.pdf --for aps",
     ),
 )
-@click.argument("table", type=FILE)
+@click.argument("table", type=TABLE)
 @click.argument("x")
 @click.argument("y", nargs=-1, required=True, metavar="Y...")
 @click.option(

@@ -15,7 +15,7 @@ from atlas.cli.axes import along_principal_axes, motion_in_given_axes
 from atlas.cli.options import Place, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
-from atlas.cli.typed import REAL
+from atlas.cli.typed import REAL, check_units
 from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Command
 from atlas.families.family import TIME
@@ -383,6 +383,7 @@ def _values(family: str, name: str, value: Any) -> Any:
     option.opts = [name]
     if ":" not in value:
         typed = [REAL.convert(x.strip(), option, click.get_current_context()) for x in value.split(",")]
+        check_units(name, tuple(typed))
         if not any(x.sigma for x in typed):
             return [*map(float, typed)]
         if len(typed) > 1:
@@ -393,7 +394,9 @@ def _values(family: str, name: str, value: Any) -> Any:
     start, stop, *words = value.split(":")
     if not words or words[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", words[0], re.ASCII):
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {value!r}.")
-    start_value, word = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
+    ends = tuple(REAL.convert(x.strip(), option, None) for x in (start, stop))
+    check_units(name, ends)
+    start_value, word = map(float, ends)
     if len(words) == 2 and start_value * word <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {value!r}.")
     # no more digits are read than a count can have

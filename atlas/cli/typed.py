@@ -125,6 +125,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         if len(fields) != 3 + log:
             return [self._single(word, param, ctx)]
         start, stop, count = (self._single(item, param, ctx) for item in fields[:3])
+        check_units(param.opts[0], (start, stop))
         unit = str(WANTED[str(param.name)]) if start.unit or stop.unit else ""
         if not count.is_integer() or not 2 <= count <= MAX_RANGE_LENGTH:
             raise click.UsageError(f"the count of {word} is a whole number from 2 to {MAX_RANGE_LENGTH}.")
@@ -192,6 +193,16 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
 def parts_of(value: Any) -> tuple[Any, ...]:
     """Return the numbers of an option as a tuple."""
     return value if isinstance(value, tuple) else (value,)
+
+
+def check_units(option: str, value: Any) -> None:
+    """Raise click.UsageError where some numbers of an option have units and other nonzero ones have none."""
+    numbers = [x for x in parts_of(value) if isinstance(x, Typed) and x]
+    bare, units = [x for x in numbers if not x.unit], [x for x in numbers if x.unit]
+    if bare and units:
+        raise click.UsageError(
+            f"{option}: {bare[0].text} has no unit, and {units[0].text} beside it has one; give each its unit, or none."
+        )
 
 
 def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import click
 
 from atlas.cli.options import given
-from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, parts_of
+from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, check_units, parts_of
 from atlas.measured import WANTED
 
 OTHERS = {
@@ -74,16 +74,6 @@ def is_number(word: str, *, is_wanted: bool = True) -> bool:
     return bool(
         LIKE_A_NUMBER.fullmatch(word) and ((is_wanted and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK))
     )
-
-
-def check_units(option: str, value: Any) -> None:
-    """Raise click.UsageError where some numbers of an option have units and other nonzero ones have none."""
-    numbers = [x for x in parts_of(value) if isinstance(x, Typed) and x]
-    bare, units = [x for x in numbers if not x.unit], [x for x in numbers if x.unit]
-    if bare and units:
-        raise click.UsageError(
-            f"{option}: {bare[0].text} has no unit, and {units[0].text} beside it has one; give each its unit, or none."
-        )
 
 
 def check_bare_numbers(options: Mapping[str, Any]) -> None:
@@ -184,7 +174,7 @@ class Command(click.Command):
         for name, option in options.items():
             if option.multiple and option.type is REAL:
                 ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
-            elif name not in {"grid", "heavy"}:  # whose numbers have several units
+            if name not in {"grid", "heavy"}:  # whose numbers have several units
                 check_units(option.opts[0], ctx.params.get(name))
         check_bare_numbers(ctx.params)
         if ctx.params.get("angle") is not None:

@@ -14,11 +14,12 @@ from atlas.checking.trajectory import with_plurals
 from atlas.errors import AtlasError
 from atlas.fitting.conventions import minima_of, other_conventions
 from atlas.fitting.data import of_arrays, of_file
+from atlas.fitting.flow import FINE
 from atlas.fitting.free import with_free_body
 from atlas.fitting.models import model_of
 from atlas.fitting.nutation import with_ratio_one, with_small_nutations
 from atlas.fitting.parameters import parameters_of
-from atlas.fitting.problem import Problem, lag
+from atlas.fitting.problem import Problem
 from atlas.fitting.result import FOLLOWED, Fit
 from atlas.fitting.search import follow_data, rate_of, tries
 
@@ -167,8 +168,8 @@ def fit(
     if numbers <= len(problem.names):
         raise AtlasError(f"{numbers} numbers do not determine {len(problem.names)} parameters: measure more times.")
     tried = _tried(problem)
-    if loss != "linear" and not data.known:  # a robust loss needs the noise: once by a guess, once as it was found
-        noise = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
+    if not data.known:  # the loss, and the error of integrations: once by a guess, once with the noise that was found
+        noise = max(np.sqrt(problem.reduced(problem.residuals(tried[0][1]))), FINE)
         problem = Problem(model, replace(data, sigma=data.sigma * noise), parameters, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
     steady = doubt = ""
@@ -178,7 +179,7 @@ def fit(
     elif model.is_any_motion and "I1" in model.names:
         tried, steady = with_free_body(problem, tried)
     result = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
-    if not _is_followed(problem, tried[0][1]):
+    if not _is_followed(problem, np.array([result.parameters[name].value for name in result.names])):
         readings = other_conventions(
             problem,
             lambda read: parameters_of(model, read, params, fix),
@@ -236,4 +237,4 @@ def _is_followed(problem: Problem, x: Any) -> bool:
             1 + allowed * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST
         )
     small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
-    return bool(small and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))
+    return bool(small and abs(problem.correlation(x)) < SURE / np.sqrt(r.size))

@@ -40,12 +40,6 @@ MEDIAN = 0.4549364
 """Median of the square of a normal variable."""
 
 
-def lag(t: FloatArray, r: FloatArray) -> float:
-    """Return the correlation of residuals (N, k) at neighbouring times: 0 for white noise."""
-    r = r[np.argsort(t, kind="stable")]
-    return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
-
-
 class Problem:
     """Least-squares problem of a family on data; the parameters say which are varied, and within which bounds."""
 
@@ -291,6 +285,17 @@ class Problem:
         if self.loss == "linear":
             return float((r * r).sum() / (r.size - len(self.names)))
         return float(np.median(r * r)) / MEDIAN
+
+    def correlation(self, x: Vector) -> float:
+        """Return the correlation of residuals at neighbouring times, 0 for white noise.
+
+        0 also where most residuals are below the error of an integration, as of data without noise.
+        """
+        r = self.residuals(x).reshape(self.data.t.size, -1)
+        if np.median(np.linalg.norm(r * self.data.sigma, axis=1)) < self.error * self.data.spread:
+            return 0.0
+        r = r[np.argsort(self.data.t, kind="stable")]
+        return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
 
     def chi_square(self, x: Vector) -> float:
         """Return the sum of the loss function of the squared residuals."""

@@ -13,7 +13,7 @@ from atlas.fitting.alternatives import Alternative, equal_solutions, other_minim
 from atlas.fitting.data import KINDS, Data
 from atlas.fitting.least import SCORE
 from atlas.fitting.parameters import Parameters
-from atlas.fitting.problem import Problem, lag, minimum
+from atlas.fitting.problem import Problem, minimum
 from atlas.fitting.seen import Seen, gauge
 from atlas.lazy import cached_property
 from atlas.motions.any_body import AnyMotion
@@ -485,7 +485,7 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
     uneven = np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
     if problem.loss == "linear" and uneven and r.size >= MANY:
         out.append("Some residuals are far larger than most: if they are outliers, loss='soft_l1' (--loss) bears them.")
-    correlation = lag(problem.data.t, r)
+    correlation = problem.correlation(x)
     if abs(correlation) > SURPRISE / np.sqrt(r.size):
         out.append(
             f"Neighbouring residuals are correlated ({correlation:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is "

@@ -16,7 +16,7 @@ from atlas.checking.trajectory import opened
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError
 from atlas.fitting import fit_file
-from atlas.fitting.data import of_arrays
+from atlas.fitting.data import of_arrays, of_file
 
 MOTIONS = {
     "general": atlas.motion(1.4, (0.4, -0.9, 1.2), (0.5, 0.3, -1.1)),
@@ -67,6 +67,23 @@ def test_a_sweep_of_times_is_read_to_the_same_bits(tmp_path: Path) -> None:
     assert result.notes == ("columns left out: ratio, B2, B3, omega2, k, case",)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["sweep.csv", "sweep.npz", "sweep.parquet", "sweep.parquet/"])
+def test_sweeps_of_every_kind_are_fitted_from_the_same_bits(tmp_path: Path, name: str) -> None:
+    """A folder of Parquet files, too; a table without rows is refused."""
+    options = "sweep general --ratio 1.5 --field 1 2 --omega .3 .7 .2 --set t=0:7.3:12 --quantity R --rows 5 --out"
+    for place in (name, "reference.npz"):
+        made = CliRunner().invoke(program, [*options.split(), f"{tmp_path}/{place}"])
+        assert made.exit_code == 0, made.output
+    table, reference = of_file(tmp_path / name, None), np.load(tmp_path / "reference.npz")
+    assert np.array_equal(table.t, TIMES)
+    assert np.array_equal(table.data["rotation"].reshape(-1, 9).T, [reference[entry] for entry in MATRIX])
+    assert CliRunner().invoke(program, ["fit", f"{tmp_path}/{name}"]).exit_code == 0
+    np.savez(tmp_path / "empty.npz")
+    with pytest.raises(AtlasError, match="is empty"):
+        of_file(tmp_path / "empty.npz", None)
+
+
 def graded(path: Path, head: str, rows: Any, end: str = "\n", encoding: str = "utf-8") -> Check:
     """Grade rows of text cells below a head against the elementary motion."""
     path.write_bytes((head + "\n" + end.join(rows) + end).encode(encoding))
@@ -108,7 +125,10 @@ def test_numbers_of_fortran_are_read(tmp_path: Path) -> None:
 
 
 @settings(max_examples=25)
-@given(st.lists(st.sampled_from(["", "nan", "NaN", "NA", "null", " "]), min_size=1, max_size=5), st.integers(0, 6))
+@given(
+    st.lists(st.sampled_from(["", "nan", "NaN", "NA", "#N/A", "null", "-", " "]), min_size=1, max_size=5),
+    st.integers(0, 6),
+)
 def test_rows_that_lack_a_number_are_counted(tmp_path_factory: pytest.TempPathFactory, holes: Any, first: int) -> None:
     """The other rows are graded as without them."""
     path = tmp_path_factory.mktemp("holes") / "log.csv"
@@ -168,6 +188,9 @@ def test_what_is_not_used_is_named(tmp_path: Path) -> None:
     for wrong, hint in {"omega_x": "called Omega1", "wx": "called Omega1", "Quat_q0": "qw is the scalar"}.items():
         with pytest.raises(AtlasError, match=f"There is '{wrong}' .*{hint}"):
             graded(tmp_path / "t.csv", f"t,{wrong}", ["0,1"])
+    for other in ("Temp", "Torque1", "Battery"):
+        with pytest.raises(AtlasError, match=r"there is no column t\.$"):
+            graded(tmp_path / "t.csv", f"{other},Omega1,Omega2,Omega3", rows)
     motion = MOTIONS["general"]
     motion.to_dataframe(np.linspace(0, 8, 41)).to_csv(tmp_path / "fit.csv", index=False)
     report = fit_file(tmp_path / "fit.csv", sigma=1e-3).report()
