@@ -48,7 +48,7 @@ def tell_nearest(fault: str, taken: str) -> None:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """Say which known word was probably meant, or nothing."""
-    close = get_close_matches(word, list(known), 1, 0.5)
+    close = get_close_matches(word, list(known), 1)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 

@@ -123,7 +123,9 @@ class Check:
     def scene(self) -> Scene:
         """Draw the error of each group of columns against time."""
         if not self.columns:
-            raise AtlasError(f"{self.file} is of a body without a certified motion: there is no error to draw.")
+            raise AtlasError(
+                f"{self.file} is without an initial angular velocity, and so without an error to plot: give --omega."
+            )
         least, most = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
         layers = tuple(
             Curve(np.column_stack([self.times, np.clip(errors, least, most)]), *LINES[name])
@@ -324,9 +326,9 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
     notes = trajectory.left_out, holes_left_out(holes, rows, trajectory.file)
     if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.drifts()):
         raise AtlasError(
-            f"{trajectory.file}: without a certified motion for this inertia tensor the integrals are all there is to "
-            "test, and they need R11 to R33 or a quaternion, and Omega1 to Omega3. Three moments of inertia have one, "
-            "with a line such as '# omega = 0.3 0.7 0.2', the angular velocity at t = 0."
+            f"{trajectory.file}: without an initial angular velocity only the integrals can be tested, and their "
+            "columns are missing: give --omega, or a line such as '# omega = 0.3 0.7 0.2', or columns R11 to R33 (or a "
+            "quaternion) and Omega1 to Omega3."
         )
     return Check(
         file=trajectory.file,
@@ -352,5 +354,5 @@ def _within(threshold: float, floor: float) -> None:
     if 10.0**-threshold <= 2 * floor:
         raise AtlasError(
             f"The threshold may be {-math.log10(2 * floor) - 0.05:.1f} digits at most for this motion at these times, "
-            f"whose closed form is evaluated within {floor:.1e}; it cannot be {threshold:g}."
+            f"which is evaluated within {floor:.1e}, not {threshold:g}."
         )

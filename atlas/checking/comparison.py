@@ -36,7 +36,10 @@ class Comparison:
         """
         groups = [group for group in LINES if any(group in check.errors for check in self.checks)]
         if not groups:
-            raise AtlasError(f"{self.checks[0].file} and the others have no certified motion: no error can be drawn.")
+            raise AtlasError(
+                f"{self.checks[0].file} and the others are without an initial angular velocity, and so without "
+                "errors to plot: give --omega."
+            )
         if len(self.checks) > len(ROLES):
             raise AtlasError(f"A picture compares {len(ROLES)} files at most, not {len(self.checks)}: leave some out.")
         panels = tuple(self._panel(group) for group in groups)

@@ -65,23 +65,23 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
     if all(re.fullmatch(r"[+-]?\.?\d.*", name) for name, _ in titles if name):
         first_cell = cells[0].strip()
         raise AtlasError(
-            f"{source}: {first_cell!r} stands where the names of columns are wanted, such as t,R11,R12,R13."
+            f"{source}: the first line must name the columns, such as t,R11,R12,R13, but begins with {first_cell!r}."
         )
     columns = _canonical([name for name, _ in titles], extra_names)
     places: dict[str, int] = {}
     for i, name in columns.items():
         if name in places:
-            raise AtlasError(f"{source}: the column {name} is there twice.")
+            raise AtlasError(f"{source}: the column {name} is there twice: remove one.")
         places[name] = i
     unknown = [name for i, (name, _) in enumerate(titles) if name and i not in columns]
     hints = "; ".join(dict.fromkeys(filter(None, map(_hint, unknown))))
     ask = f" ({hints})" if hints else ""
     if "t" not in places:
-        raise AtlasError(f"{source}: there is no column t{ask}.")
+        raise AtlasError(f"{source}: there is no column t; name the times t{ask}.")
     if not places.keys() - {"t", "sigma"}:
         remark = f" There is {', '.join(map(repr, unknown))}{ask}." if unknown else ""
         raise AtlasError(
-            f"{source}: there is nothing to grade beside t; add R11 to R33 (the axis is R13, R23, R33), Omega1 to "
+            f"{source}: there are no data beside t; add columns R11 to R33 (the axis is R13, R23, R33), Omega1 to "
             f"Omega3, {'K1 to K3, ' if extra_names else ''}or the quaternion qw, qx, qy, qz.{remark}"
         )
     titles_used = {name: titles[i][0] for name, i in places.items()}

@@ -99,13 +99,13 @@ def convergence(checks: Sequence[Any]) -> Convergence:
         steps_in_words = ", ".join(f"{step:g}" for step in steps)
         raise AtlasError(f"The order needs two runs or more, each with another step; the steps are {steps_in_words}.")
     if not runs[0].errors or any(set(run.errors) != set(runs[0].errors) for run in runs):
-        raise AtlasError("The order needs runs with the same kinds of columns, of a body with a certified motion.")
+        raise AtlasError("The order needs runs with the same columns, and an initial angular velocity: give --omega.")
     if any(run.parameters != runs[0].parameters for run in runs):
-        raise AtlasError(f"{runs[0].file} and another run are of different motions: there is no common order.")
+        raise AtlasError(f"{runs[0].file} and another run are of different motions: give runs of one motion.")
     ends = [run.end for run in runs]
     if max(ends) - min(ends) > 1.5 * steps[0]:
         steps_in_words = " and at ".join(f"{end:g}" for end in (min(ends), max(ends)))
-        raise AtlasError(f"The runs end at t = {steps_in_words}: only errors over the same time have an order.")
+        raise AtlasError(f"The runs end at t = {steps_in_words}: the order needs runs over the same time.")
     errors = {name: tuple(max(run.errors[name]) for run in runs) for name in runs[0].errors}
     orders = {
         name: tuple(_slope(steps[i : i + 2], values[i : i + 2]) for i in range(len(steps) - 1))

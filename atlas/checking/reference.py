@@ -125,7 +125,7 @@ def _top(values: Given, file: str) -> Reference:
     strange = values.keys() & {"field", "omega2", "omega3", "ratio"}
     if strange or len(values.get("inertia", ())) != 2:
         raise AtlasError(
-            f"{file} is of a top, for it has {' and '.join(sorted(values.keys() & set(OF_TOPS)))}: a top has inertia = "
+            f"{file} is of a top, since it has {' and '.join(sorted(values.keys() & set(OF_TOPS)))}: give inertia = "
             f"I2 I3, direction, omega and, where they are not zero, coupling, linear, quadratic{_refused(strange)}."
         )
     omega, direction = _parameter(values, "omega", file), _parameter(values, "direction", file)
@@ -148,7 +148,7 @@ def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given
     """Return the initial angular velocity: omega, or omega2 and omega3, or nothing; overrides come first."""
     components = overrides.keys() & {"omega2", "omega3"}
     if "omega" in overrides and components:
-        raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
+        raise AtlasError("The start is given twice, by omega and by omega2 or omega3: leave one of them out.")
     if "omega" in overrides:
         return {"omega": overrides["omega"]}
     if not components and "omega" in of_file and "omega2" in of_file:
@@ -190,5 +190,5 @@ def _parameter(values: Given, name: str, file: str) -> Any:
             "direction": "# direction = 0.6 0.8",
             "omega": "# omega = 0.3 0.7 0.2",
         }.get(name, f"# {name} = 1.5")
-        raise AtlasError(f"{file} does not say {name}: give the option, or a line such as '{example}' in the file.")
+        raise AtlasError(f"{name} is missing: give --{name}, or a line such as '{example}' at the head of {file}.")
     return values[name]

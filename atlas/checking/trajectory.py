@@ -211,7 +211,7 @@ def _decoded(file: TextIO, name: str) -> Iterator[str]:
     """Yield the lines of a text file. Raises AtlasError for one that is none."""
     for line in lines_of(file, name):
         if "\0" in line:
-            raise AtlasError(f"{name} is not a text file.")
+            raise AtlasError(f"{name} is not a text file: save it as CSV in UTF-8.")
         yield line
 
 
@@ -243,7 +243,7 @@ def _blocks(
             yield _in_units(title, _rows(rows, title, separator, file).T)
         first_row += len(block)
     if empty:
-        raise AtlasError(f"{file} has names but no rows of numbers.")
+        raise AtlasError(f"{file} has a line of names, but no rows of numbers: add them.")
 
 
 def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:

@@ -13,12 +13,15 @@ from typing import Any
 import click
 
 from atlas import __version__
-from atlas.errors import AtlasError, AtlasWarning
+from atlas.errors import AtlasError, AtlasWarning, nearest
 from atlas.motions.register import FAMILIES
 
 LONG = 400
 """Characters of a word that an error repeats whole."""
 
+
+CLICK = ("Missing ", "Got unexpected ", "No such ", "Option ")
+"""Beginnings of errors of click's parser, which give no remedy."""
 
 SUMMARIES = {one.command.name: one.command.summary for one in FAMILIES.values() if one.command and one.command.summary}
 """Help lines of the commands that are made from the register."""
@@ -87,6 +90,9 @@ class Atlas(click.Group):
             args = [args[1], "--help"]
         if args[0] in ELSEWHERE:
             raise click.UsageError(f"there is no command atlas {args[0]}: {ELSEWHERE[args[0]]}.")
+        if args[0] not in self.commands:
+            hint = nearest(args[0], self.commands)
+            raise click.UsageError(f"there is no command atlas {args[0]}{hint}; `atlas --help` lists the commands.")
         return super().resolve_command(ctx, args)
 
     def invoke(self, context: click.Context) -> Any:
@@ -154,7 +160,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         click.echo(error.format_message(), err=True)
         status = 2
     except click.ClickException as error:
-        status = complain(error.format_message(), error.exit_code)
+        status = complain(explained(error), error.exit_code)
     except AtlasError as error:
         status = max(complain(sentence, 2) for sentence in error.sentences)
     except BrokenPipeError:
@@ -168,6 +174,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
         interrupt = error.__cause__ or error
         status = complain("interrupted", 128 + int(interrupt.args[0] if interrupt.args else SIGINT))
     sys.exit(status if isinstance(status, int) else 0)
+
+
+def explained(error: click.ClickException) -> str:
+    """Return the message of an error; of one of click's parser with the option's help and the place of the rest."""
+    message = error.format_message()
+    if not isinstance(error, click.UsageError) or error.ctx is None or not message.startswith(CLICK):
+        return message
+    says = getattr(getattr(error, "param", None), "help", None)
+    option = f": {says.rstrip('.')}" if says and isinstance(error, click.MissingParameter) else ""
+    end = " See" if message[-1] in "?)" else f"{option}; see"
+    return f"{message.rstrip('.')}{end} `{error.ctx.command_path} --help`."
 
 
 def _reader_gone() -> int:

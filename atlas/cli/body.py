@@ -149,7 +149,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     one_of(options, "body", (*BODY, "tensor"))
     sizes = given(options, SIZES)
     if sizes and options["shape"] is None:
-        raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
+        raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only: add --shape NAME, or leave it out.")
     if options["ratio"] is not None:
         return options["ratio"]
     if options["shape"] is not None:
@@ -178,7 +178,7 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed 
         raise click.UsageError(f"the shape {shape} takes {wanted_names}; found {typed_options}.")
     for name, size in sizes.items():
         if size and not 1e-150 < abs(size) < 1e150:
-            raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
+            raise click.UsageError(f"--{name} {size.text} has a square beyond floats: choose another unit of length.")
     heavy = {"mass": 1.0 if mass is None else mass} if density is None else {"density": density}
     return from_shape(shape.replace("-", "_"), **heavy, **sizes)
 
@@ -233,8 +233,10 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> st
     names_given = list(given(options, names))
     if len(names_given) != 1:
         option_names = ", ".join(f"--{name}" for name in names if name in options)
-        typed_options = " and ".join(f"--{name}" for name in names_given) or "none"
-        raise click.UsageError(f"the {subject} is one of {option_names}; found {typed_options}.")
+        typed_options = " and ".join(f"--{name}" for name in names_given)
+        if names_given:
+            raise click.UsageError(f"the {subject} is given twice, by {typed_options}: leave one of them out.")
+        raise click.UsageError(f"the {subject} is missing: give one of {option_names}.")
     return names_given[0]
 
 
@@ -274,10 +276,12 @@ def mass_of(options: Mapping[str, Any]) -> Any:
     shape = str(options["shape"]).replace("-", "_")
     lengths = [options[name] for name in SHAPES[shape][0][1:]] if shape in VOLUMES else []
     if lengths and 0.0 in lengths:
-        raise DomainError("a shape without a height or radius has no volume, and so no mass by its --density.")
+        raise DomainError("--density: a shape without a height or radius has no volume, and so no mass; give --mass.")
     if options.get("mass") is not None or not all(lengths) or not lengths:
         solids = ", ".join(VOLUMES).replace("_", "-")
-        raise click.UsageError(f"--density is of a solid --shape, {solids}, with its sizes and without --mass.")
+        raise click.UsageError(
+            f"--density goes with a solid --shape ({solids}), with all its sizes and without --mass."
+        )
     with workprec(512):
         mass = as_rational(rational(options["density"]) * VOLUMES[shape](*map(rational, lengths)))
     return Fraction(int(mass.p), int(mass.q))
@@ -339,13 +343,11 @@ def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fr
     option_names = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
     if options.get("points") is not None:
         if option_names or options["mu"] is not None:
-            raise click.UsageError(
-                f"--points holds masses and charges: {(option_names or ['--mu'])[0]} has no place beside it."
-            )
+            raise click.UsageError(f"--points holds masses and charges: leave out {(option_names or ['--mu'])[0]}.")
         return ratio_of_points(options["points"]), 1.0
     if options["mu"] is not None:
         if option_names:
-            raise click.UsageError(f"--mu is the charge-to-mass ratio: {option_names[0]} has no place beside it.")
+            raise click.UsageError(f"--mu is the charge-to-mass ratio: leave out {option_names[0]}, or --mu.")
         return options["mu"], 1.0
     if mass is None or options["charge"] is None:
         missing_names = "--mass and --charge, or --mu" if not option_names else "--mass" if mass is None else "--charge"
@@ -361,12 +363,16 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
     Raises click.UsageError when neither or both are given, or an option of the one stands beside the other.
     """
     if (options["field"] is None) == (options["magnetic"] is None):
-        raise click.UsageError("the field is one of --field (components of B') and --magnetic, with --mass and "
-                               "--charge or with --mu.")  # fmt: skip
+        if options["field"] is not None:
+            raise click.UsageError("the field is given twice, by --field and --magnetic: leave one of them out.")
+        raise click.UsageError("the field is missing: give B' by --field, or B by --magnetic with --mu, or with --mass "
+                               "and --charge.")  # fmt: skip
     if options["field"] is not None:
         for name in ("mu", "mass", "charge", "units"):
             if options[name] is not None:
-                raise click.UsageError(f"--{name} goes with --magnetic only: --field holds B', in 1/time.")
+                raise click.UsageError(
+                    f"--{name} goes with --magnetic only, for --field is B' in 1/time: leave it out."
+                )
         return tuple(options["field"])
     from atlas.bodies.field import Field
 
@@ -424,5 +430,7 @@ def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
     """Return the initial angular velocity, (3,), from --omega or --spin; None if neither is given nor `needed`."""
     omega, spin = options["omega"], options["spin"]
     if (needed or spin is not None) and (omega is None) == (spin is None):
-        raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")
+        if spin is not None:
+            raise click.UsageError("the start is given twice, by --omega and --spin: leave one of them out.")
+        raise click.UsageError("the start is missing: give --omega W1 W2 W3 or --spin W3.")
     return omega if spin is None else (0.0, 0.0, spin)

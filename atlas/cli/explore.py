@@ -76,7 +76,7 @@ def started(args: list[str]) -> tuple[str, str]:
     from atlas.cli.family import family_of, values_of
 
     if not args[0].startswith("--"):
-        raise click.UsageError(f"{args[0]} has no options here: those of atlas motion stand alone, without a name.")
+        raise click.UsageError(f"{args[0]!r} goes without options of atlas motion: leave out the name, or the options.")
     family = FAMILIES[family_of(Words(args))]
     with made("motion").make_context("explore", args) as context:
         options = context.params

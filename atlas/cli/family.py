@@ -128,16 +128,16 @@ def family_of(words: Words) -> str:
     names = words.names
     if not names & {"--omega2", "--omega3", "--omega", "--spin"}:
         raise click.UsageError(
-            "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
+            "the start is missing: give --omega2 W2 for an elementary motion, or --omega W1 W2 W3 or --spin W3 for any."
         )
     if names & {"--omega2", "--omega3"}:
         if misplaced := sorted(names & {"--omega", "--spin", "--curve", "--attitude", "--tensor"}):
             raise click.UsageError(
-                f"{misplaced[0]} does not go with --omega2 and --omega3, of an elementary motion about e3: any other "
-                "starts from --omega W1 W2 W3 or --spin W3."
+                f"{misplaced[0]} does not go with --omega2, the start of an elementary motion: leave it out, or give "
+                "--omega W1 W2 W3 or --spin W3 instead of --omega2."
             )
         if "--omega2" not in names:
-            raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
+            raise click.UsageError("--omega3 goes with --omega2: add --omega2 W2; a spin alone is --spin W3.")
         return "elementary"
     return "asymmetric" if words.are_of_any_body else "general"
 
@@ -240,7 +240,7 @@ class Question:
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
     """Write the samples at all times as a table, and print its path."""
     if options["digits"] is not None or options["decimal"] or options["as_json"] or uncertain(options):
-        raise click.UsageError("--out is a table in doubles: it goes without --digits, --decimal, --json and ±.")
+        raise click.UsageError("--out writes doubles: leave out --digits, --decimal, --json and uncertainties.")
     motion = motion_in_given_axes(options) if family.in_given_axes else None
     write_table(motion or _kernel(family, options), times, options["out"], _units(family, options))
     click.echo(str(options["out"]))
@@ -292,7 +292,7 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
     from atlas.motions.torus.certified_spectral_curve import SpectralCurve
 
     if uncertain(options) or body.given_tensor(options) is not None or options["attitude"] is not None:
-        raise click.UsageError("--curve is proven: it goes with numbers without an uncertainty, along principal axes.")
+        raise click.UsageError("--curve is proven: give numbers without an uncertainty, along principal axes.")
     curve = SpectralCurve(family.balls()(*values_of(family, options, exact=True)))
     record = curve.record(options["digits"] or TABLE_DIGITS)
     if options["as_json"]:
@@ -338,7 +338,7 @@ def _with_sigma(
 ) -> None:
     """Print the results of numbers with uncertainties."""
     if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
-        raise click.UsageError("--digits, --decimal and --spectrum go with numbers without an uncertainty.")
+        raise click.UsageError("--digits, --decimal and --spectrum go without an uncertainty: leave out one of both.")
     spread_of_answers = spread_of(family, options, times, described.name)
     if options["as_json"]:
         dump({"parameters": parameters, **spread_of_answers.record()})

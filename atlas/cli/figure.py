@@ -136,7 +136,9 @@ def command(
         recipes.source(name)  # says which there are, before anything is drawn
     stems = [Path(name).stem for name in wanted_names]
     if len({*stems}) < len(stems):
-        raise click.UsageError("two of these recipes have the same name, so that their files would be the same.")
+        raise click.UsageError(
+            "two of these recipes have the same name, and so the same files: draw them one by one, with --out."
+        )
     kinds = dict.fromkeys(formats) or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
     parameters = dict(setting(text) for text in settings)
     with bar("figures") as tell:

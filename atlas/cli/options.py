@@ -24,13 +24,13 @@ class Place(click.Path):
         place = Path(os.fsdecode(super().convert(value, param, ctx)))
         folder_present = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
         if not folder_present.is_dir():
-            self.fail(f"there is no folder to make {str(value)!r} in: {str(folder_present)!r} is a file.", param, ctx)
+            self.fail(f"{str(value)!r} cannot be made: {str(folder_present)!r} is a file; choose a folder.", param, ctx)
         if not self.file_okay and str(value).endswith(ENDINGS) and not place.exists():
-            self.fail(f"this is the folder for the files, but {str(value)!r} ends as a file does.", param, ctx)
+            self.fail(f"this is a folder, but {str(value)!r} ends as a file does: leave out the ending.", param, ctx)
         if place.is_symlink() and not place.exists():
-            self.fail(f"{str(value)!r} is a link to nothing.", param, ctx)
+            self.fail(f"{str(value)!r} is a link to nothing: remove it, or choose another path.", param, ctx)
         if not os.access(place if place.is_dir() else folder_present, os.W_OK | os.X_OK):
-            self.fail(f"{str(value)!r} cannot be written: its folder is read-only.", param, ctx)
+            self.fail(f"{str(value)!r} cannot be written, for its folder is read-only: choose another.", param, ctx)
         return place
 
 

@@ -117,7 +117,7 @@ def columns_of(table: Path) -> tuple[dict[str, "Column"], dict[str, str]]:
 
     heads, lines = cells_of(table)
     if not lines:
-        raise click.UsageError(f"{table} has no rows to draw.")
+        raise click.UsageError(f"{table} has no rows of numbers to plot: choose another table.")
     units = dict(heading(cell) for cell in heads)
     for number, cells in lines:
         if len(cells) != len(heads):
@@ -142,7 +142,7 @@ def numbers_of(columns: Mapping[str, "Column"], name: str, table: Path) -> "NDAr
         cells = np.where(column == "", "nan", column) if column.dtype.kind == "U" else column
         return np.asarray(cells, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise AtlasError(f"{table}: the column {name} has text, which has no place on an axis.") from error
+        raise AtlasError(f"{table}: the column {name} has text: choose a column of numbers.") from error
 
 
 def labelled(name: str, units: Mapping[str, str]) -> str:

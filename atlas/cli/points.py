@@ -166,11 +166,13 @@ def cells_of(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
-        raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
+        raise click.UsageError(
+            f"{path} is not UTF-8, for it has the byte {error.object[error.start]:#04x}: save it as UTF-8."
+        ) from error
     except csv.Error as error:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
     if len(lines) > MAX_ROWS:
-        raise click.UsageError(f"{path} has more than {MAX_ROWS} rows.")
+        raise click.UsageError(f"{path} has more than {MAX_ROWS} rows: split it.")
     return heading_cells, lines
 
 

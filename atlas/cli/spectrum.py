@@ -22,9 +22,9 @@ spectrum_options = stack(
 def check_spectrum(options: dict[str, Any]) -> None:
     """Raise click.UsageError for lines of a motion with proven digits, and for a least amplitude out of range."""
     if options.get("spectrum") and not 0 < options["least"] < 1:
-        raise click.UsageError(f"--least is a part of the whole, between 0 and 1, not {options['least'].text}.")
+        raise click.UsageError(f"--least is a fraction between 0 and 1, not {options['least'].text}.")
     if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
-        raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
+        raise click.UsageError("--spectrum is computed in doubles: leave out --digits and --decimal.")
 
 
 def spectrum_of(motion: Any, options: dict[str, Any]) -> Any:

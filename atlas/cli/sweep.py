@@ -144,7 +144,7 @@ class Request(NamedTuple):
     def of_options(cls, options: dict[str, Any]) -> "Request":
         """Return the sweep of a command line. Raises click.UsageError for parameters that do not fit its family."""
         if options["family"] is None:
-            raise click.UsageError(f"name the family to sweep: {NAMES}.")
+            raise click.UsageError(f"FAMILY is missing: name the family to sweep, {NAMES}.")
         settings = [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in options["settings"]]
         fixed, axes = (_uncertain_body(options), "") if uncertain(options) else _body(options)
         names = [*fixed, *(name.strip() for name, _ in settings)]
@@ -161,7 +161,9 @@ class Request(NamedTuple):
         if any(options[name] for name in ("family", "settings", "listing", "quantities", "digits", "rows")) or (
             body.body_parameters(options)
         ):
-            raise click.UsageError("with --file only --out and --jobs can be given.")
+            raise click.UsageError(
+                "--file has family, parameters and quantities: beside it give only --out and --jobs."
+            )
         recipe = read(options["toml"])
         listing = Path(recipe.listing) if recipe.listing else None
         out = options["out"] or recipe.out
@@ -196,7 +198,7 @@ def swept(**options: Any) -> None:
     start = [max((abs(float(getattr(x, "n", x))) for x in values), default=0.0) for values in typed_starts]
     body.check_speeds(options, start if any(start) else None)
     if request.out is None:
-        raise click.UsageError("--out is missing: name the file that the table goes to.")
+        raise click.UsageError("--out is missing: name the file of the table, such as --out table.csv.")
     typed_values = [x.strip() for text in options["settings"] for x in re.split("[,:]", text.partition("=")[2])]
     has_units = bool(units) or any(map(split, typed_values))
     time = "s" if has_units else body.units_of(options).get("time", "time")
@@ -273,7 +275,7 @@ def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
     Raises click.UsageError for a tensor.
     """
     if "tensor" in options and body.given_tensor(options) is not None:
-        raise click.UsageError("a sweep carries no uncertainties of a tensor, whose axes move with its elements: give "
+        raise click.UsageError("a sweep takes no uncertainties of a tensor, whose axes change with its elements: give "
                                "principal moments; atlas motion carries those of a tensor.")  # fmt: skip
     from uncertainties import ufloat
 
@@ -340,11 +342,11 @@ def read(path: Path) -> Any:
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise click.UsageError(f"{path}: {error}.") from error
     except RecursionError as error:
-        raise click.UsageError(f"{path} is nested too deeply.") from error
+        raise click.UsageError(f"{path} is nested too deeply: write the parameters as in the guide.") from error
 
     def beside(name: str) -> str:
         if "\0" in name or not name:
-            raise click.UsageError(f"{path}: {name!r} is no name of a file.")
+            raise click.UsageError(f"{path}: out = {name!r} is no name of a file: write one such as 'table.csv'.")
         return name if "://" in name else str(path.parent / name) + "/" * name.endswith("/")
 
     recipe.listing = None if recipe.listing is None else beside(recipe.listing)
@@ -387,7 +389,7 @@ def _values(family: str, name: str, value: Any) -> Any:
         if not any(x.sigma for x in typed):
             return [*map(float, typed)]
         if len(typed) > 1:
-            raise click.UsageError(f"{name} = {value}: a parameter with a standard deviation has one value.")
+            raise click.UsageError(f"{name} = {value}: a parameter with an uncertainty has one value, not several.")
         from uncertainties import ufloat
 
         return ufloat(float(typed[0]), typed[0].sigma)

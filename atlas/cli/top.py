@@ -63,9 +63,9 @@ def needs_no_way(options: Mapping[str, Any]) -> None:
     for name in top_parameters(options):
         if name != "inertia":
             raise click.UsageError(f"--{name} goes with --heavy or --magnetic.")
-    for name in ("inertia", "direction"):
+    for name, form in (("inertia", "I2 I3"), ("direction", "N2 N3")):
         if options[name] is None:
-            raise click.UsageError(f"--{name} is missing: give it, or --heavy or --magnetic; see --help.")
+            raise click.UsageError(f"--{name} is missing: give --{name} {form}, or a body by --heavy or --magnetic.")
 
 
 def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -88,7 +88,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
                                "--magnetic, from which these are computed.")  # fmt: skip
     for name in ("coupling", "linear", "quadratic"):
         if any(options[name] if isinstance(options[name], tuple) else [options[name]]):
-            raise click.UsageError(f"--{name} has no place beside --heavy or --magnetic, from which it is computed.")
+            raise click.UsageError(f"--{name} is computed from --heavy or --magnetic: leave it out.")
     omega = tuple(map(float, start_of(options)))
     if options["magnetic"] is not None:
         return _charged(options, omega)
@@ -120,7 +120,7 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
         moments, length, size = _heavy(options, (n2, n3), omega), float(options["heavy"][1]), hypot(n2, n3)
         body, weight = SymmetricBody(*moments.inertia), (moments.linear * (n2 / size), moments.linear * (n3 / size))
     elif options["direction"] is not None:
-        raise click.UsageError("--direction has no place beside --magnetic: it is that of the field.")
+        raise click.UsageError("--direction is the direction of --magnetic here: leave it out.")
     return TopMotion.charged(
         body, _charges(options, length), field, omega, units=options["units"] or "si",
         moment=options["moment"] or 0.0, polarizability=options["polarizability"] or (0.0, 0.0), weight=weight,
@@ -135,7 +135,7 @@ def _body(options: Mapping[str, Any]) -> Any:
     _goes_with(options, SIZES, ("shape", "coat"))
     if options["points"] is not None:
         if options["mass"] is not None:
-            raise click.UsageError("--mass has no place beside --points, which has the masses.")
+            raise click.UsageError("--mass: the file of --points has the masses; leave it out.")
         columns = _points(options["points"])
         return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
     _goes_with(options, ("mass",), ("heavy", "shape"))
@@ -180,7 +180,7 @@ def _centred(columns: Mapping[str, Any], axis: float = 0.0) -> Any:
 
 def _needs(options: Mapping[str, Any], name: str, option: str) -> None:
     if options[name] is None:
-        raise click.UsageError(f"{option} needs --{name}.")
+        raise click.UsageError(f"{option} needs --{name}: add it.")
 
 
 def _goes_with(options: Mapping[str, Any], names: Sequence[str], other_options: Sequence[str]) -> None:

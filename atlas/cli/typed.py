@@ -109,7 +109,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
             if len(text) > LONGEST:
                 self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
             if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
-                self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
+                self.fail(f"{text!r} has an exponent of more than four digits: choose another unit.", param, ctx)
             remedy = "1.5, 3/2 or 1e-3" + ", or a range START:STOP:COUNT" * bool(param and param.multiple)
             if re.search(r"[(±]|\+/?-", text):
                 remedy = "an uncertainty as 1.5(1) or 1.5±0.1"

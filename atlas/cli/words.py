@@ -7,6 +7,7 @@ from itertools import chain
 from typing import Any, NamedTuple
 
 import click
+from click.core import augment_usage_errors
 
 from atlas.cli.options import given
 from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, check_units, parts_of
@@ -169,7 +170,9 @@ class Command(click.Command):
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
             return super().parse_args(ctx, [*help_names][:1])
-        remaining_words = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
+        with augment_usage_errors(ctx):
+            plain_words = list(Reader(words, self.get_params(ctx)).plain())
+        remaining_words = super().parse_args(ctx, plain_words)
         options = {str(param.name): param for param in self.params}
         for name, option in options.items():
             if option.multiple and option.type is REAL:
@@ -271,15 +274,15 @@ class Reader:
         if param.name == "inertia" and {len(components), param.nargs} == {2, 3}:
             if param.nargs == 2:
                 raise click.UsageError(
-                    "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that "
-                    "of atlas motion --omega W1 W2 W3 or --spin W3, with --inertia I1 I2 I3 and --field B1 B2 B3; in a "
-                    "sweep it is the family asymmetric, with --set I1=0.8 and so on."
+                    "--inertia takes two moments here, I2 and I3 of a symmetric body; for three use atlas motion with "
+                    "--inertia I1 I2 I3, --field B1 B2 B3, and --omega W1 W2 W3 or --spin W3; in a sweep, the family "
+                    "asymmetric with --set I1=0.8 and so on."
                 )
             components = [components[0], *components]
         if param.name in ("field", "magnetic") and "--angle" in self.words.names & self.known.keys():
             if len(components) != 1:
                 raise click.UsageError(
-                    f"with --angle {option.name} is one number, the strength of the field, not {len(components)}."
+                    f"with --angle, {option.name} is one number, the strength of the field, not {len(components)}."
                 )
             components *= 2
         if len(components) != param.nargs:

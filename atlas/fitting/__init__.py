@@ -224,7 +224,9 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
         if is_clear and (again or _is_followed(problem, x)):
             break
     if not minima:
-        raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
+        raise AtlasError(
+            f"No {problem.model.name} motion fits these data: give start values by params (--start), or another family."
+        )
     return sorted((minimum for _, minimum in minima), key=lambda minimum: minimum[0])
 
 

@@ -180,10 +180,10 @@ def of_arrays(
     """Return the data of the one array in `data` that is not None. Raises AtlasError for unfit arrays."""
     kinds = [name for name, x in data.items() if x is not None]
     if len(kinds) != 1:
-        raise AtlasError(f"Give one of {', '.join(data)}, not {' and '.join(kinds) or 'none'}.")
+        raise AtlasError(f"The data must be exactly one of {', '.join(data)}, not {' and '.join(kinds) or 'none'}.")
     kind, times = kinds[0], measured(t, "t", nan_policy)
     if times.ndim != 1 or times.size < LEAST:
-        raise AtlasError(f"A fit needs an array (N,) of {LEAST} times or more, not {times.shape}.")
+        raise AtlasError(f"The times are an array of shape {times.shape}: a fit needs {LEAST} times or more, (N,).")
     values, function = _values(kind, data[kind], times, nan_policy)
     is_known = sigma is not None
     errors = measured(1.0 if sigma is None else sigma, "sigma", nan_policy)
@@ -194,16 +194,16 @@ def of_arrays(
     note = holes_left_out(times.size - rows.size, rows.size, "The data")
     times, errors, values = times[rows], errors[rows], _unit(kind, values[rows], scalar_first, rows)
     if times.size < LEAST:
-        raise AtlasError(f"A fit needs {LEAST} times or more that have all numbers, not {times.size}.")
+        raise AtlasError(f"Only {times.size} times have all their numbers: a fit needs {LEAST} times or more.")
     order = np.argsort(times, kind="stable")
     times = times[order] - number(epoch, "epoch")
     span = times[-1] - times[0]
     if span <= 0:
-        raise AtlasError("All times are equal.")
+        raise AtlasError("All times are equal: a fit needs times that differ.")
     if min(abs(times)) > FAR * span and not times[0] <= 0 <= times[-1]:
         raise AtlasError(
             f"The data begin {abs(times).min():.3g} from t = 0, where the parameters hold, and span {span:.3g} only: "
-            "give epoch = t[0], the time of the parameters, or subtract it."
+            "give epoch = t[0] (--epoch), the time at which the parameters hold, or subtract it from t."
         )
     kind = kind.replace("quaternion", "rotation")
     return Data(kind, times, values[order], errors[order, None], function, is_known, tuple(filter(None, [note])))
@@ -217,7 +217,10 @@ def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[
             raise AtlasError(f"The {kind} at {times.size} times is an array {shape}, not {values.shape}.")
         return values, None
     if not (isinstance(value, tuple) and len(value) == 2 and callable(value[1])):
-        raise AtlasError("signal = (values, function): numbers, and the function of rotations (N, 3, 3) they are.")
+        raise AtlasError(
+            "The signal must be a pair (values, function): (N,) numbers, and the function that maps "
+            "rotations (N, 3, 3) to them."
+        )
     values = measured(value[0], "The signal", nan_policy)
     if values.shape[:1] != times.shape or values.ndim > 2:
         raise AtlasError(f"The signal at {times.size} times is an array ({times.size},), not {values.shape}.")
@@ -244,7 +247,8 @@ def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.in
     if bad.any():
         noun = {"rotation": "rotation matrix", "quaternion": "quaternion of length 1", "axis": "vector of length 1"}
         raise AtlasError(
-            f"Row {int(rows[np.argmax(bad)])} (from 0) of the {kind} is no {noun[kind]}, by more than {NEAR}."
+            f"Row {int(rows[np.argmax(bad)])} (from 0) of the {kind} differs from a {noun[kind]} by more than {NEAR}: "
+            "correct it or leave it out."
         )
     return values
 

@@ -61,7 +61,9 @@ def _started(p: Values) -> dict[str, FloatArray]:
     with np.errstate(all="ignore"):
         slopes = _on_hyperbola(r, np.stack([K1, K2, K3]), w).imag / h
     if not np.isfinite(slopes).all():
-        raise AtlasError("On a vertical line of the hyperbola omega2 and the field do not tell Omega.")
+        raise AtlasError(
+            "On a vertical line of the hyperbola omega2 and the field do not determine Omega: fit the family general."
+        )
     field_by_attitude = A.T @ np.cross(field, _left_jacobian(vector(p, ATTITUDE)), axisb=0, axisc=0)
     by = {"ratio": slopes[:, 0], "omega2": slopes[:, 4]}
     return by | dict(

@@ -114,7 +114,7 @@ def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tup
         low, high = max(attributes.get("min", -inf), default.min), min(attributes.get("max", inf), default.max)
         p = replace(default, **{"vary": True, **attributes, "min": low, "max": high})
         if not (p.vary or "value" in attributes or p.expr or name in model.fixed):
-            raise AtlasError(f"{name} is held, but has no value: give one.")
+            raise AtlasError(f"{name} is fixed, but has no value: give one.")
         if p.expr is None and "value" in attributes:
             _check_value(name, p)
             if p.vary:

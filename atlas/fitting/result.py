@@ -208,7 +208,7 @@ class Fit:
         """
         kind = {"quaternion": "rotation", "": self.kind}.get(of, of)
         if kind not in (*KINDS, "signal") or (kind == "signal" and self.kind != "signal"):
-            raise AtlasError(f"Predicted are rotation, axis, angular_velocity, field_in_body and signal, not {of!r}.")
+            raise AtlasError(f"A fit predicts rotation, axis, angular_velocity, field_in_body or signal, not {of!r}.")
         times = real(t, "t")
         flat = times.ravel() - self.epoch
         data_fitted = self.problem.data

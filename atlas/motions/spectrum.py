@@ -143,7 +143,7 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
         raise AtlasError(f"A spectrum is that of one motion, not of an array of them, of shape {motion.shape}.")
     least = number(least, "least")
     if not MIN_AMPLITUDE <= least < 1:
-        raise AtlasError(f"least is a part of the whole from {MIN_AMPLITUDE:g} to 1, not {least:g}.")
+        raise AtlasError(f"least is a fraction of the root mean square from {MIN_AMPLITUDE:g} to 1, not {least:g}.")
     wheels = motion._wheels()  # noqa: SLF001  of the same folder
     indices, S = coefficients(lambda x: wheels.at(of, x), len(wheels.phases))
     left, right, moves = _turn(wheels.n, wheels.p), _turn(wheels.a, wheels.s), of in ("rotation", "axis")

@@ -11,6 +11,7 @@ import traceback
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -108,7 +109,9 @@ def source(name: str) -> Path:
         return file.absolute()
     file = folder("figures") / f"{name}.py"
     if name.startswith("_") or file.parent != folder("figures") or not file.is_file():
-        raise _unknown("figure", name, names(), str(folder("figures")))
+        near = " or ".join(map(repr, get_close_matches(name, names(), 3, 0.4)))
+        hint = f" (did you mean {near}?)" if near else ""
+        raise AtlasError(f"there is no figure {name!r}{hint}; `atlas list figures` names all.")
     return file
 
 
@@ -250,4 +253,4 @@ def _short(source: Path) -> str:
 def _unknown(noun: str, name: str, choices: Iterable[str], owner: str) -> AtlasError:
     """Return an error that lists the known names, with the most similar one."""
     options = list(choices)
-    return AtlasError(f"no {noun} {name!r} in {owner}{nearest(name, options)}; known: {', '.join(options) or 'none'}")
+    return AtlasError(f"no {noun} {name!r} in {owner}{nearest(name, options)}; known: {', '.join(options) or 'none'}.")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import AtlasError, DomainError, nearest
 from atlas.families.family import TIME
 from atlas.lazy import cached_property
 from atlas.motions import register as families
@@ -149,11 +149,12 @@ class Swept:
         for subject, refused, known_names in lists:
             if refused:
                 raise AtlasError(
-                    f"There is no {subject} {refused[0]!r} here; there is {', '.join(known_names) or 'none'}."
+                    f"There is no {subject} {refused[0]!r} here{nearest(refused[0], known_names)}; known: "
+                    f"{', '.join(known_names) or 'none'}."
                 )
         missing_names = [name for name in self.needed if name not in parameters]
         if missing_names:
-            raise AtlasError(f"The parameter {missing_names[0]} is missing; needed are {', '.join(self.needed)}.")
+            raise AtlasError(f"The parameter {missing_names[0]} is missing: give {', '.join(self.needed)}.")
         if not names:
             raise AtlasError(f"Name at least one quantity: {', '.join(self.quantities)}.")
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray, real
 from atlas.arithmetic.uncertainty import concise, in_independent_inputs, is_uncertain, spread
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, nearest
 from atlas.families.family import TIME
 from atlas.sweeps.families import FAMILIES, MISSING
 
@@ -69,7 +69,9 @@ class Plan:
     ) -> "Plan":
         """Check the input. Raises AtlasError for unknown, missing, non-numeric or unequally long values."""
         if family not in FAMILIES:
-            raise AtlasError(f"There is no family {family!r} to sweep; there is {', '.join(FAMILIES)}.")
+            raise AtlasError(
+                f"There is no family {family!r} to sweep{nearest(family, FAMILIES)}; known: {', '.join(FAMILIES)}."
+            )
         quantities = [quantities] if isinstance(quantities, str) else quantities
         columns_of = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
         quantities = [column for name in quantities for column in columns_of.get(name, (name,))]
@@ -85,7 +87,7 @@ class Plan:
                 if array.size not in {1, count}:
                     raise AtlasError(f"{name} has {array.size} values, but the list has {count} rows.")
         if digits is not None and digits < 1:
-            raise AtlasError(f"A number has at least one digit, not {digits}.")
+            raise AtlasError(f"The number of digits must be at least 1, not {digits}.")
         exact = {
             name: x.as_integer_ratio() for name, x in parameters.items() if isinstance(x, Fraction) and float(x) != x
         }
@@ -225,9 +227,11 @@ def _nominal(parameters: Mapping[str, Any], digits: int | None) -> tuple[dict[st
     nominal, slopes = in_independent_inputs(parameters)
     for name, value in nominal.items():
         if is_uncertain(value):
-            raise AtlasError(f"A parameter with a standard deviation has one value, not several as {name}.")
+            raise AtlasError(
+                f"{name} has an uncertainty and several values: a parameter with an uncertainty takes one value."
+            )
     if slopes and digits:
-        raise AtlasError(f"Standard deviations, as that of {next(iter(slopes))}, go without certified digits.")
+        raise AtlasError(f"{next(iter(slopes))} has an uncertainty, which has no certified digits: leave out digits.")
     return nominal, slopes
 
 

@@ -136,7 +136,7 @@ def sweep(
     [1.118034, 1.565248]
     """
     if rows is not None and rows < 1:
-        raise AtlasError(f"A part has at least one row, not {rows}.")
+        raise AtlasError(f"The number of rows of a part must be at least 1, not {rows}.")
     plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, time=time)
     if out is None:
         return plan.rows()

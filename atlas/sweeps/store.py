@@ -87,7 +87,7 @@ class Folder:
         strangers = [name for name in names - part_names if not name.startswith(".")]
         if strangers:
             raise AtlasError(
-                f"{self.address} holds {min(strangers)}, which is of no sweep: move it away, or choose another --out."
+                f"{self.address} holds {min(strangers)}, which no sweep wrote: move it away, or choose another --out."
             )
         return part_names
 
@@ -214,7 +214,7 @@ class Table:
         process holds the lock, that the file is of another kind, or that none can be written there.
         """
         if self.lock.is_symlink() or self._record() is None:
-            raise AtlasError(f"{self.lock} is needed for the lock of the sweep, but is something else.")
+            raise AtlasError(f"{self.lock} would be the lock of the sweep, but is something else: move it away.")
         try:
             self.lock.parent.mkdir(parents=True, exist_ok=True)
             lock = self._locked()

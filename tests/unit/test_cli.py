@@ -162,7 +162,7 @@ def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch:
     monkeypatch.setattr(os, "access", lambda _path, _mode: False)
     result = CliRunner().invoke(command, ["figure", "lssc", "--out", str(tmp_path / "new")])
     assert result.exit_code == 2
-    assert f"'{tmp_path / 'new'}' cannot be written: its folder is read-only" in result.stderr
+    assert f"'{tmp_path / 'new'}' cannot be written, for its folder is read-only" in result.stderr
 
 
 @pytest.mark.slow

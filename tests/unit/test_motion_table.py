@@ -51,7 +51,7 @@ def test_attitudes_of_a_tensor_are_in_the_axes_given(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("more", "words"),
-    [((), "gives? it|give one of them"), (("--times", "1", "--digits", "9"), "a table in doubles")],
+    [((), "gives? it|give one of them"), (("--times", "1", "--digits", "9"), "--out writes doubles")],
 )
 def test_a_table_that_cannot_be_is_refused(tmp_path: Path, more: tuple[str, ...], words: str) -> None:
     """Without times, and with proven digits."""

@@ -91,7 +91,7 @@ def test_all_wrong_inputs_are_refused_at_once(paper: Path, capsys: pytest.Captur
     ]
     for line, words in zip(
         lines, ("ratoi: there is no input 'ratoi' (did you mean 'ratio'?)", "from 0 to 2", "the unit is um",
-                "'green' (did you mean 'red'?)", "write 2, as 1,2,3"), strict=True,
+                "'green'; known: ", "write 2, as 1,2,3"), strict=True,
     ):  # fmt: skip
         assert words in line
     assert not (paper.parent / "out").exists()

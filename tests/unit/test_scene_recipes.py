@@ -40,7 +40,7 @@ def test_parameters_used_are_noted_in_the_scene() -> None:
 def test_an_unknown_recipe_is_named_with_the_nearest() -> None:
     """The error says which figure is meant, and in which folder it was looked for."""
     place = re.escape(str(Path(__file__).resolve().parents[2] / "figures"))
-    with pytest.raises(AtlasError, match=rf"no figure 'quadrik' in {place} .*did you mean 'quadric'.*known: "):
+    with pytest.raises(AtlasError, match=r"no figure 'quadrik' .did you mean 'quadric'.*atlas list figures"):
         recipes.load("quadrik")
 
 

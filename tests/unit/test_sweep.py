@@ -192,7 +192,7 @@ def test_a_place_that_cannot_be_written_is_named_as_it_was_typed(place: str, cap
 def test_a_row_outside_the_domain_ends_a_sweep_as_its_help_says() -> None:
     """It has no empty cell, as beta for B = 0: its number and the reason are told."""
     told = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
-    assert "a row outside the domain, as on a pole or beta for B = 0, ends the sweep with status 2" in told
+    assert "A row outside the domain, such as a pole, ends the sweep with status 2; the error names the row" in told
     with pytest.raises(DomainError, match=r"In row 1 of the table, .*no angle beta"):
         atlas.sweep("quadric", {"ratio": 1.5, "B2": [0, 1], "B3": [0, 1]}, ["beta"])
 

@@ -54,7 +54,7 @@ def test_a_new_data_set_takes_the_place_of_an_old_one_and_of_nothing_else(tmp_pa
     assert len(list(out.iterdir())) == 4
     atlas.sweep("elementary", GRID, NAMES, out, rows=20, jobs=1)
     (out / "mine.parquet").touch()
-    with pytest.raises(AtlasError, match=r"mine\.parquet, which is of no sweep"):
+    with pytest.raises(AtlasError, match=r"mine\.parquet, which no sweep wrote"):
         atlas.sweep("elementary", GRID, NAMES, out, rows=20, jobs=1)
     assert len(list(out.iterdir())) == 9
 
