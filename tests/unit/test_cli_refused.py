@@ -149,7 +149,8 @@ CASES = [
     ("motion --tensor 1 1 1 0 0 0.1 --field 0 0 1 --spin 1 --attitude 0 0 1 1", "of the length 1, x y z w"),
     ("check {place}/plain.csv --ratio 1 --spin 1 --omega 1 2 3", "the start is given twice, by --omega and --spin"),
     ("sweep elementary --set ratio=1.3(1),1.4 B2=1 B3=2 omega2=0.3 --quantity k --out k.csv", "has one value"),
-    ("sweep elementary --set ratio=1.3(1) B2=1 B3=2 omega2=0.3 --quantity k --digits 9 --out k.csv", "which has no certified digits"),
+    ("sweep elementary --set ratio=1.3(1) B2=1 B3=2 omega2=0.3 --quantity k --digits 9 --out k.csv",
+     "which has no certified digits"),
     (
         "sweep asymmetric --tensor 1 1.2 1.1 0.1 0 0.05(1) --field 0 0 1 --omega 0 0 1 --quantity f1 --out f.csv",
         "no uncertainties of a tensor",
@@ -187,7 +188,8 @@ CASES = [
     (f"{TOP} --inertia 1 1 --heavy 1 1 --magnetic 1 2", "--heavy needs --mass"),
     *((f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --{one}", f"--{one.split()[0]} is computed from --heavy")
       for one in ("coupling 0 1", "linear 1", "quadratic 1")),
-    ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --direction 1 2 --omega 1 2 3", "--direction is the direction of --magnetic"),
+    ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --direction 1 2 --omega 1 2 3",
+     "--direction is the direction of --magnetic"),
     (f"{TOP} --heavy 1 1 --mass 1", "the body is missing: give one of --inertia"),
     (f"{TOP} --heavy 1 1 --mass 1 --inertia 1 1 --shape ring", "by --inertia and --shape"),
     ("top --inertia 1 1 --magnetic 1 2 --omega 1 2 3", "the charge is missing: give one of --charged"),

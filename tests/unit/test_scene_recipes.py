@@ -38,8 +38,7 @@ def test_parameters_used_are_noted_in_the_scene() -> None:
 
 
 def test_an_unknown_recipe_is_named_with_the_nearest() -> None:
-    """The error says which figure is meant, and in which folder it was looked for."""
-    place = re.escape(str(Path(__file__).resolve().parents[2] / "figures"))
+    """The error says which figures are meant, and how to list all."""
     with pytest.raises(AtlasError, match=r"no figure 'quadrik' .did you mean 'quadric'.*atlas list figures"):
         recipes.load("quadrik")
 
