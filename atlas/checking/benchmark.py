@@ -1,4 +1,4 @@
-"""The record of the benchmark, which `make bench` writes, for figures and pages, in words and lines.
+"""The record of the benchmark, which `make bench` writes, read for figures and pages.
 
 Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
 """
@@ -59,7 +59,7 @@ CASES = {
 }
 
 BESIDE = ("heyoka_own", "heyoka_7", "DOP853_7")
-"""Variants of an integrator that tables give, and no figure: they lie next to its line."""
+"""Variants of an integrator that stand in tables only: in a figure their lines would lie on the integrator's."""
 
 OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
 
@@ -70,17 +70,17 @@ def title(method: str) -> str:
 
 
 def role(method: str) -> str:
-    """Return the role of a method's line."""
+    """Return the role, and so the colour, of a method's line; "eighth" for an unknown method."""
     return METHODS[method][1] if method in METHODS else "eighth"
 
 
 def case_title(case: str) -> str:
-    """Return the name of a case in words."""
+    """Return the name of a case in words; an unknown case is its own name."""
     return CASES.get(case, case)
 
 
 class Item(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A row of the record; a key that it does not have is an error."""
+    """A row of the record; reading an unknown key is an error."""
 
 
 class Machine(Item, frozen=True):
@@ -93,7 +93,7 @@ class Machine(Item, frozen=True):
 
 
 class Run(Item, frozen=True):
-    """One method on one case up to one horizon: its largest error and its time, or a note why there is none.
+    """One method on one case up to one horizon: largest error and computing time, or None and a note on the reason.
 
     ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up.
     """
@@ -110,10 +110,11 @@ class Run(Item, frozen=True):
 
 
 class Cost(Item, frozen=True):
-    """Time for ``count`` rotation matrices: nanoseconds each, over filling the same memory, over the plain formula.
+    """Time for ``count`` rotation matrices, in ``nanoseconds`` each.
 
-    ``error`` is the largest found among a few of them. All ratios are to one thread. ``to_times``, of a grid, is to
-    `rotation` at the same times.
+    ``to_fill`` is the ratio to the time of filling the same memory, ``to_plain`` to that of the plain formula,
+    ``to_times`` of a grid to that of `rotation` at the same times; all three are with one thread. ``error`` is the
+    largest among a few matrices.
     """
 
     method: str
@@ -129,7 +130,7 @@ class Cost(Item, frozen=True):
 
 
 class Limit(Item, frozen=True):
-    """A limit of speed: its meaning, the limit in words, the measured value, and the verdict."""
+    """A limit of speed: its meaning, the limit in words, the measured value or None, and the verdict."""
 
     says: str
     wanted: str
@@ -151,12 +152,15 @@ class Results(Item, frozen=True):
 
 
 def stored() -> Path:
-    """Return where the record of the repository lies."""
+    """Return the path of the repository's benchmark record, reports/data/bench.json."""
     return folder("reports") / "data" / "bench.json"
 
 
 def read(path: Path | None = None) -> Results:
-    """Read a benchmark record, by default the repository's. Raises AtlasError for any other file."""
+    """Return the `Results` of a benchmark record, by default the repository's.
+
+    Raises AtlasError for a file that does not exist or is no such record.
+    """
     path = path or stored()
     try:
         return msgspec.json.decode(path.read_bytes(), type=Results)
@@ -167,7 +171,7 @@ def read(path: Path | None = None) -> Results:
 
 
 def runs_of(record: Results, case: str) -> list[Run]:
-    """Return the runs of a case that have an error and a time."""
+    """Return the runs of a case that have an error. Raises AtlasError for a case that the record lacks."""
     names_known = list(dict.fromkeys(run.case for run in record.runs))
     if case not in names_known:
         raise AtlasError(f"The benchmark record has no case {case!r}; it has {', '.join(names_known)}.")
@@ -175,7 +179,7 @@ def runs_of(record: Results, case: str) -> list[Run]:
 
 
 def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
-    """Return the runs of each method that figures draw, in the order of the record."""
+    """Return lists of runs by method, in the order of the record, without the methods of `BESIDE`."""
     groups: dict[str, list[Run]] = {}
     for run in runs:
         if run.method not in BESIDE:
@@ -184,7 +188,7 @@ def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
 
 
 def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
-    """Return points (x, y), (N, 2), at least 1e-18 each: a logarithmic axis cannot show zero."""
+    """Return points (x, y) of the items, shape (N, 2), raised to 1e-18: a logarithmic axis cannot show zero."""
     points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
     return np.asarray(np.maximum(points, 1e-18))
 
@@ -195,7 +199,7 @@ def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
 
 
 def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tuple[float, float]:
-    """Return the limits of a logarithmic axis: `start` and `end` decades beyond the values, room for names."""
+    """Return the two limits of a logarithmic axis, `start` decades below and `end` decades above the values."""
     logs = np.log10(np.fromiter(values, dtype=float))
     return float(10.0 ** (logs.min() - start)), float(10.0 ** (logs.max() + end))
 

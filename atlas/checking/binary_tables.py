@@ -1,4 +1,4 @@
-"""Tables of columns that are no text, .npz and .parquet, with the head that a table of the atlas has."""
+"""Binary tables of columns, .npz and .parquet, with the same head as a table of the atlas in text."""
 
 import zipfile
 from collections.abc import Callable, Mapping
@@ -33,9 +33,9 @@ READERS: Mapping[str, Callable[[Path], tuple[str, Columns]]] = {".npz": _npz, ".
 
 
 def head_and_columns(path: Path) -> tuple[list[str], Columns]:
-    """Return the lines above the rows, of which the last has names and units, and the columns.
+    """Return the lines of the head, the last with names and units, and the columns, arrays (N,) by name.
 
-    Raises AtlasError for a file of another kind, and for columns that are no rows of numbers or text.
+    Raises AtlasError for a file that is not of the kind of its ending, and for columns of other shapes.
     """
     try:
         head, columns = READERS[path.suffix](path)

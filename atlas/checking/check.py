@@ -38,7 +38,7 @@ class Check:
     parameters : mapping of str to object
         Parameters of the reference motion.
     frequencies : mapping of str to str
-        Frequencies of the reference motion, in certified digits.
+        omega3, k and phi of an elementary reference motion, in certified digits; empty for other motions.
     rows : int
         Number of rows that were compared.
     threshold : float
@@ -96,11 +96,11 @@ class Check:
         return html_table(self._title, *self.column_table()) + html_table("what should not change", *self.drift_table())
 
     def record(self) -> dict[str, Any]:
-        """Return the grades as plain data for JSON."""
+        """Return the grades as a dict for JSON, with the attributes as keys."""
         return asdict(self)
 
     def column_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows of the grades by column."""
+        """Return the heading and the rows, as texts, of the table of columns."""
         heading = ["column", "median digits", "worst digits", "at t", f"below {self.threshold:g} digits from t"]
         rows = [
             [
@@ -115,13 +115,16 @@ class Check:
         return heading, rows
 
     def drift_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows of the conserved quantities."""
+        """Return the heading and the rows, as texts, of the table of conserved quantities."""
         heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
         rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
         return heading, rows
 
     def scene(self) -> Scene:
-        """Draw the error of each group of columns against time."""
+        """Return a `Scene` of the error of each group of columns against time.
+
+        Raises AtlasError where no column is graded.
+        """
         if not self.columns:
             raise AtlasError(
                 f"{self.file} is without an initial angular velocity, and so without an error to plot: give --omega."
@@ -223,7 +226,10 @@ def check(
     Raises
     ------
     AtlasError
-        For arrays of another shape, for an entry that is no number, and for a motion of another class.
+        For arrays of another shape, for an entry that is no number, for a motion of another class or several motions,
+        for a threshold outside 0 to 17 or beyond the accuracy of the motion, and for runs without a common order.
+    TypeError
+        For a keyword that is no other name of the data.
 
     Notes
     -----
@@ -254,7 +260,10 @@ def check(
 
 
 def _arguments(motion: Any) -> dict[str, Any]:
-    """Return the parameters of a motion by the names of `check_file`."""
+    """Return the parameters of a motion by the names of `check_file`; of one by `atlas.motion` the motion itself.
+
+    Raises AtlasError for a motion of another class, and for an array of motions.
+    """
     from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
 
     classes = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
@@ -276,27 +285,31 @@ def _arguments(motion: Any) -> dict[str, Any]:
 
 
 def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Check:
-    """Grade the trajectory in a CSV file, see `atlas.checking.trajectory`; `parameters` override its # lines.
+    """Return the `Check` of the trajectory in a CSV file, see `atlas.checking.trajectory`.
 
-    Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
-    of a top direction, coupling, linear and quadratic; None stands for no value. With omega, all three components of
-    the initial angular velocity, the trajectory is held against the general motion, with three moments of inertia
-    against that of any body, with a direction against that of a top; with omega2 and, where it is free, omega3, against
-    an elementary one.
+    `parameters` replace those in the file's # lines, by the same names: ratio (or a SymmetricBody) or inertia, field,
+    omega or omega2 and omega3, and of a top direction, coupling, linear and quadratic; None stands for no value. With
+    omega, all three components of the initial angular velocity, the reference is the general motion; with three moments
+    of inertia the motion of any body; with a direction that of a top; with omega2 (and omega3 where free) an elementary
+    motion.
 
     Three moments without omega, and the six elements of an inertia tensor, are of a body without a certified motion:
     only conserved quantities are reported, against the first row.
 
     A column fails from the first row on at which it has fewer than ``threshold`` correct digits, of the 17 that a
     double can have. The times and the parameters of the file are rounded to doubles.
-    The file is read once, in blocks. Raises AtlasError for another file, or parameters of no motion.
+    The file is read once, in blocks. Raises AtlasError for a file that is no trajectory, and for parameters that are
+    missing, contradictory or of no motion.
     """
     with opened(path) as trajectory:
         return _graded(trajectory, threshold, parameters)
 
 
 def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, Any]) -> Check:
-    """Return the grades of a trajectory, read once."""
+    """Return the `Check` of a trajectory, which is read once.
+
+    Raises AtlasError for a threshold out of range, and where there is nothing to compare.
+    """
     if not 0 <= threshold <= MAX_DIGITS:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MAX_DIGITS:g}; it cannot be {threshold:g}.")
     target = reference(trajectory.parameters, parameters, trajectory.file)

@@ -30,7 +30,7 @@ class Comparison:
         return {"checks": [check.record() for check in self.checks]}
 
     def scene(self) -> Scene:
-        """Draw the errors of all trajectories against time, matrices, Omega and quaternions in a panel each.
+        """Return a `Scene` of the errors of all trajectories against time, a panel each for R, Omega and quaternions.
 
         Raises AtlasError for more trajectories than there are roles, and where none has a column that is graded.
         """

@@ -18,7 +18,7 @@ from atlas.motions.nutation.certified_top import TopMotion
 
 @dataclass(frozen=True)
 class Drift:
-    """Deviation of a conserved quantity from its true value: the largest relative one, with its time, and the last."""
+    """Relative deviation of a conserved quantity from its initial value: the largest, its time, and the last."""
 
     name: str
     says: str
@@ -29,10 +29,10 @@ class Drift:
 
 
 Value: TypeAlias = tuple[str, str, str, Any, Any]
-"""Name, meaning, equation, values and size, the sum of the sizes of its terms, of a conserved quantity."""
+"""Of a conserved quantity: name, meaning, equation, values (m,), and the sum of the magnitudes of its terms."""
 
 Deviation: TypeAlias = tuple[str, str, str, Any]
-"""Name of a conserved quantity, its meaning, its equation, and its deviation in each row."""
+"""Of a conserved quantity: name, meaning, equation, and the deviation in each row (m,)."""
 
 
 class Drifts:
@@ -53,12 +53,15 @@ class Drifts:
             self._found[name] = Drift(name, says, label, worst_row, time, float(size[-1]))
 
     def drifts(self) -> tuple[Drift, ...]:
-        """Return the drifts: orthogonality, the norm, and the integrals of motion."""
+        """Return a `Drift` for each quantity found so far: orthogonality, norm, and integrals of motion."""
         return tuple(self._found.values())
 
 
 def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield the tests that the columns allow against a certified motion: orthogonality, the norm, and the integrals."""
+    """Yield the deviations that the columns determine, from the values of a certified motion of a symmetric body.
+
+    They are those of the norm, of orthogonality, and of the integrals of motion.
+    """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
     I, B2, B3 = (long(x) for x in (motion.I, motion.B2, motion.B3))
@@ -87,7 +90,7 @@ def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
 class AnyBody:
     """Conserved quantities of a body of any inertia tensor (3, 3) in the field B' (3,): H, F, (M,K), K^2 and T.
 
-    Deviations are from the values of `start`, Omega and K, else from those of the first row of all.
+    Deviations are from the values at `start`, a pair (Omega, K), else from the values in the first row of the file.
     """
 
     def __init__(self, inertia: Any, field: Any, start: tuple[Any, Any] | None = None) -> None:

@@ -1,4 +1,4 @@
-"""Other conventions in which a trajectory that fails would be right: each is tried on some rows, by one comparison."""
+"""Other conventions in which a trajectory that fails would be right: each is tried on some rows of the first block."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -10,20 +10,21 @@ from atlas.checking.grades import Errors
 from atlas.checking.headings import MATRIX, OMEGA, QUATERNION
 
 ROWS, LEAST = 24, 3
-"""Rows of the first block on which conventions are tried, about so many, and at least."""
+"""Approximate and least number of rows of the first block on which conventions are tried."""
 
 SCALES = {"": 1.0, "in degrees per unit of time": 180 / math.pi, "in turns per unit of time": 1 / (2 * math.pi)}
 """Units of a rate, as sizes of one rad/time."""
 
 CHANGE = 0.01
-"""Change of R, or of Omega beside its size, below which rows do not tell one convention from another."""
+"""Change of R below which the rows do not distinguish conventions."""
 
 
 def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit: float) -> list[str]:
-    """Return sentences on conventions in which most rows have errors below `limit`, if they do not as given.
+    """Return sentences on conventions in which half of the rows have errors below `limit`; [] if none fits.
 
-    Tried are transposed matrices, conjugate and reordered quaternions, attitudes turned by a constant rotation, and
-    rates in the laboratory or in other units.
+    At most one sentence each for matrices, quaternion and rates, and none for data that agree as given. Tried are
+    transposed matrices, conjugate and reordered quaternions, a constant rotation, and rates in the laboratory or in
+    other units. Fewer than three rows give [].
     """
     rows = slice(None, None, max(1, len(block["t"]) // ROWS))
     if len(block["t"]) < LEAST:
@@ -65,7 +66,10 @@ def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: float) -> list[str]:
-    """Return a sentence on the first reading of matrices equal to R, or turned from R; [] if they agree as given."""
+    """Return [sentence] on the first reading, matrices (N, 3, 3) by words, that equals R up to a constant rotation.
+
+    The first reading is the data as given. Returns [] if these agree, if R hardly changes, and if no reading fits.
+    """
     if not readings or _median_error(next(iter(readings.values())), R) <= limit or _median_error(R, R[0]) < CHANGE:
         return []
     for words, M in readings.items():
@@ -85,7 +89,10 @@ def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: floa
 
 
 def _of_rates(rates: FloatArray, R: FloatArray, Omega: FloatArray, limit: float) -> list[str]:
-    """Return a sentence on the first frame and unit in which the rates equal Omega; [] if they agree as given."""
+    """Return [sentence] on the first frame and unit in which the rates (N, 3) equal Omega.
+
+    Returns [] if the rates agree as given, and if no frame and unit fits.
+    """
     size = float(np.abs(Omega).max()) or 1.0
     if _median_error(rates / size, Omega / size) <= limit:
         return []
@@ -97,5 +104,5 @@ def _of_rates(rates: FloatArray, R: FloatArray, Omega: FloatArray, limit: float)
 
 
 def _median_error(x: FloatArray, y: FloatArray) -> float:
-    """Return the error below which half of the rows are."""
+    """Return the median over the rows of the largest absolute difference in a row."""
     return float(np.median(np.abs(x - y).reshape(len(x), -1).max(-1)))

@@ -1,4 +1,4 @@
-"""Maps of the largest error in R over (omega2, t) and (I, t), of the plain formula (84) and of ours, against balls."""
+"""Maps of the largest error in R over (omega2, t) and (I, t), of formula (84) as printed and of `ElementaryMotion`."""
 
 import math
 from dataclasses import dataclass
@@ -33,19 +33,22 @@ class ErrorMap:
 
 
 def over_omega2(ratio: float, field: Field, cells: tuple[int, int] = (80, 54)) -> ErrorMap:
-    """Map the error over omega2/|B2| from -3 to 1, which holds the pole -B2, and -2 B2, and over t."""
+    """Return the `ErrorMap` over omega2/|B2| from -3 to 1, which contains the pole -B2 and -2 B2 for B2 > 0, and t.
+
+    Raises DomainError for B2 = 0. `cells` are the numbers of cells along x and t.
+    """
     edges = np.linspace(-3.0, 1.0, cells[0] + 1)
     return _mapped(edges, ratio, field, Range.middles(edges * abs(field[0])), cells[1])
 
 
 def over_ratio(field: Field, omega2: float, cells: tuple[int, int] = (80, 54)) -> ErrorMap:
-    """Map the error over I from 1e-3 to 2, evenly in log I, and over t."""
+    """Return the `ErrorMap` over I from 1e-3 to 2, evenly in log I, and over t. Raises DomainError for B2 = 0."""
     edges = np.geomspace(1e-3, 2.0, cells[0] + 1)
     return _mapped(edges, Range.middles(edges, log=True), field, omega2, cells[1])
 
 
 def _mapped(x: FloatArray, ratio: float | Range, field: Field, omega2: float | Range, rows: int) -> ErrorMap:
-    """Return the table over the varied parameter, between the edges x, and over time."""
+    """Return the `ErrorMap` over the varied parameter, a `Range` with cells between the edges x, and over time."""
     if field[0] == 0:
         raise DomainError("A map of errors needs B2 different from zero: (71) and (72) divide by it.")
     b = math.hypot(*field)

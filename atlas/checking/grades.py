@@ -22,7 +22,7 @@ from atlas.motions.nutation.certified_cayley_klein import quaternion
 Block = Mapping[str, FloatArray]
 
 MAX_DIGITS = 17.0
-"""Digits are counted up to here: no double has more."""
+"""Largest number of correct digits counted: no double has more."""
 
 LEAST, LARGEST = 10.0**-MAX_DIGITS, float(np.finfo(float).max)
 BITS = 80
@@ -52,7 +52,10 @@ class Column:
 
 
 class Errors:
-    """Errors of found values: of whole blocks to UNCERTAINTY, of one row certified."""
+    """Errors of a trajectory's columns against the true motion, relative to `unit` for Omega.
+
+    Whole blocks are compared to within `uncertainty`; a single row by balls.
+    """
 
     def __init__(self, motion: Any, truth: Truth | KernelTruth, unit: Real) -> None:
         self._motion, self._truth, self._unit = motion, truth, unit
@@ -95,9 +98,10 @@ class Errors:
         return np.asarray(np.minimum(np.abs(values - true) / unit, LARGEST), dtype=np.float64)
 
     def certified(self, block: Block, i: int) -> dict[str, float]:
-        """Return proven upper bounds, 2^-80 above, on the errors of all columns in a row of a block.
+        """Return proven upper bounds on the errors of row i of a block, by name of the column.
 
-        Of a motion in given axes, which has no balls, they are the errors in doubles.
+        They exceed the errors by 2^-80 at most. For a motion in given axes, which has no balls, they are errors in
+        doubles.
         """
         if not self._truth.in_balls:
             return {
@@ -182,11 +186,11 @@ class Envelope:
                 self._points_kept, self.rows = _largest(self._points_kept, 2), 2 * self.rows
 
     def times(self) -> list[float]:
-        """Return the first time of each point; [] where nothing is graded."""
+        """Return the first time of each group of rows; [] where nothing is graded."""
         return list(map(float, self._points()[:, 0])) if self._groups else []
 
     def errors(self) -> dict[str, list[float]]:
-        """Return for each group the largest error of each point."""
+        """Return, by group of columns, the list of largest errors of the groups of rows; {} where nothing is graded."""
         return dict(zip(self._groups, self._points()[:, 1:].T.tolist(), strict=True)) if self._groups else {}
 
     def _points(self) -> FloatArray:
@@ -195,7 +199,7 @@ class Envelope:
 
 
 def _quaternion(motion: Any, t: float) -> list[Real]:
-    """Return a unit quaternion of R(t), scalar first; where a motion has only the matrix, from that."""
+    """Return a unit quaternion of R(t) as four balls, scalar first; from the matrix for motions without one."""
     if hasattr(motion, "quaternion"):
         numbers: list[Real] = motion.quaternion(t)
         return numbers
@@ -218,6 +222,6 @@ def _precise(function: Callable[[], Any]) -> Any:
 
 
 def _largest(rows: FloatArray, count: int) -> FloatArray:
-    """Return the first time and the largest errors of each `count` rows."""
+    """Return rows (time, errors...): the first time and the largest errors of each `count` consecutive rows."""
     blocks = rows.reshape(-1, count, rows.shape[1])
     return np.column_stack([blocks[:, 0, 0], blocks[:, :, 1:].max(axis=1)])

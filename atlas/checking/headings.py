@@ -12,11 +12,11 @@ MATRIX = tuple(f"R{i}{j}" for i in "123" for j in "123")
 OMEGA = ("Omega1", "Omega2", "Omega3")
 QUATERNION = ("q0", "q1", "q2", "q3")
 FIELD = ("K1", "K2", "K3")
-"""The field along the axes of the body, which `atlas fit` reads beside."""
+"""Components of the field along the axes of the body, which only `atlas fit` reads."""
 OPTIONS = {"t": "times", "sigma": "sigma"} | dict.fromkeys(OMEGA, "omega") | dict.fromkeys(FIELD, "field")
-"""Options that have the units of columns, by name."""
+"""Name of the option whose units a column may have, by column."""
 PLAIN = ("", "1", "time", "1/time")
-"""Units that are taken as they are."""
+"""Units in a heading that change no number."""
 
 PREFIXES = ("q", "quat", "quaternion", "orientation", "")
 SPELLINGS = ("q0 q1 q2 q3", *(" ".join(f"{prefix}{x}" for x in "wxyz") for prefix in PREFIXES))
@@ -24,7 +24,7 @@ SPELLINGS = ("q0 q1 q2 q3", *(" ".join(f"{prefix}{x}" for x in "wxyz") for prefi
 STARTS = {"ratio", "I1", "I2", "B2", "B3"}
 """Parameters in a sweep's table, whose omega1 to omega3 are those of the start."""
 GYROSCOPES = ("gyroscope", "gyro", "gyr", "angularvelocity")
-"""How the names of a gyroscope's columns begin, before x, y, z along the axes of the body."""
+"""Beginnings of the names of a gyroscope's columns, followed by x, y or z."""
 _NAMES = {name.lower(): name for name in (*MATRIX, *OMEGA)} | {"t": "t", "time": "t", "timestamp": "t"}
 _NAMES |= {f"{gyro}{axis}": name for gyro in GYROSCOPES for axis, name in zip("xyz", OMEGA, strict=True)}
 
@@ -55,9 +55,10 @@ class Heading:
 
 
 def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -> Heading:
-    """Return the heading of a line of names; `extra_names` are further known names. Raises AtlasError, with `source`.
+    """Return the `Heading` of the cells of a line of names; `extra_names` are further known names.
 
-    Unknown columns are left out, as long as there are times and another known column.
+    Unknown columns are left out. Raises AtlasError, which names `source`, for a line of numbers, a column given twice,
+    an unknown unit, no column of times, and no other known column.
     """
     titles = [heading(cell) for cell in cells]
     while len(titles) > 1 and not titles[-1][0]:
@@ -112,7 +113,10 @@ def _hint(name: str) -> str:
 
 
 def _size(name: str, unit: str, place: str) -> Fraction:
-    """Return the unit in a column's heading divided by s or rad/s; 1 where no unit is given."""
+    """Return the unit in a column's heading divided by s or rad/s, exactly; 1 where no unit is given.
+
+    Raises AtlasError for an unknown unit.
+    """
     if unit in PLAIN:
         return Fraction(1)
     option = OPTIONS.get(name, "")

@@ -12,7 +12,7 @@ from atlas.pictures import Curve, Plane, Points, Scene
 from atlas.trial.ledger.plain import html_table, table
 
 ROUNDING = 2.0**-52
-"""An error up to here says nothing of a method."""
+"""Error up to which rounding hides the error of the method."""
 
 
 @dataclass(frozen=True)
@@ -72,11 +72,11 @@ class Convergence:
         return html_table(self._title, *self.table())
 
     def record(self) -> dict[str, Any]:
-        """Return the orders as plain data for JSON."""
+        """Return the orders as a dict for JSON, with the attributes as keys."""
         return asdict(self)
 
     def scene(self) -> Scene:
-        """Draw the largest errors against the step."""
+        """Return a `Scene` of the largest errors against the step, on logarithmic axes."""
         layers: list[Curve | Points] = []
         for name, errors in self.errors.items():
             points = np.column_stack([self.steps, np.maximum(errors, LEAST)])
@@ -92,7 +92,10 @@ class Convergence:
 
 
 def convergence(checks: Sequence[Any]) -> Convergence:
-    """Return the order of convergence of runs, each a `Check`. Raises AtlasError where the runs determine none."""
+    """Return the `Convergence` of runs, each a `Check`, sorted by step.
+
+    Raises AtlasError for fewer than two runs, equal steps, other columns or motions, and different final times.
+    """
     runs = sorted(checks, key=lambda run: -run.step)
     steps = tuple(run.step for run in runs)
     if len(set(steps)) < max(2, len(steps)) or min(steps) <= 0:

@@ -32,7 +32,10 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 
 @dataclass(frozen=True)
 class Reference:
-    """A certified motion with the unit of Omega's errors, or, without one, the conserved quantities alone."""
+    """A certified `motion` with the `unit` of Omega's errors; None for a body of which only integrals are known.
+
+    `deviations` maps a block of columns to the deviations of the conserved quantities.
+    """
 
     case: str
     parameters: Mapping[str, Any]
@@ -113,7 +116,7 @@ def _any_body(values: Given, start: Given, file: str) -> Reference:
 
 
 def _moments(values: Given, file: str) -> tuple[float, ...]:
-    """Return three moments of a symmetric body, nothing for another."""
+    """Return the moments (I2, I2, I3) of a symmetric body; () for a body with three moments or a tensor."""
     if len(values.get("inertia", ())) > 2:
         return ()
     I2, I3 = moments(_body(values, file))
@@ -121,7 +124,10 @@ def _moments(values: Given, file: str) -> tuple[float, ...]:
 
 
 def _top(values: Given, file: str) -> Reference:
-    """Return the motion of a symmetric top in a uniform field."""
+    """Return the `Reference` of a symmetric top; errors of Omega are in units of its largest rate.
+
+    Raises AtlasError for parameters of another body, and for missing ones.
+    """
     strange = values.keys() & {"field", "omega2", "omega3", "ratio"}
     if strange or len(values.get("inertia", ())) != 2:
         raise AtlasError(
@@ -145,7 +151,10 @@ def _refused(names: Iterable[str]) -> str:
 
 
 def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given) -> dict[str, Any]:
-    """Return the initial angular velocity: omega, or omega2 and omega3, or nothing; overrides come first."""
+    """Return the start by name: omega, or omega2 and omega3, or an empty dict; `overrides` replace the file's.
+
+    Raises AtlasError for a start that is given twice.
+    """
     components = overrides.keys() & {"omega2", "omega3"}
     if "omega" in overrides and components:
         raise AtlasError("The start is given twice, by omega and by omega2 or omega3: leave one of them out.")

@@ -189,7 +189,7 @@ def simulate(
 
 
 def _field(field: Any) -> FloatArray:
-    """Return B' (3,) from itself or from (B2, B3)."""
+    """Return B' (3,) from three components, or from (B2, B3) with B1 = 0. Raises AtlasError for another shape."""
     B = real(field, "The field", RATE)
     if B.shape not in {(2,), (3,)}:
         raise AtlasError(f"The field must be B' (3,) or (B2, B3), not of shape {B.shape}.")
@@ -197,7 +197,7 @@ def _field(field: Any) -> FloatArray:
 
 
 def _times(times: Any) -> FloatArray:
-    """Return the times (N,), sorted away from 0."""
+    """Return the times as an array (N,). Raises AtlasError unless |t| ascends and all have one sign."""
     t = np.atleast_1d(real(times, "The times", TIME))
     if t.ndim != 1 or not t.size:
         raise AtlasError(f"The times must be one list, not of shape {t.shape}.")

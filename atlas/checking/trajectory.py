@@ -84,9 +84,10 @@ class Trajectory:
 
 @contextmanager
 def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
-    """Open a file and read the lines above its rows; with `fields` the columns K1 to K3 and sigma are known, too.
+    """Yield the `Trajectory` of a file, open while the context lasts; with `fields` K1 to K3 and sigma are columns too.
 
-    Raises AtlasError, which names the line and the column, for no such trajectory; the blocks do as well.
+    Raises AtlasError, which names the line and the column, for a file that is no trajectory. Reading the blocks raises
+    the same error for a mistake in the rows.
     """
     parameters: dict[str, tuple[float, ...]] = {}
     extra_names = (*FIELD, "sigma") if fields else ()
@@ -191,14 +192,17 @@ def whole_rows(block: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], 
 
 
 def holes_left_out(count: int, rows: int, file: str) -> str:
-    """Return the sentence on rows that lack a number, empty without any. Raises AtlasError where no row is whole."""
+    """Return a sentence on the `count` rows left out for lack of a number, "" for none.
+
+    `rows` is the number of the other rows. Raises AtlasError for `rows` = 0.
+    """
     if not rows:
         raise AtlasError(f"{file} has no row with all its numbers: {count} lack one.")
     return f"{count} row{'s' * (count != 1)} left out, which lack{'s' * (count == 1)} a number" if count else ""
 
 
 def _latin_1(error: UnicodeError) -> tuple[str, int]:
-    """Read bytes that are no UTF-8 as Latin-1, as the degree signs of loggers."""
+    """Return bytes that are no UTF-8 decoded as Latin-1, and the position behind these: a handler of `codecs`."""
     if not isinstance(error, UnicodeDecodeError):
         raise error
     return error.object[error.start : error.end].decode("latin-1"), error.end
@@ -208,7 +212,7 @@ codecs.register_error("atlas-latin-1", _latin_1)
 
 
 def _decoded(file: TextIO, name: str) -> Iterator[str]:
-    """Yield the lines of a text file. Raises AtlasError for one that is none."""
+    """Yield the lines of a text file. Raises AtlasError for a file that is no text."""
     for line in lines_of(file, name):
         if "\0" in line:
             raise AtlasError(f"{name} is not a text file: save it as CSV in UTF-8.")
@@ -230,7 +234,10 @@ def _one_word(line: str) -> str:
 def _blocks(
     lines: Iterator[str], above: int, title: Heading, separator: str, file: str
 ) -> Iterator[dict[str, FloatArray]]:
-    """Yield the rows below the line of names, the number `above`; messages have the names as they are written."""
+    """Yield blocks of rows, arrays (m,) by column, from the lines below line number `above`, the line of names.
+
+    Raises AtlasError, which names the line, for a mistake in a row, a parameter among the rows, and no rows.
+    """
     first_row, empty = above + 1, True
     while block := list(islice(lines, BLOCK)):
         numbered = [(i, line.strip(" \n")) for i, line in enumerate(block, first_row) if line.strip()]
@@ -247,7 +254,7 @@ def _blocks(
 
 
 def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:
-    """Yield the rows of whole columns."""
+    """Yield blocks of rows, arrays (m,) by column, of columns (N,). Raises AtlasError for a column without numbers."""
     names = [*columns]
     used = {name: columns[names[i]] for name, i in title.places.items()}
     for name, x in used.items():
@@ -258,7 +265,7 @@ def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Ite
 
 
 def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatArray]:
-    """Return columns by name, times in s and rates in rad/s where they have units."""
+    """Return columns by name, times converted to s and rates to rad/s where the heading has a unit."""
     sizes = ((name, title.sizes[name]) for name in title.places)
     return {
         name: x * float(size.numerator) / float(size.denominator)
@@ -310,7 +317,10 @@ def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
 
 
 def _number(cell: str, place: str) -> float:
-    """Return the number in a cell, NaN for an empty cell."""
+    """Return the number in a cell, NaN for an empty cell or a text such as "null".
+
+    Raises AtlasError for another text and for infinity.
+    """
     text = cell.strip(" \t")
     text = "" if text.lower() in HOLES else text
     plain = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's 1.5D-05

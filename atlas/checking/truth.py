@@ -1,8 +1,8 @@
 """The true motion at arrays of times: elementary ones some three digits beyond a double, others by their kernels.
 
-Of an elementary motion axis and frequencies come from the exact floor, and the phases are reduced in two words, see
-`atlas.arithmetic.phase`; sines, cosines and R are long doubles. A million rows are graded
-in a second; balls decide digits that hang on the last bits, and phases out of `within`.
+The axis and the frequencies of an elementary motion are computed in balls, and the phases are reduced in two words, see
+`atlas.arithmetic.phase`; sines, cosines and R are long doubles. A million rows are graded in a second; balls decide
+digits that depend on the last bits, and times that are not `within`.
 """
 
 from dataclasses import dataclass
@@ -34,20 +34,20 @@ UNCERTAINTY = 2e-18
 """Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
 
 KERNELS = 1e-14
-"""The same of a kernel, of Omega in units of the largest rate."""
+"""Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate, by a kernel."""
 
 BALL_THRESHOLD = 100
-"""An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
+"""Error, in uncertainties of a kernel, below which balls compute the error, in a thousandth of a second a row."""
 
 PHASE = 2.0**-6
-"""Part of the phases up to 2^50 in which two words of a frequency leave less than a quarter of that."""
+"""Fraction of the largest phase, 2^50, up to which two words of a frequency cost less than a quarter of UNCERTAINTY."""
 
 EXTENDED = bool(np.finfo(np.longdouble).eps < 2e-19)
 """Whether this machine has long doubles with 64 digits or more; without them balls decide everything."""
 
 
 class Truth:
-    """R, Omega and the quaternion of an elementary motion at times (m,)."""
+    """Reference R, Omega and quaternion of an elementary motion, accurate to `uncertainty`."""
 
     uncertainty = UNCERTAINTY
     near = floor = 0.0
@@ -114,7 +114,10 @@ class KernelTruth:
 
 
 def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
-    """Return the reference values of a motion, a `Truth` or `KernelTruth`, with Omega in this unit."""
+    """Return the reference of a motion: a `Truth` for an elementary one, else a `KernelTruth`.
+
+    `unit` is the largest rate of a motion with three moments, in rad/time, which limits the times `within` reach.
+    """
     if isinstance(motion, Placed):  # the matrices that turn it into the given axes are rounded
         bound = 4 * KERNELS
         return KernelTruth(motion, np.inf, bound, 0.0, bound, in_balls=False)

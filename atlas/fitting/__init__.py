@@ -35,19 +35,19 @@ Loss: TypeAlias = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
 """Loss functions of `scipy.optimize.least_squares`."""
 
 SURE = 4.0
-"""Standard deviations of chi square, or of a correlation of residuals, within which a motion is the one."""
+"""Standard deviations of chi square, or of a correlation of residuals, within which a motion follows the data."""
 
 SAME = 1e-3
-"""Part of chi square by which a minimum that is found again from another time may differ."""
+"""Relative difference of chi square below which minima found from two times count as the same."""
 
 MANY = 12
-"""Numbers for each parameter from which on a motion that follows data of unknown noise is taken for theirs."""
+"""Measured numbers per parameter above which, with unknown noise, the first motion that follows the data is kept."""
 
 ROBUST = 1.5
-"""Reduced chi square, from the median, up to which a motion with outliers is the one."""
+"""Reduced chi square, from the median, below which a motion follows data with outliers."""
 
 GUESS = 0.02
-"""Noise of which a robust loss takes the start, in parts of the spread of the data."""
+"""Noise assumed first by a robust loss where `sigma` is unknown, relative to the spread of the data."""
 
 
 def fit(
@@ -119,6 +119,8 @@ def fit(
     AtlasError
         For data of a wrong shape, an entry that is not finite, a matrix that is no rotation, an unknown parameter, a
         value outside its bounds, fewer numbers than parameters, or where no motion of the family is found.
+    TypeError
+        For a keyword that is no other name of the data.
 
     Notes
     -----
@@ -198,7 +200,10 @@ def fit_file(
     sigma: RealArrayLike | None = None,
     **options: Any,
 ) -> Fit:
-    """Fit the data of a CSV file, see `of_file`; `sigma` overrides its head, `options` are passed to `fit`."""
+    """Return the `Fit` to the data of a CSV file, read by `of_file`; `options` are passed to `fit`.
+
+    `kind` names the kind of data, by default the first complete one. `sigma` replaces the file's standard errors.
+    """
     table = of_file(file, kind)
     result = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)
     result.notes, result.time_unit = (*[table.left_out] * bool(table.left_out), *result.notes), table.unit
@@ -206,9 +211,10 @@ def fit_file(
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
-    """Return the minima that starts lead to, pairs (chi square, varied parameters (n,)), the lowest first.
+    """Return the minima reached from the starts, pairs (chi square, varied parameters (n,)), the lowest first.
 
-    A wrong motion may follow few data of unknown noise: then all starts are tried.
+    The search ends at a minimum that follows the data, or that is found from two times. With few data of unknown noise
+    all starts are tried, for a wrong motion may follow these. Raises AtlasError if no start leads to a motion.
     """
     minima: list[tuple[float, tuple[float, Any]]] = []
     is_clear = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)

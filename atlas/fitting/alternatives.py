@@ -32,22 +32,22 @@ from atlas.fitting.parameters import Parameters, parameters_of
 from atlas.fitting.problem import Problem, minimum
 
 SAME_DATA = 1e-11
-"""Relative difference of two predictions that is rounding."""
+"""Relative difference below which two predictions are equal up to rounding."""
 
 SAME_VALUES = 1e-9
-"""Difference of two values, in natural units, that is rounding."""
+"""Difference, in natural units, below which two values are equal up to rounding."""
 
 SAME_MINIMUM = 1e-3
 """Relative difference of chi square below which two minima are one."""
 
 BIASED = 5.0
-"""Standard errors by which a parameter differs in a wider family so that this family is named."""
+"""Difference of a parameter, in standard errors, above which a wider family is named."""
 
 BETTER = 40.0
-"""Fall of chi square that noise does not give: with up to five more parameters once in ten million."""
+"""Fall of chi square that is no noise: with five more parameters noise exceeds this once in ten million cases."""
 
 SHOWN = 4
-"""Minima that are listed at most."""
+"""Largest number of minima listed."""
 
 _SIGNED = [
     np.array(signs)[:, None] * np.eye(3)[list(order)]
@@ -79,7 +79,7 @@ class Alternative(NamedTuple):
     family: str
 
     def sentence(self, family: str, parameters: Parameters) -> str:
-        """Return a sentence on the alternative to the fitted parameters of a family."""
+        """Return a sentence on how this alternative differs from the fitted `parameters` of the family `family`."""
         if self.equal:
             return f"Equal by symmetry: {', '.join(_differences(parameters, self.values))}."
         if self.family == family:
@@ -96,7 +96,10 @@ def _biases(parameters: Parameters, values: Values) -> str:
 
 
 def _differences(parameters: Parameters, values: Values) -> list[str]:
-    """Return texts "name = value" for the values that differ from the fit's by more than a standard error."""
+    """Return texts "name = value" for the values that differ from the fit's by more than a standard error.
+
+    Where a parameter has no standard error, the threshold is `SAME_VALUES`.
+    """
     return [
         f"{name} = {values[name]:.5g}"
         for name, p in parameters.items()
@@ -107,7 +110,10 @@ def _differences(parameters: Parameters, values: Values) -> list[str]:
 def warnings_of(
     parameters: Parameters, equal: list[Alternative], wider: list[tuple[float, Alternative]]
 ) -> Iterator[str]:
-    """Yield a warning for equal solutions, and one for each wider family that lowers chi square by more than noise."""
+    """Yield a warning if there are equal solutions, and one for each wider family whose fall exceeds `BETTER`.
+
+    `wider` has pairs (fall of chi square, alternative).
+    """
     if equal:
         count = f"{len(equal)} other sets of parameters give" if len(equal) > 1 else "Another set of parameters gives"
         different = ", ".join(_differences(parameters, equal[0].values))
@@ -125,7 +131,7 @@ def warnings_of(
 
 @dataclass(frozen=True)
 class _Turned:
-    """Data of a motion with R -> S R S'; the arrays are those of the motion at the times of the data."""
+    """Motion `left` R `right`, both (3, 3), known at the times of the data; `seen` has arrays by quantity."""
 
     seen: Mapping[str, FloatArray]
     left: FloatArray
@@ -142,7 +148,7 @@ class _Turned:
 
 
 def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bool) -> list[Alternative]:
-    """Return the other parameters that predict the same data by a symmetry, each once.
+    """Return other parameter sets that predict the same data by a symmetry, as `Alternative` with the fit's `redchi`.
 
     With `signs` axes are only reversed, not permuted. Fixed values, bounds and expressions are respected.
     """
@@ -183,7 +189,10 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
 
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
-    """Yield the parameters of the elementary motion in the opposite field with the same axis, for axes alone."""
+    """Yield the parameters with B and omega2 reversed if that elementary motion has the same axis R e3.
+
+    Nothing is yielded for other families, and for data other than axes.
+    """
     if not problem.model.is_on_hyperbola or problem.data.kind != "axis":
         return
     new = dict(values) | {name: -values[name] for name in (*B, "omega2")}
@@ -199,7 +208,10 @@ def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Itera
 def _turned_parameters(
     problem: Problem, values: Values, S: FloatArray, body_turn: FloatArray, omega: FloatArray
 ) -> Iterator[dict[str, float]]:
-    """Yield the parameters of the motion S R body_turn where the family has one; for tops with both signs of n."""
+    """Yield the parameters of the motion S R body_turn; nothing where the family has no such motion.
+
+    For tops there are two, with both signs of n. `omega` is the angular velocity in the body at t = 0, shape (3,).
+    """
     model = problem.model
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
     turned_moments = moments @ abs(body_turn)
@@ -220,14 +232,17 @@ def _turned_parameters(
 
 
 def _same(problem: Problem, values: Values, others_values: Values) -> bool:
-    """Return whether two sets of parameters are one, up to rounding; attitudes are compared as matrices."""
+    """Return whether two sets of parameters are equal up to rounding; attitudes are compared as matrices."""
     names = [name for name in problem.model.names if name not in ATTITUDE]
     off = max(abs(values[name] - others_values[name]) / (problem.units[name] + abs(values[name])) for name in names)
     return bool(max(off, abs(attitude(values) - attitude(others_values)).max()) < SAME_VALUES)
 
 
 def other_minima(problem: Problem, tried: list[tuple[float, Any]], freedom: float) -> list[Alternative]:
-    """Return the other minima found from other starts, each once; chi square over `freedom` is the reduced one."""
+    """Return the minima after the first of `tried`, each once, at most `SHOWN`, as alternatives.
+
+    `tried` has pairs (chi square, varied parameters), the lowest first. The reduced chi square is chi square/`freedom`.
+    """
     out: list[Alternative] = []
     for chi, x in tried[1:]:
         chi_squares = [tried[0][0] / freedom, *(minimum_found.redchi for minimum_found in out)]
@@ -243,8 +258,8 @@ def wider_families(
 ) -> list[tuple[float, Alternative]]:
     """Return pairs (fall of chi square, alternative) for good fits of wider families with other values.
 
-    A fit is good if its reduced chi square is no surprise; another value is one off by more than `BIASED` standard
-    errors. `scale` is the estimated noise in units of the given one.
+    A fit is good if its reduced chi square is within `BIASED` standard deviations of 1. A value is another one if it
+    differs by more than `BIASED` standard errors. `scale` is the estimated noise over the given sigma.
     """
     alternatives = []
     values, chi_square = problem.values(x), problem.chi_square(x)
@@ -270,7 +285,7 @@ def wider_families(
 
 
 def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
-    """Return the parameters at x; of a top also ratio I3 and field k2 n, the names of a general motion."""
+    """Return all values by name at x; for a top also `ratio` = I3 and B = k2 n, the names of a general motion."""
     values = problem.values(x)
     if problem.model.has_direction:
         field = values["k2"] * direction_of(values)
@@ -279,7 +294,7 @@ def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
 
 
 def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dict[str, float]:
-    """Return the parameters that differ by more than `least` standard errors, with the differences in these."""
+    """Return the differences, in standard errors, of the parameters that differ by more than `least`, by name."""
     off = {
         name: (values[name] - p.value) / p.stderr
         for name, p in parameters.items()
@@ -289,7 +304,7 @@ def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dic
 
 
 def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:
-    """Return the problem of a wider family, and the start there that gives the present motion."""
+    """Return the problem of a wider family, and the varied parameters (n,) that give the present motion there."""
     parameters = problem.params
     inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}
     if model.has_direction:

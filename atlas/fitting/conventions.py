@@ -1,4 +1,4 @@
-"""Other conventions in which data that no motion of the family follows would be those of one."""
+"""Other conventions of reading data that no motion of the family follows as given."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -24,9 +24,9 @@ HELD = (
 def other_conventions(
     problem: Problem, parameters: Callable[[Data], tuple[Parameters, Values]], *, quaternions: bool
 ) -> Iterator[tuple[str, Problem]]:
-    """Yield (sentence, problem): first a top's direction set free, then the data read in other conventions.
+    """Yield (sentence, problem): first with a top's direction set free, then for rotations in other conventions.
 
-    `parameters` returns the parameters for other data; `quaternions` says that the data are quaternions.
+    `parameters` maps data to the pair (parameters, start values); `quaternions` says how the rotations were given.
     """
     data = problem.data
     is_held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
@@ -51,7 +51,7 @@ def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatA
 
 
 def minima_of(problem: Problem) -> Iterator[FloatArray]:
-    """Yield the vectors of varied parameters to which the first starts lead, if any."""
+    """Yield the varied parameters (n,) reached from each of the first starts; starts without a motion are skipped."""
     for centre, near_centre, start, count in tries_about(problem, 0):
         try:
             x = follow_data(near_centre, start, count)

@@ -1,7 +1,7 @@
-"""Measured data of a motion: residuals in standard errors, and how they change as R turns.
+"""Measured data of a motion: differences from a motion, and their derivatives.
 
-A small change of a parameter turns R by a vector v of the laboratory, dR/dp = [v]x R, see `Motion.sensitivity`; what
-that does to each kind of data is written here.
+A small change of a parameter turns R by a vector v of the laboratory, dR/dp = [v]x R, see `Motion.sensitivity`; here
+are the resulting derivatives of each kind of data.
 """
 
 from collections.abc import Callable, Mapping
@@ -22,34 +22,34 @@ from atlas.errors import AtlasError
 KINDS: Mapping[str, tuple[int, ...]] = {
     "rotation": (3, 3), "quaternion": (4,), "axis": (3,), "angular_velocity": (3,), "field_in_body": (3,),
 }  # fmt: skip
-"""Kinds of data with their shapes at a time; a "signal" is any function of R."""
+"""Shape of a datum at one time, by kind of data; a "signal" is any function of R."""
 
 AXIS = ("R13", "R23", "R33")
 
 FAR = 100
-"""Spans of the data within which they lie from the time at which the parameters hold."""
+"""Largest distance of the data from t = 0, where the parameters hold, in spans of the data."""
 
 LEAST = 5
-"""Times that a fit needs."""
+"""Least number of times for a fit."""
 
 STEP = 1e-6
 """Step of differences, in the natural unit of the varied quantity."""
 
 NO_ROTATION = 1.1
-"""Value that marks the entries of a rotation that the integration lost."""
+"""Magnitude of an entry above which a matrix is no rotation: the integration lost the motion."""
 
 NEARLY_OPPOSITE = -0.99999
-"""Cosine of an angle below which the axis of a turn is not its skew part."""
+"""Cosine of an angle below which the axis of a rotation is taken from its symmetric part, not its skew part."""
 
 MAX_BLOCKS = 1200
-"""Blocks of rows that are read: ten million rows."""
+"""Largest number of blocks of rows that are read: ten million rows."""
 NEAR = 0.5
-"""How far a measured matrix or vector may be from a rotation, or from length 1."""
+"""Largest distance of singular values of a measured matrix, or of a vector's length, from 1."""
 
 
 @dataclass(frozen=True)
 class Entries:
-    """Signal of some entries of R; a class, so that a fit of a file can be pickled."""
+    """Signal of the entries R[rows[i], columns[i]], counted from 0; a class, so that a fit of a file can be pickled."""
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
@@ -61,7 +61,7 @@ class Entries:
 
 @dataclass(frozen=True)
 class Data:
-    """Data of one kind at times (N,), sorted, with their standard errors (N, 1)."""
+    """Data `values` (N, ...) of one kind at times `t` (N,), ascending, with standard errors `sigma` (N, 1)."""
 
     kind: str
     t: FloatArray
@@ -74,7 +74,7 @@ class Data:
     """Sentences on rows and columns that were left out."""
 
     def part(self, places: Any) -> "Data":
-        """Return the data at some places of the arrays."""
+        """Return the data at the given indices, or the slice, of the times."""
         return replace(self, t=self.t[places], values=self.values[places], sigma=self.sigma[places])
 
     @property
@@ -83,7 +83,10 @@ class Data:
         return 1.0 if self.kind in ("rotation", "axis") else float(self.values.std(0).max()) or 1.0
 
     def of(self, motion: Any, t: FloatArray) -> FloatArray:
-        """Return the noise-free data of a motion, for an axis all of R; of each motion of a `Flow`."""
+        """Return the noise-free data of a motion at times t, shape (N, ...); for an axis all of R, (N, 3, 3).
+
+        Of a `Flow` of S motions the shape is (S, N, ...).
+        """
         if self.kind == "angular_velocity":
             return np.asarray(motion.angular_velocity(t))
         if self.kind == "field_in_body":
@@ -107,7 +110,11 @@ class Data:
         return values.reshape(*R.shape[:-2], -1)
 
     def differences(self, motion: Any) -> FloatArray:
-        """Return data less motion, (N, k): of rotations three angles, in the laboratory, of axes two, in the body."""
+        """Return data minus motion at the times of the data, shape (N, k).
+
+        For rotations these are three angles about the axes of the laboratory, for axes two angles in the body, in rad;
+        for other kinds the components of the difference. Of a `Flow` of S motions the shape is (S, N, k).
+        """
         values = self.of(motion, self.t)
         if self.kind == "rotation":
             return difference(self.values, values)
@@ -121,10 +128,10 @@ class Data:
     def slopes(
         self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, differences: FloatArray
     ) -> FloatArray:
-        """Return the derivatives of the measured quantity, shape (N, k, P): the differences shrink by them.
+        """Return the derivatives of the measured quantity in P parameters, shape (N, k, P): minus those of differences.
 
-        `v` (N, P, 3) has dR/dp = [v]x R, for angular velocities dv/dt; `fields` (P, 3) are the derivatives of the
-        `field`; `differences` (N, 3) are used where rotations are measured.
+        `v` (N, P, 3) has dR/dp = [v]x R; for angular velocities dv/dt is given instead. `fields` (P, 3) are the
+        derivatives of the `field` (3,) in the laboratory. `differences` (N, 3) are used for rotations only.
         """
         if self.kind == "rotation":
             return np.asarray((_inverse_right(differences) @ v.swapaxes(1, 2)).reshape(len(v), 3, -1))
@@ -150,7 +157,7 @@ class Data:
 
 
 def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
-    """Return the rotation vectors, in the laboratory, from other rotations (..., 3, 3) to these."""
+    """Return the rotation vectors (..., 3), in the laboratory and in rad, from `origins` to `rotations` (..., 3, 3)."""
     turn = rotations @ origins.swapaxes(-1, -2)
     skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
     sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
@@ -165,7 +172,7 @@ def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
 
 
 def _inverse_right(rho: FloatArray) -> FloatArray:
-    """Return the matrices J with d log(D exp(-[v]x)) = -J v at D = exp([rho]x)."""
+    """Return the matrices J (N, 3, 3) with d log(D exp(-[v]x)) = -J v at D = exp([rho]x), for rho (N, 3)."""
     angle = np.linalg.norm(rho, axis=-1)
     small = angle < 1e-3
     x = np.where(small, 1.0, angle)
@@ -177,7 +184,11 @@ def _inverse_right(rho: FloatArray) -> FloatArray:
 def of_arrays(
     t: Any, data: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool, nan_policy: str = "omit"
 ) -> Data:
-    """Return the data of the one array in `data` that is not None. Raises AtlasError for unfit arrays."""
+    """Return the `Data` of the one array in `data` that is not None, sorted by time, with t = 0 at `epoch`.
+
+    Quaternions become rotation matrices. Times with NaN are left out or refused by `nan_policy`. Raises AtlasError for
+    no array or several, a wrong shape, fewer than `LEAST` times, equal times, and data far from `epoch`.
+    """
     kinds = [name for name, x in data.items() if x is not None]
     if len(kinds) != 1:
         raise AtlasError(f"The data must be exactly one of {', '.join(data)}, not {' and '.join(kinds) or 'none'}.")
@@ -210,7 +221,10 @@ def of_arrays(
 
 
 def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
-    """Return the measured values of a kind, times along the first axis, and the function of a signal or None."""
+    """Return the measured values (N, ...) of a kind, and the function of a signal or None.
+
+    Raises AtlasError for a wrong shape, and for a signal that is no pair (values, function).
+    """
     if kind != "signal":
         values, shape = measured(value, f"The {kind}", nan_policy), (times.size, *KINDS[kind])
         if values.shape != shape:
@@ -228,9 +242,10 @@ def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[
 
 
 def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.int_]) -> FloatArray:
-    """Return rotations for matrices and quaternions, and axes of length 1, of the `rows` of the data.
+    """Return the nearest rotations to matrices, rotations for quaternions, axes scaled to length 1; others unchanged.
 
-    Raises AtlasError for a matrix that is no rotation, and for a quaternion or axis that is not of length 1.
+    `rows` are the numbers of the data's rows for the error. Raises AtlasError for a matrix or a length farther than
+    `NEAR` from a rotation or from 1.
     """
     if kind == "rotation":
         U, size, V = np.linalg.svd(values)
@@ -255,7 +270,10 @@ def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.in
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of a file: times, data as arguments of `fit`, sigma, the unit of time, a sentence on unused columns."""
+    """Columns of a file: times (N,), data as keyword arguments of `fit`, `sigma` (a number, an array (N,) or None).
+
+    `unit` is "s" or "time"; `left_out` is a sentence on unused columns, or "".
+    """
 
     t: FloatArray
     data: dict[str, Any]
@@ -265,10 +283,11 @@ class Table:
 
 
 def of_file(path: Path, kind: str | None) -> Table:
-    """Return the columns of a CSV file that a fit uses, see `atlas.checking.trajectory`.
+    """Return the `Table` of the columns of a CSV file that a fit uses, see `atlas.checking.trajectory`.
 
     The kind of data is the first whose columns are complete, of rotations, quaternions, the axis R13, R23, R33, Omega
-    and K, else the entries of R as a signal; or the given `kind`. Raises AtlasError for a file without such columns.
+    and K, else the entries of R as a signal; or the given `kind`. Raises AtlasError for a file without such columns,
+    and for one of more than ten million rows.
     """
     with opened(path, fields=True) as file:
         blocks = [*islice(file.blocks, MAX_BLOCKS)]

@@ -15,16 +15,16 @@ import numpy as np
 from atlas.arithmetic.inputs import FloatArray
 
 ORDERS = 10, 18
-"""Orders of the series for the first and the second of these errors."""
+"""Orders of the series at the errors ERROR and FINE."""
 
 ERROR, FINE = 1e-5, 1e-11
-"""Error of a step, while a motion is sought and where it is found."""
+"""Error of a step: during the search, and near a minimum at the finest."""
 
 SLOWEST = 0.05
-"""Share of the motions that are too fast for the common step, and wrong then."""
+"""Fraction of the motions, the fastest, that may be too fast for the common step: their values are then wrong."""
 
 LONGEST = 20000
-"""Steps that are made at most."""
+"""Largest number of steps."""
 
 
 HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], float)
@@ -33,12 +33,16 @@ HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, 
 
 @dataclass(frozen=True)
 class Flow:
-    """Motions that start at t = 0, S of them: moments and couplings (S, 3), potential (S,), field, R and Omega."""
+    """S motions from their states at t = 0, all at once.
+
+    `moments`, `coupling`, `field` in the laboratory and `omega` in the body have the shape (S, 3), `attitude` R(0)
+    (S, 3, 3); `error` is the allowed error of a step.
+    """
 
     moments: FloatArray
     coupling: FloatArray
     potential: FloatArray
-    """Linear and quadratic, (S, 2)."""
+    """Coefficients linear and quadratic, shape (S, 2)."""
     field: FloatArray
     attitude: FloatArray
     omega: FloatArray
@@ -102,13 +106,13 @@ class Flow:
         return R, (out[:, :, 3] + g[:, None] * np.vecmat(self.field[:, None], R)) / self.moments[:, None]
 
     def rotation(self, t: FloatArray) -> FloatArray:
-        """Return R, (S, N, 3, 3)."""
+        """Return R (S, N, 3, 3) at times (N,), NaN and wrong values as in `at`."""
         return self.at(t)[0]
 
     def angular_velocity(self, t: FloatArray) -> FloatArray:
-        """Return Omega in the body, (S, N, 3)."""
+        """Return Omega in the body (S, N, 3) at times (N,), as `at` does."""
         return self.at(t)[1]
 
     def field_in_body(self, t: FloatArray) -> FloatArray:
-        """Return the field in the body, (S, N, 3)."""
+        """Return the field in the body (S, N, 3) at times (N,), as `at` does."""
         return np.asarray(np.vecmat(self.field[:, None], self.at(t)[0]))

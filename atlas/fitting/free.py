@@ -1,4 +1,4 @@
-"""Free bodies with three moments: others turn alike, in a field along the angular momentum.
+"""Free bodies with three moments: other bodies, in a field along the angular momentum, have the same motion R(t).
 
 In a motion of the elliptic family, see `atlas.motions.nutation.certified_elliptic`, Omega = (E - 1) K, K the field in
 the body, and I_i is to E_j E_k - 1. A free body with moments J and the angular momentum M = s K has Omega = s K/J. So
@@ -9,7 +9,7 @@ it turns as each body does with
 These are moments of a body for s > 0, for -min(J_j + J_k) < s < 0 where |s| (J_j + J_k - J_i) <= 2 J_j J_k for each i,
 and for s < -max(J_j + J_k) where it is >= for each i.
 
-Along them the least squares are a level valley, bent, on which standard errors at one place tell nothing.
+Along this curve of bodies chi square is constant: standard errors at one point of the curve do not show its extent.
 """
 
 from typing import Any
@@ -24,17 +24,19 @@ from atlas.fitting.problem import Problem
 from atlas.fitting.search import follow_data
 
 LIKE = 1e-3
-"""Weight of the moments that were found, beside 1 of a constant angular momentum: those that this leaves open."""
+"""Weight of the moments found before, relative to the condition of a constant angular momentum."""
 
 
 TURNING = 0.3
-"""Change of the angular momentum, in parts of it, from which on a field is seen: noise is less."""
+"""Relative change of the angular momentum above which there is a field: noise is less."""
 
 
 def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
-    """Return the minima, a free body first if the field is below the noise, and a sentence on that, or "".
+    """Return the minima, and a sentence on the free body put before them, or "".
 
-    The minima are unchanged where a field is given or significant.
+    Minima are pairs (chi square, varied parameters). The minimum of a free body comes first if chi square rises by less
+    than `BEYOND` times the noise without a field. The minima are unchanged where the field is not varied, where the
+    angular momentum changes, and where no free body has the motion.
     """
     if not set(B) <= set(problem.names):
         return tried, ""
@@ -67,9 +69,9 @@ def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[li
 
 
 def _moments(R: FloatArray, omega: FloatArray, inertia: FloatArray) -> tuple[FloatArray, float]:
-    """Return the moments of a body whose angular momentum would be constant in the laboratory, by least squares.
+    """Return the moments (3,) for which R I Omega is as constant as possible, and the relative change of R I Omega.
 
-    And by how much it changes, in parts of its size.
+    By least squares over rotations (N, 3, 3) and angular velocities (N, 3); `inertia` (3,) decides what is left open.
     """
     momenta = R * omega[:, None] / np.linalg.norm(omega, axis=1).max()  # one column for each moment
     change = (momenta - momenta.mean(0)).reshape(-1, 3)

@@ -1,4 +1,4 @@
-"""Least squares of many motions at once, by Levenberg and Marquardt with geodesic acceleration.
+"""Least squares of many motions at once, by the method of Levenberg and Marquardt with geodesic acceleration.
 
 Combinations that the data hardly determine make valleys that are narrow and bent; the second derivative along a step
 follows the bend (Transtrum and Sethna, arXiv:1201.5885), where plain steps creep. SciPy's least squares, one
@@ -24,26 +24,29 @@ SCORE: Mapping[str, Callable[..., Any]] = {
     "huber": lambda z: 1 / np.sqrt(np.maximum(z, 1)), "cauchy": lambda z: 1 / (1 + z),
     "arctan": lambda z: 1 / (1 + z * z),
 }  # fmt: skip
-"""Their derivatives."""
+"""Derivatives of these loss functions."""
 
 SPIN_UNSEEN = ("axis", "signal")
-"""Data that do not show the spin about the axis by itself."""
+"""Kinds of data that determine the momentum M3 along the axis, but hardly omega3."""
 
 EXACT = 1e-13
-"""Difference from data, in parts of their spread, that is rounding."""
+"""Difference from data, relative to their spread, that is rounding."""
 
 BEND = 0.75
-"""Largest part of a step by which it is bent."""
+"""Largest geodesic correction, relative to the step: a larger correction is not applied."""
 
 EQUAL = 0.02
-"""Difference of parameters, in natural units, below which two motions are one."""
+"""Difference of parameters, in natural units, below which two motions count as the same."""
 
 PROBE = 0.1
-"""Part of a step at which its bend is taken."""
+"""Fraction of a step at which the second derivative along the step is taken."""
 
 
 class Crowd:
-    """Motions of one problem, refined together by least squares on some of the data: `X` (M, n) are the parameters."""
+    """M motions of one problem, refined together by least squares on some of the data: `X` (M, n) are the parameters.
+
+    `costs` (M,) are the sums of the loss function, `damping` (M,) the damping factors of the steps.
+    """
 
     def __init__(self, problem: Any, X: FloatArray) -> None:
         self.problem, self.X = problem, problem.inner(X)
@@ -52,7 +55,10 @@ class Crowd:
         self.spin = problem.names.index("omega3") if is_free and "omega3" in problem.names else None
 
     def _straight(self, X: FloatArray) -> FloatArray:
-        """Return coordinates of steps: M3 for omega3, which an axis tells together with I3 only."""
+        """Return the coordinates of steps, shape of X: M3 in the place of omega3 for axes and signals, else X.
+
+        Such data determine the momentum M3 along the axis, but omega3 only together with I3.
+        """
         if self.spin is None:
             return X
         I3, offset = self.problem.spin(X)
@@ -71,7 +77,7 @@ class Crowd:
         return np.asarray(self.problem.inner(X))
 
     def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
-        """Return residuals (M, N k) and their derivatives in the coordinates (M, n, N k)."""
+        """Return residuals (M, N k) and their derivatives (M, n, N k) in the coordinates of `_straight`."""
         r, J = self.problem.turned(X, places)
         if self.spin is not None:
             M, n = X.shape
@@ -85,11 +91,15 @@ class Crowd:
         return r, J
 
     def _cost(self, r: FloatArray) -> FloatArray:
-        """Return the sums of the loss function of the squared residuals."""
+        """Return the sums (M,) of the loss function of the squared residuals r (M, N k)."""
         return np.asarray(RHO[self.problem.loss](r * r).sum(-1))
 
     def refine(self, places: Any, rounds: int, decrement: float = 0.0) -> None:
-        """Make some steps, or until chi square would fall by a part of itself a number only."""
+        """Make at most `rounds` steps on the data at the indices `places`; update X, costs and damping.
+
+        If `decrement` is not zero the steps end when each motion's cost falls by less than this fraction per number,
+        when its damping exceeds 1000, or when its residuals are rounding.
+        """
         problem = self.problem
         r, J = self._slopes(self.X, places)
         self.costs = self._cost(r)
@@ -121,7 +131,10 @@ class Crowd:
                 break
 
     def drop(self, count: int, largest: float = np.inf) -> None:
-        """Keep the motions of least cost, each once; besides the best only those of a cost up to `largest`."""
+        """Keep at most `count` motions, those of least cost, equal ones once; the best always, others up to `largest`.
+
+        Motions whose parameters differ by less than `EQUAL` natural units count as equal.
+        """
         best: list[int] = []
         for i in np.argsort(self.costs, kind="stable"):
             if len(best) == count or (best and self.costs[i] > largest):

@@ -23,7 +23,7 @@ Values = Mapping[str, float]
 B, OMEGA, ATTITUDE, DIRECTION = (tuple(f"{x}{i}" for i in "123") for x in ("B", "omega", "a", "n"))
 
 IN_BODY = ("angular_velocity", "field_in_body")
-"""Data along the axes of the body, which do not see the laboratory."""
+"""Kinds of data along the axes of the body, which do not determine the attitude in the laboratory."""
 
 
 def vector(p: Values, names: Sequence[str]) -> FloatArray:
@@ -32,7 +32,7 @@ def vector(p: Values, names: Sequence[str]) -> FloatArray:
 
 
 def attitude(p: Values) -> FloatArray:
-    """Return R at the time of the parameters, (3, 3), from the rotation vector a."""
+    """Return the rotation matrix R (3, 3) at t = 0, from the rotation vector a; a missing component is 0."""
     return np.asarray(Rotation.from_rotvec(vector(p, ATTITUDE)).as_matrix())
 
 
@@ -42,19 +42,25 @@ def _general(p: Values) -> Any:
 
 
 def _elementary(p: Values) -> Any:
-    """Return an elementary motion, with e2 in the plane of e3 and the field at the start, so that omega1 = 0."""
+    """Return the `ElementaryMotion` of the parameters; omega2 is along the part of the field across e3 at the start."""
     return ElementaryMotion.in_laboratory(p["ratio"], vector(p, B), attitude(p), omega2=p["omega2"])
 
 
 def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
-    """Return Omega (3, ...) of elementary motions on the hyperbola (67), of fields K (3, ...) in the body."""
+    """Return Omega (3, ...) of elementary motions on the hyperbola (67), from the ratio r, K (3, ...) and w.
+
+    K is the field in the body, w = omega2 the component of Omega along the part of K across e3.
+    """
     K_across = np.sqrt(K[0] * K[0] + K[1] * K[1])
     omega3 = K[2] * w * (w + (2 - r) * K_across) / (r * K_across * (K_across + w))
     return np.stack([w * K[0] / K_across, w * K[1] / K_across, omega3])
 
 
 def _started(p: Values) -> dict[str, FloatArray]:
-    """Return the derivatives of Omega at the start of an elementary motion in its parameters, each (3,)."""
+    """Return the derivatives (3,) of Omega at the start of an elementary motion, by name of the parameter.
+
+    Raises AtlasError where the derivatives are infinite, on a vertical line of the hyperbola.
+    """
     A, field, h = attitude(p), vector(p, B), 1e-30
     x = np.array([p["ratio"], *(A.T @ field), p["omega2"]])
     r, K1, K2, K3, w = x[:, None] + 1j * h * np.eye(5)
@@ -72,7 +78,7 @@ def _started(p: Values) -> dict[str, FloatArray]:
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
-    """Return the component of a field perpendicular to e3, and the rotation about e3 that brings it to e2."""
+    """Return the length of a field's part across e3, and the rotation (3, 3) about e3 that takes that part to e2."""
     size = float(np.hypot(K[0], K[1]))
     c, s = (K[1] / size, K[0] / size) if size else (1.0, 0.0)
     return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
@@ -87,7 +93,7 @@ def _top(p: Values) -> Any:
 
 
 def direction_of(p: Values) -> FloatArray:
-    """Return the direction of a top's field, of length 1."""
+    """Return the direction n (3,) of a top's field, scaled to length 1; zeros for n = 0."""
     n = vector(p, DIRECTION)
     return np.asarray(n / (np.linalg.norm(n) or 1.0))
 
@@ -103,7 +109,10 @@ def _asymmetric(p: Values) -> Any:
 
 
 def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
-    """Return a `Flow` of the motions with parameters (S,) each, to be integrated; NaN where there is no motion."""
+    """Return the `Flow` of S motions, from numbers or arrays (S,) by name and the error of a step.
+
+    Omega is NaN where moments are those of no body, or where there is no elliptic motion.
+    """
     size = max(np.size(x) for x in p.values())
     parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
 
@@ -132,24 +141,24 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 
 @dataclass(frozen=True)
 class Model:
-    """A family in a fit: names of its parameters, those fixed by default, and the function that makes its motion."""
+    """A family in a fit: parameter `names`, `fixed` default values, `make` from values by name to the motion."""
 
     name: str
     names: tuple[str, ...]
     make: Callable[[Values], Any]
     fixed: Mapping[str, float]
     exact: bool = False
-    """Whether the motion has derivatives in all parameters by itself."""
+    """Whether `Motion.sensitivity` gives the derivatives in all parameters."""
     start: Callable[[Values], Mapping[str, FloatArray]] | None = None
-    """Derivatives of Omega at the start in the parameters, where these tell it."""
+    """Function from values to the derivatives (3,) of the initial Omega by name, of families without omega1."""
     slow: bool = False
     """Whether an integration is faster than the closed form, over the times of a usual measurement."""
     wider: tuple[str, ...] = ()
-    """Families that have all its motions and more."""
+    """Names of families that contain all motions of this family, and more."""
 
     @property
     def has_direction(self) -> bool:
-        """Whether the forces come from a direction n, of which only the direction is seen, not from a field B."""
+        """Whether the parameters have a direction n, as of a top, instead of a field B."""
         return set(DIRECTION) <= set(self.names)
 
     @property
@@ -159,13 +168,14 @@ class Model:
 
     @property
     def is_any_motion(self) -> bool:
-        """Whether the motions are all those of a body in a field."""
+        """Whether field and angular velocity are both parameters without a condition."""
         return {*B, *OMEGA} <= set(self.names)
 
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
-        """Return the vectors v with dR/dp = [v]x R of the named parameters, shape (N, P, 3), exactly or by differences.
+        """Return the vectors v with dR/dp = [v]x R of the P named parameters at times (N,), shape (N, P, 3).
 
-        Differences serve on a separatrix, where the exact derivatives raise an error, and families that lack them.
+        Exactly, by `Motion.sensitivity`; by differences for families without exact derivatives, and on a separatrix,
+        where these raise an error.
         """
         if self.exact:
             with suppress(AtlasError, ZeroDivisionError):
@@ -181,7 +191,9 @@ class Model:
         return out
 
     def _inputs(self, p: Values, names: Sequence[str]) -> tuple[list[str], FloatArray]:
-        """Return the inputs of `sensitivity` that parameters change, and the derivatives (P, inputs) of the inputs.
+        """Return the names of inputs of `sensitivity` that the P parameters change, and the matrix d input/d parameter.
+
+        The matrix has the shape (P, count of inputs).
 
         A change da of the rotation vector turns the start by J da. On the hyperbola (67) a parameter changes Omega as
         `start` says. Of a direction n of any length the part of dn across n counts, as the field of `sensitivity`.
@@ -212,7 +224,7 @@ class Model:
 
 
 def _left_jacobian(a: FloatArray) -> FloatArray:
-    """Return J with R(a + da) = (1 + [J da]x) R(a)."""
+    """Return the matrix J (3, 3) with R(a + da) = (1 + [J da]x) R(a), for a rotation vector a (3,)."""
     angle = float(np.linalg.norm(a))
     hat = np.cross(np.eye(3), a)
     if angle < STEP:
@@ -247,19 +259,23 @@ MODELS: Mapping[str, Model] = {
 
 
 def model_of(family: Any) -> Model:
-    """Return a family. Raises AtlasError for another name."""
+    """Return the `Model` of a family's name. Raises AtlasError for a name not in `MODELS`."""
     if family not in MODELS:
         raise AtlasError(f"The family of a fit is one of {', '.join(MODELS)}, not {family!r}.")
     return MODELS[family]
 
 
 def field_of(model: Model, p: Values) -> FloatArray:
-    """Return the field whose components `field_in_body` are measured, in the laboratory."""
+    """Return the field B, or a top's direction n, in the laboratory, shape (3,): `field_in_body` is this vector."""
     return direction_of(p) if model.has_direction else vector(p, B)
 
 
 def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
-    """Return the parameters with R and Omega as the state at t = 0, in the gauge of data of this kind."""
+    """Return the parameters p with R (3, 3) and Omega (3,) as the state at t = 0.
+
+    Parameters of the attitude that data of this kind do not determine get their conventional values; field and Omega
+    are changed so that the data stay the same.
+    """
     field = vector(p, B)
     if model.has_direction and kind in IN_BODY:
         R = upright(R.T @ direction_of(p)).T
@@ -280,7 +296,7 @@ def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) 
 
 
 def upright(n: FloatArray) -> FloatArray:
-    """Return the shortest turn that takes e3 to a unit vector."""
+    """Return the rotation matrix (3, 3) of the smallest angle that takes e3 to a unit vector n."""
     sine = float(np.hypot(n[0], n[1]))
     angle = np.arctan2(sine, n[2]) / (sine or 1.0)
     return np.asarray(Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix())
@@ -291,13 +307,13 @@ def _named(names: Sequence[str], v: FloatArray) -> dict[str, float]:
 
 
 def units_of(model: Model, rate: float) -> dict[str, float]:
-    """Return the natural unit of each parameter, with a rate of the motion."""
+    """Return the natural unit of each parameter by name: `rate` for rates, its square for potentials, else 1."""
     sizes = {**dict.fromkeys((*B, *OMEGA, "k2", "k3"), rate), "linear": rate * rate, "quadratic": rate * rate}
     return {name: sizes.get(name, 1.0) for name in model.names}
 
 
 def unseen(model: Model, kind: str) -> dict[str, float]:
-    """Return the parameters of the attitude that data of this kind do not determine, with the values they get."""
+    """Return the parameters of the attitude that data of this kind do not determine, each with the value 0, by name."""
     if kind in IN_BODY:
         return {"a3": 0.0} if model.has_direction else dict.fromkeys(ATTITUDE, 0.0)
     return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

@@ -1,6 +1,6 @@
-"""Small nutations: where the axis hardly nutates, chi square has a minimum at each frequency that this may have.
+"""Small nutations: where the axis hardly nutates, chi square has a minimum at each possible frequency of nutation.
 
-An elementary motion is one of a body of any ratio, with a field that goes with it. Along this valley the angle theta
+Each elementary motion is a motion of bodies of every ratio, each in its own field. Along these bodies the angle theta
 between axis and field oscillates at another frequency nu, and a small nutation, of size e, is R' = (1 + [v]x) R with
 
     v = e cos(nu t) n + e sin(nu t) / nu (psi B + phi e3),
@@ -24,56 +24,56 @@ from atlas.fitting.problem import Problem
 from atlas.fitting.search import follow_data
 
 HEIGHT = 1.0
-"""Nutation in standard errors of the data from which on one that is good is the one."""
+"""Nutation, in standard errors of the data, above which a motion that follows the data is kept."""
 
 BEYOND = 14.0
 """Decrease of chi square that tells a nutation from noise, beyond that of the best of all tried frequencies."""
 
 PHASE_STEP = 1.0
-"""Radians at the end between nutations that are tried."""
+"""Difference of phase, in radians over the span of the data, between neighbouring nutations that are tried."""
 
 MAX_NUTATIONS = 10000
-"""Nutations that are tried."""
+"""Largest number of nutations tried."""
 
 MAX_NUTATION_RATE = 10.0
-"""Fastest nutation that is tried, in rates of the data."""
+"""Fastest nutation tried for unevenly spaced times, in typical rates of the data."""
 
 EVEN = 1e-3
-"""Part of a step by which steps of time differ that show no more than frequencies up to Nyquist's."""
+"""Relative difference below which steps of time are equal: frequencies above Nyquist's are then not seen."""
 
 PEAKS = 6
-"""How many of them are followed."""
+"""Number of peaks of the periodogram from which a fit is started."""
 
 APART = 0.01
-"""Difference of ratios that are not the same."""
+"""Difference above which two ratios I3/I2 are different bodies."""
 
 FINE = 20001
-"""Ratios of which the frequencies are computed, from which those are taken."""
+"""Number of ratios, or spins, at which frequencies of nutation are computed."""
 
 SMALL, LEVEL = 0.6, 2.0
-"""Ratios below which one of 1 is tried, and by how much chi square may rise for it."""
+"""Ratio I3/I2 below which a body of ratio 1 is tried, and the allowed rise of chi square."""
 
 STRIDE = 0.4
-"""Largest step on the way there, in the logarithm of the ratio."""
+"""Largest step of the logarithm of the ratio from the fitted ratio to 1."""
 
 MODERATE = 0.2, 1.8
-"""Ratios of bodies whose spins are tried where the axis alone is seen."""
+"""Range to which the fitted ratio is clipped where spins are tried, for data of axes."""
 
 FLAT = 1e-6
 """Sine of the angle between axis and field below which there is no nutation in it."""
 
 BLOCK = 400_000
-"""Turns that are computed at once."""
+"""Number of rotation vectors computed at once."""
 
 
 def with_small_nutations(
     problem: Problem, tried: list[tuple[float, Any]], *, is_followed: bool
 ) -> tuple[list[tuple[float, Any]], str, str]:
-    """Return the minima with the best small nutations, or an elementary motion first, and two sentences, or "".
+    """Return (minima, sentence on undetermined parameters or "", sentence on a second body or "").
 
-    The sentences name combinations that are not determined, and a doubt. A line that is sought among N frequencies
-    lowers chi square by some 2 log N, whether or not it is there. Nothing is changed for a nutation that is not small,
-    and if no elementary motion is beside it.
+    Minima are pairs (chi square, varied parameters). Small nutations that were found are added; if they lower chi
+    square by no more than noise does, some 2 log N for N frequencies, an elementary motion is put first. The minima are
+    returned unchanged for a nutation that is not small, without a field, and where no elementary motion is near.
     """
     (_, x), data = tried[0], problem.data
     motion, values = problem.motion(x)
@@ -109,10 +109,10 @@ def with_small_nutations(
 
 
 def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
-    """Return the minima; a body of ratio 1 is put first if only the axis is measured and the fit is as good.
+    """Return the minima; for data of axes with a fitted ratio below `SMALL`, a body of ratio 1 first if as good.
 
-    The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
-    derivatives at one place do not show how far the field goes with the ratio.
+    The axis determines M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios omega3 has no upper limit, and
+    derivatives at one point do not show how much the field changes with the ratio.
     """
     best, x = tried[0]
     values, ratio = problem.values(x), problem.params["ratio"]
@@ -134,10 +134,10 @@ def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tup
 
 
 def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
-    """Return the problem of elementary motions, and its minimum (n,) from the mean of a motion that hardly nutates.
+    """Return the problem of elementary motions, and its minimum (n,) near a motion that hardly nutates.
 
-    Its rates of precession and spin, and its attitude with both turned back, are the means over the times of the data.
-    Where the axis alone is seen, they lead from the circle through the data too, which may have more turns.
+    The start has the mean rates of precession and spin of `motion`, and the mean of its attitudes with both rotations
+    undone. For data of axes a second start is the circle through the data. Raises AtlasError on a separatrix.
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
     params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
@@ -166,7 +166,10 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
 
 
 def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
-    """Return the normal of the circle of axes (N, 3), its rate, and the shortest rotation from e3 to the first axis."""
+    """Return the normal (3,) of the circle through axes (N, 3), the rate on the circle, and the attitude at t = 0.
+
+    The attitude is the rotation of the smallest angle from e3 to the point of the circle at t = 0.
+    """
     n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
     e1 = np.cross(np.cross(n, axes[0]), n)
     e1 /= np.linalg.norm(e1) or 1.0
@@ -191,7 +194,7 @@ def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> st
 
 
 def _nutation(problem: Problem, x: FloatArray) -> float:
-    """Return the standard deviation of the cosine between axis and field."""
+    """Return the standard deviation, over the data's times, of the cosine between axis and field at parameters x."""
     motion, values = problem.motion(x)
     return float((np.asarray(motion.column(3, problem.data.t)) @ vector(values, B)).std() / values["b"])
 
@@ -202,7 +205,7 @@ class _Modes(NamedTuple):
     ratio: FloatArray
     omega3: FloatArray
     field: FloatArray
-    """Size of the field, along its direction."""
+    """Component of the field along the direction of the elementary motion's field."""
     frequency: FloatArray
     precession: FloatArray
     """Derivative of the rate of precession in theta."""
@@ -214,7 +217,7 @@ class _Modes(NamedTuple):
 
 
 class _Steady:
-    """An elementary motion: direction of the field, theta, rates of precession and spin."""
+    """An elementary motion with its field's direction, cosine and sine of theta, and rate of precession."""
 
     def __init__(self, motion: Any, values: Values) -> None:
         self.motion, self.values, self.R = motion, values, attitude(values)
@@ -224,7 +227,10 @@ class _Steady:
         self.rate = (K[:2] @ self.omega[:2]) / self.sine**2
 
     def modes(self, ratio: FloatArray, omega3: FloatArray | None = None) -> _Modes:
-        """Return the small nutation for each ratio (and, if given, spin omega3); NaN where it is not stable."""
+        """Return the small nutations of bodies of the ratios (M,), with spins omega3 (M,) if given.
+
+        The frequency is NaN where the motion is unstable.
+        """
         r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
         k, u, s = self.rate, self.cosine, self.sine
         b = k * (u * k - r * w) / (r * w + (r - 2) * u * k)
@@ -235,7 +241,10 @@ class _Steady:
         return _Modes(r, w, b, frequency, precession, b * s - u * precession + s * k)
 
     def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
-        """Return the turns v of unit nutations cos(nu t) and sin(nu t), (N, 2 M, 3)."""
+        """Return the rotation vectors v of nutations of unit size at times t, shape (N, 2 M, 3).
+
+        First the M nutations that begin as cos(nu t), then the M that begin as sin(nu t).
+        """
         e3 = np.asarray(self.motion.column(3, t))
         n = np.cross(self.axis, e3) / self.sine
         phase = np.outer(t, modes.frequency)
@@ -244,7 +253,7 @@ class _Steady:
         return np.concatenate([c * n[:, None] + s * pace, s * n[:, None] - c * pace], 1)
 
     def beside(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
-        """Return the parameters of the steady motion plus a small nutation with two amplitudes `size`."""
+        """Return the parameters of the steady motion with a small nutation, its amplitudes (2,) of cosine and sine."""
         h = 1e-4 / problem.rate
         back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
         R, steady = Rotation.from_rotvec(here).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
@@ -285,7 +294,10 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
 
 
 def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
-    """Return the nutations below a frequency that differ by `PHASE_STEP` over the times."""
+    """Return a list of one `_Modes` of nutations below the frequency `fastest`, or of none.
+
+    Neighbours differ in phase by `PHASE_STEP` over the `span`, or by more where there would be over `MAX_NUTATIONS`.
+    """
     places = np.flatnonzero(modes.frequency < fastest)  # no nan
     if not places.size:
         return []

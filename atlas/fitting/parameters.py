@@ -13,7 +13,7 @@ LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, inf), "I3": (0.0, inf)}
 """Bounds of moments of inertia; the lower one is excluded."""
 
 LENGTH = "sqrt(B1**2 + B2**2 + B3**2)"
-"""Expression of `b`, the one that needs no lmfit."""
+"""Expression of `b`, the only expression evaluated without lmfit."""
 
 KEYS = ("value", "vary", "min", "max", "expr")
 
@@ -60,7 +60,10 @@ class Parameters(Mapping[str, Parameter]):
         return Parameters(self._by_name | {name: replace(self[name], **new) for name, new in parameters.items()})
 
     def values_with(self, free_values: Values) -> dict[str, float]:
-        """Return the values of all parameters, with `free_values` in the place of those named there."""
+        """Return the values of all parameters by name: those of `free_values`, the rest as they are.
+
+        Expressions are evaluated. Raises AtlasError for an expression that has no value.
+        """
         values = {name: free_values.get(name, p.value) for name, p in self.items()}
         tied = [name for name, p in self.items() if p.expr]
         if tied == ["b"] and self["b"].expr == LENGTH:
@@ -94,9 +97,10 @@ class Parameters(Mapping[str, Parameter]):
 
 
 def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tuple[Parameters, dict[str, float]]:
-    """Return the parameters of a family with the user's, and the values that these give to start from.
+    """Return the parameters of a family changed by `params` and `fix`, and the given start values of varied ones.
 
-    Raises AtlasError for an unknown name, a name in both `params` and `fix`, and a value outside its bounds.
+    Raises AtlasError for an unknown name or attribute, a name in both `params` and `fix`, a fixed parameter without a
+    value, an attribute that is no number, and a fixed value outside its bounds.
     """
     user_attributes = _user_attributes(params) | _user_attributes(fix, is_fix=True)
     if twice := sorted({*(params or ())} & {*(fix or ())}):
@@ -126,7 +130,10 @@ def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tup
 
 
 def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str, Any]]:
-    """Return the attributes that a user gave, by name."""
+    """Return the attributes (value, vary, min, max, expr) that a user gave, by name of the parameter.
+
+    Raises AtlasError for no mapping, an unknown attribute, an attribute that is no number, and min above max.
+    """
     if params is not None and not isinstance(params, Mapping):
         raise AtlasError(f"{'fix' if is_fix else 'params'} is a mapping of names to values, not {params!r}.")
     by_name = dict[str, dict[str, Any]]()

@@ -17,17 +17,17 @@ from atlas.fitting.parameters import Parameters
 from atlas.lazy import cached_property
 
 HUGE, LOST = 1e6, 1e100
-"""A residual where there is no motion, and size from which on one is taken for that."""
+"""Residual where there is no motion, and size above which a computed residual is replaced by HUGE."""
 
 LONG = 3000.0
-"""Radians up to which motions without a fast closed form are integrated."""
+"""Radians over the span of the data below which motions without a fast closed form are integrated."""
 
 
 Vector: TypeAlias = Sequence[float] | FloatArray
 
 
 class Rotations(NamedTuple):
-    """Motions of which R (M, N, 3, 3) is known at the times that are asked for."""
+    """Motions given by R (M, N, 3, 3), whatever times are asked for."""
 
     R: FloatArray
 
@@ -37,11 +37,14 @@ class Rotations(NamedTuple):
 
 
 MEDIAN = 0.4549364
-"""Median of the square of a normal variable."""
+"""Median of the square of a standard normal variable."""
 
 
 class Problem:
-    """Least-squares problem of a family on data; the parameters say which are varied, and within which bounds."""
+    """Least-squares problem of a family on data: N times, k numbers at each, n varied parameters `names`.
+
+    `rate` is a typical rate in rad/time, `given` the user's start values.
+    """
 
     def __init__(
         self, model: Model, data: Data, params: Parameters, loss: str, rate: float, given: Values | None = None
@@ -50,7 +53,7 @@ class Problem:
         self.names = [name for name, p in params.items() if p.free]
         self.rate, self.units = rate, units_of(model, rate)
         self.given = given or {}
-        """Values that a user gave to start from."""
+        """Start values by name that a user gave."""
         self.units_of_free = np.array([self.units[name] for name in self.names])
         self.error = float(np.clip(1e-2 * np.median(data.sigma) / data.spread, FINE, ERROR))
         self.followed = model.slow and float(np.ptp(data.t)) * rate < LONG
@@ -90,11 +93,11 @@ class Problem:
         return tuple(np.array([getattr(self.params[name], x) for name in self.names]) for x in ("min", "max"))  # type: ignore[return-value]
 
     def values(self, x: Vector) -> dict[str, float]:
-        """Return the values of all parameters by name, from those of the varied ones."""
+        """Return the values of all parameters by name, from the varied values x (n,)."""
         return self.params.values_with(dict(zip(self.names, map(float, x), strict=True)))
 
     def values_of_all(self, X: FloatArray) -> dict[str, FloatArray]:
-        """Return all parameters, each (M,), of M motions."""
+        """Return arrays (M,) of the family's parameters by name, from the varied values X (M, n) of M motions."""
         if self.tied:
             rows = [self.values(x) for x in X]
             return {name: np.array([row[name] for row in rows]) for name in self.model.names}
@@ -104,13 +107,13 @@ class Problem:
         return {**constants, **dict(zip(self.names, X.T, strict=True))}
 
     def inner(self, X: FloatArray) -> FloatArray:
-        """Return values between the bounds."""
+        """Return X (..., n) moved inside the bounds, by a gap of 0.001 or a quarter of the interval."""
         low, high = self.bounds
         gap = np.minimum(1e-3, (high - low) / 4)
         return np.asarray(np.clip(X, low + gap, high - gap))
 
     def inside(self, values: Values) -> FloatArray:
-        """Return a start between the bounds."""
+        """Return the varied parameters (n,) from values by name, moved inside the bounds; missing ones as they are."""
         return self.inner(np.array([values.get(name, self.params[name].value) for name in self.names]))
 
     def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
@@ -122,7 +125,7 @@ class Problem:
         return self._latest[1]  # type: ignore[no-any-return]
 
     def carried(self, x: Vector, time: float) -> dict[str, float]:
-        """Return the parameters that a motion has at another time."""
+        """Return the parameters by name with which the motion at x starts at `time` instead of 0."""
         motion, values = self.motion(list(x))
         R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
         return state(self.model, self.data.kind, values, R.reshape(3, 3), omega.reshape(3))
@@ -139,19 +142,22 @@ class Problem:
         return copy
 
     def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
-        """Return the residuals (M, N k) of M motions; HUGE where there is no motion."""
+        """Return the residuals (M, N k) of M motions, in standard errors; HUGE where there is no motion."""
         if not (self.together or self.followed):
             return np.stack([self.residuals(x, places) for x in X])
         return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.part(places))
 
     def _differences(self, motions: Any, data: Data) -> FloatArray:
-        """Return the residuals of a `Flow` or `Rotations`, (M, N k), huge ones where there is none."""
+        """Return the residuals (M, N k) of a `Flow` or `Rotations`, in standard errors; HUGE without a motion."""
         with np.errstate(all="ignore"):
             r = data.differences(motions) / data.sigma
         return np.where(abs(r) < LOST, r, HUGE).reshape(len(r), -1)
 
     def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
-        """Return the residuals of motions (M, N k), and their derivatives by differences (M, n, N k)."""
+        """Return the residuals of M motions (M, N k), and their derivatives (M, n, N k).
+
+        The derivatives are forward differences of integrations, or those of `jacobian` for motions in closed form.
+        """
         M, n = X.shape
         if not (self.together or self.followed):
             r = self.apart(X, places)
@@ -173,16 +179,19 @@ class Problem:
 
     @cached_property
     def is_turned(self) -> bool:
-        """Whether a change of attitude is a rotation of the laboratory, less that of a field that is free or zero."""
+        """Whether derivatives in the attitude follow from a rotation of the laboratory and those in the field.
+
+        That needs a free attitude, a field that is all free or zero, and no expressions or direction n.
+        """
         free_field = {*B} & {*self.names}
         is_zero = not (free_field or any(self.params[name].value for name in B if name in self.params))
         is_known = not (self.tied or self.model.has_direction or "a1" in self.gauge)
         return is_known and (is_zero or free_field == {*B}) and bool({*self.names} & {*ATTITUDE})
 
     def _turn(self, J: FloatArray, X: FloatArray, R: FloatArray, r: FloatArray, data: Data) -> None:
-        """Fill in the derivatives in the attitude of residuals r (M, N k) of motions R (M, N, 3, 3).
+        """Write into J (M, n, N k) the derivatives in the attitude of residuals r (M, N k) of motions R (M, N, 3, 3).
 
-        A rotation of the laboratory turns the field too: its derivatives are subtracted.
+        A rotation of the laboratory rotates the field too: the derivatives in the field are subtracted.
         """
         values = self.values_of_all(X)
         a, field = (np.stack([values.get(name, np.zeros(len(X))) for name in names], -1) for names in (ATTITUDE, B))
@@ -208,7 +217,7 @@ class Problem:
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 
     def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of parameters in those that are varied, (len(names), free)."""
+        """Return the derivatives of the named parameters in the varied ones, shape (len(names), n)."""
         if not self.tied and all(name in self.model.names for name in names):
             return np.array([[float(name == free_name) for free_name in self.names] for name in names])
         out = np.empty((len(names), len(self.names)))
@@ -230,7 +239,7 @@ class Problem:
             return np.full(data.sigma.size * self.width, HUGE)
 
     def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
-        """Return residuals and their derivatives from one integration; the latest at all data is cached."""
+        """Return residuals (N k,) and derivatives (n, N k) from one integration; the latest for a slice is cached."""
         key = tuple(x) if isinstance(places, slice) else None
         if key is None or self._latest_slopes[0] != key:
             r, J = self.turned(np.array([x]), places)
@@ -239,7 +248,7 @@ class Problem:
 
     @cached_property
     def width(self) -> int:
-        """Numbers at a time."""
+        """Numbers k at each time: 2 for axes, 3 for other kinds, of a signal its own count."""
         return int({"axis": 2, "signal": self.data.values.shape[-1]}.get(self.data.kind, 3))
 
     def jacobian(self, x: Vector, places: Any = slice(None)) -> FloatArray:
@@ -247,7 +256,7 @@ class Problem:
         return np.asarray(self.slopes(x, places).reshape(-1, len(self.names)))
 
     def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
-        """Return the derivatives, (N, k, free)."""
+        """Return the derivatives of the residuals in the varied parameters, shape (N, k, n)."""
         x, data = list(x), self.data.part(places)
         if self.followed:
             J = self._integrated(x, places)[1]
@@ -263,7 +272,7 @@ class Problem:
         return np.asarray(-(slopes @ chain[indices]) / data.sigma[:, :, None])
 
     def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
-        """Return the rotation vectors d R by parameters, (N, P, 3); for angular velocities their time derivatives."""
+        """Return the vectors v (N, P, 3) with dR/dp = [v]x R; for angular velocities the time derivatives dv/dt."""
         if self.data.kind != "angular_velocity":
             return self.model.vectors(values, names, t, self.units, motion)
         h = 1e-4 / self.rate
@@ -281,7 +290,7 @@ class Problem:
         return np.zeros(3)
 
     def reduced(self, r: FloatArray) -> float:
-        """Return the reduced chi square, with a robust loss that of the bulk, from the median."""
+        """Return the reduced chi square of residuals r; with a robust loss the median of r^2 over `MEDIAN`."""
         if self.loss == "linear":
             return float((r * r).sum() / (r.size - len(self.names)))
         return float(np.median(r * r)) / MEDIAN
@@ -298,7 +307,7 @@ class Problem:
         return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
 
     def chi_square(self, x: Vector) -> float:
-        """Return the sum of the loss function of the squared residuals."""
+        """Return the sum of the loss function of the squared residuals at x."""
         z = self.residuals(x) ** 2
         return float(np.sum(RHO[self.loss](z)))
 
@@ -309,9 +318,9 @@ class Problem:
 
 
 def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[FloatArray, FloatArray]:
-    """Return the least squares solution nearest to a start (if `steady` the start itself), and the Jacobian there.
+    """Return SciPy's least-squares solution (n,) from a start x, and the Jacobian (N k, n) there.
 
-    With a robust loss SciPy has weighted the Jacobian.
+    If `steady`, the solution is the start itself. With a robust loss SciPy weights the Jacobian.
     """
     from scipy.optimize import least_squares
 

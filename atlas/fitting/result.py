@@ -1,4 +1,4 @@
-"""Result of a fit: parameters with errors, combinations that the data do not determine, doubts of the family."""
+"""Result of a fit: parameters with errors, combinations that the data do not determine, warnings about the family."""
 
 import re
 from dataclasses import dataclass, replace
@@ -33,17 +33,19 @@ RENAMED = {"doubts": "warnings", "rivals": "alternatives"}
 """Attributes of a fit by their former names."""
 
 SURPRISE = 5.0
-"""Standard deviations of chi square and of a correlation that are no chance."""
+"""Standard deviations of chi square, or of a correlation, above which there is a warning."""
 
 FOLLOWED = 0.2
-"""Part of the spread of the data within which a motion follows them."""
+"""Median misfit, relative to the spread of the data, below which a motion follows the data."""
 
 HEAVY, MANY = 3.0, 20
-"""Root mean square of residuals beside their median, and count of measured numbers, from which some are outliers: that
-of many normal ones is 1.5, of fewer than so many now and then 3."""
+"""Ratio of the root mean square of residuals to their median, and count of numbers, above which there are outliers.
+
+Normal residuals have the ratio 1.5; with fewer numbers the ratio reaches 3 by chance now and then.
+"""
 
 FARTHEST = 1e9
-"""Spans of the data after which no horizon is looked for."""
+"""Time after the data, in spans of the data, beyond which no horizon is sought."""
 
 
 class Prediction(NamedTuple):
@@ -129,7 +131,10 @@ class Fit:
     def of(
         cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
     ) -> "Fit":
-        """Return the fit at the lowest of the minima `tried`, pairs (chi square, x); a steady motion is not refined."""
+        """Return the fit at the first, lowest, of the minima `tried`, pairs (chi square, varied parameters).
+
+        With a sentence `steady` on an elementary motion the minimum is not refined; `doubt` becomes the first warning.
+        """
         data = problem.data
         x, jac = minimum(problem, tried[0][1], steady=bool(steady))
         motion = problem.model.make(problem.values(x))
@@ -159,7 +164,7 @@ class Fit:
         )  # fmt: skip
 
     def __getattr__(self, name: str) -> Any:
-        """Say the new name of an attribute that was renamed."""
+        """Raise AttributeError, which tells the new name of an attribute that was renamed."""
         new = RENAMED.get(name)
         raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 
@@ -458,7 +463,10 @@ class Fit:
 
 
 def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, freedom: int) -> list[str]:
-    """Return sentences on evidence against the family."""
+    """Return warnings, one sentence each: a motion off the data, a surprising chi square, outliers, correlation.
+
+    `r` (N, k) are the residuals in standard errors, given or found.
+    """
     out = []
     data, wider = problem.data, problem.model.wider
     cause = "the family is not that of the motion ("

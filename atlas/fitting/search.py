@@ -1,4 +1,4 @@
-"""Where a fit starts: many motions follow a short arc of the data, which grows while the worse ones are dropped.
+"""Starts of a fit: many motions are fitted to a short arc of the data, which grows while the worse ones are dropped.
 
 Attitude and rates are taken from the data as far as these show them; the other parameters are random, with fixed seeds.
 """
@@ -16,38 +16,38 @@ from atlas.fitting.models import ATTITUDE, IN_BODY, OMEGA, B, upright
 from atlas.fitting.problem import Problem
 
 TURN = 0.5
-"""Turn, in radians or parts of the spread, over which data tell how fast they change."""
+"""Change of the data, in radians or relative to their spread, from which their rate is taken."""
 
 FIELD = 1.5
-"""Largest field that is tried, in rates at which the data change."""
+"""Largest field tried, in typical rates of the data."""
 
 NOISE = 6.0
-"""Standard errors that are no noise."""
+"""Standard errors above which a change of the data is no noise."""
 
 ARC, WINDOW = 1.5, 0.7
-"""Radians of the first arc, and of that from which a rate is taken, on either side of the middle."""
+"""Radians on either side of the middle: of the first arc, and of the arc from which a rate is taken."""
 
 GROWTH, KEPT, ROUNDS, FAR = 1.5, 0.4, 4, 15.0
-"""Growth of the arc, share of the motions that is kept then, steps on each, and radians at which the search ends."""
+"""Growth factor of the arc, fraction of motions kept at each growth, steps on each arc, radians of the last arc."""
 
 LOST, SEVERAL = 0.35, 6
-"""Part of the spread by which a prediction of so many data may be off while its phases are still right."""
+"""Root mean square misfit, relative to the spread, above which the phase is lost; number of data of this mean."""
 
 MANY = 40
-"""Motions that are kept after the first step at least."""
+"""Least number of motions kept after the first step."""
 
 LAST = 60
-"""Steps on all the data at most."""
+"""Largest number of steps on all data."""
 
 STARTS = {"rotation": 12, "axis": 40, "angular_velocity": 12, "field_in_body": 24, "signal": 200}
-"""Motions that are tried at first; three times as many where none of them is good."""
+"""Number of random starts by kind of data; three times as many about the next time if none is good."""
 
 PARTS, BEST = (0.5, 0.25, 0.75), 3
-"""Where in the data motions are motions_of_arc, one after another, and how many are followed to all of them."""
+"""Places of the arcs, as fractions of the data, and number of motions of each arc that are fitted to all data."""
 
 
 def turns(data: Data, i: Any, j: Any) -> FloatArray:
-    """Return the change between two times, as an angle or in parts of the spread."""
+    """Return the change from data i to data j, shape of i: for rotations in radians, else relative to the spread."""
     x = data.values
     if data.kind == "rotation":
         return np.asarray(np.linalg.norm(difference(x[j], x[i]), axis=-1))
@@ -79,7 +79,11 @@ def centre_of(data: Data, rate: float, share: float) -> float:
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
-    """Return the measured quantity and its derivative at t = 0, by a parabola; for rotations R and Omega."""
+    """Return the measured quantity and its derivative at t = 0, by a robust parabola through data near t = 0.
+
+    Both have the shape of a datum; for rotations they are R (3, 3) and Omega (3,) in the body. Through six data or
+    fewer a straight line is taken.
+    """
     order = np.argsort(abs(data.t), kind="stable")
     rows = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
     t, x = data.t[rows], data.values[rows]
@@ -102,7 +106,10 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
 
 
 def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str, FloatArray]:
-    """Return random parameters (count,), as the data have them at t = 0; `largest` is a field's size in rates."""
+    """Return arrays (count,) of random parameters by name, with attitude and rates near those of the data at t = 0.
+
+    `largest` is the size of the largest field, in units of the problem's rate.
+    """
     data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
     size = rng.permuted(np.geomspace(0.05, largest, count))[:, None] * rate
     field, omega = rng.normal(size=(2, count, 3)) * size
@@ -154,9 +161,9 @@ def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str,
 
 
 def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
-    """Return A (M,) and n in the body (M, 3) of tops of moments I3 (M,) whose rates change as is seen at t = 0.
+    """Return the linear potential A (M,) and n in the body (M, 3) of tops with the measured dOmega/dt at t = 0.
 
-    I Omega' = [I Omega, Omega] + A [n, e3] tells the part of A n across e3; how large n3 is, is random.
+    I Omega' = [I Omega, Omega] + A [n, e3] determines the part of A n across e3; n3 is random. I3 (M,) are moments.
     """
     w, slope = local(problem.data, problem.rate)
     J = np.stack([np.ones_like(I3), np.ones_like(I3), I3], -1)
@@ -187,7 +194,7 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
 
 
 def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield the starts of `tries` about the k-th of the times PARTS."""
+    """Yield the starts of `tries` about the k-th place of PARTS, or about t = 0 if the problem is `pinned`."""
     # a fast nutation of small size, as in a strong field, is not seen in larger turns
     small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
     rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
@@ -201,7 +208,10 @@ def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, Floa
 def motions_of_arc(
     problem: Problem, starts: int, seed: int, largest: float, *, is_last: bool
 ) -> Iterator[tuple[FloatArray, int]]:
-    """Yield (x, count) for the best motions on an arc about t = 0 of `count` data; nothing if all are lost."""
+    """Yield pairs (x, count) of the best motions on the last arc about t = 0, and its number of data.
+
+    Nothing is yielded if all motions lose their phase, unless `is_last`.
+    """
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate
     count_at_start = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
@@ -227,7 +237,10 @@ def motions_of_arc(
 
 
 def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
-    """Return the minimum (n,) that a motion that follows `count` data leads to: the arc about t = 0 grows."""
+    """Return the varied parameters (n,) of a motion x refined on an arc about t = 0 that grows from `count` data.
+
+    If the phase is lost on the way, the motion of the last arc is returned.
+    """
     order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.alone(), x[None])
     misfit = 0.0
     while True:

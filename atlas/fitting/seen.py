@@ -11,13 +11,13 @@ from atlas.fitting.parameters import Parameters
 from atlas.fitting.problem import Problem
 
 UNSEEN = 0.5
-"""Standard error of a combination, in natural units, from which on the data do not determine it."""
+"""Standard error of a combination of parameters, in natural units, above which the data do not determine it."""
 
 ROUNDING = 2.0**-48
-"""Singular values, in parts of the largest, that are rounding errors of the derivatives."""
+"""Singular value, relative to the largest, below which it is a rounding error of the derivatives."""
 
 NULL = 1e-7
-"""Singular values, in parts of the largest, and parts of a combination below which there is nothing but rounding."""
+"""Singular value, relative to the largest, and part of a combination, below which both count as zero."""
 
 
 class Seen:
@@ -55,13 +55,13 @@ class Seen:
         square = np.outer(self.units, self.units)
         self.covariance = self.covariance * square
         self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
-        """Covariance for predictions, which combinations that are hardly determined change as little as the data."""
+        """Covariance (n, n) for predictions: that of the parameters, plus combinations that are hardly determined."""
         self.null = turn[null].T
         self.directions = _separated(turn[self.is_lost].T)
-        """Combinations that are not determined, in natural units, (n, count)."""
+        """Combinations of parameters that are not determined, in natural units, as columns: (n, count)."""
         self.errors = np.sqrt(np.diag(self.covariance))
         self.is_moved = self._moves(np.diag(self.units), self.errors)
-        """Whether each parameter moves along each of them, by more than its error."""
+        """Whether each parameter changes along each of these combinations by more than its error, (n, count)."""
 
     def _moves(self, scaled: FloatArray, errors: FloatArray) -> Any:
         by = abs(scaled @ self.directions)
@@ -122,7 +122,7 @@ def _separated(directions: FloatArray) -> FloatArray:
 
 
 def gauge(problem: Problem) -> list[str]:
-    """Return sentences on the parameters that data of this kind do not determine."""
+    """Return at most one sentence, on the attitude angles that data of this kind do not determine."""
     hidden = unseen(problem.model, problem.data.kind)
     if not hidden:
         return []

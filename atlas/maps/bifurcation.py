@@ -51,7 +51,10 @@ class Conserved:
 
 
 def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
-    """Return (M3, p, h) of states, theorem-top; `Omega`, `K` (..., 3) in the body, 1/time, K not 0."""
+    """Return the `Conserved` (M3, p, h) of states, theorem-top; `Omega`, `K` (..., 3) in the body, 1/time.
+
+    Raises DomainError for K = 0.
+    """
     I = number(shape_factors(ratio)[0], "The ratio I")
     spin, field = vectors(Omega, "Omega"), vectors(K, "K")
     invariants, b = clebsch(I, spin, field), np.linalg.norm(field, axis=-1)
@@ -65,8 +68,8 @@ def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
 def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
     """Effective potential V = M3^2/I + b^2 + A nu^2 + (p - M3 nu)^2/(1 - nu^2) <= h of the nutation, theorem-top.
 
-    Motions with the energy h are where V <= h; dtheta^2 = h - V. It is infinite at nu = ±1 unless p = ±M3: DomainError
-    where |nu| >= 1.
+    Motions with the energy h are where V <= h; (dtheta/dt)^2 = h - V. V is infinite at nu = ±1 unless p = ±M3. Raises
+    DomainError where |nu| >= 1.
     """
     I, less, _ = shape_factors(ratio)
     b, M3 = real(b, "b"), real(M3, "M3")
@@ -127,12 +130,12 @@ class Bifurcation:
         return np.stack([linear - self.e2 * square, H], axis=-1)
 
     def splitting(self, z: FloatArray, branch: int) -> FloatArray:
-        """Return C/D^2, whose sign decides on stability, theorem-splitting."""
+        """Return C/D^2 (N,) at places z (N,): positive where the elliptic motion is stable, theorem-splitting."""
         v = branch * np.sqrt(self._cubic(z)[0])
         return np.asarray(split(tuple(self.inertia), self.b * self.b, -self.c / v, z))
 
     def _cubic(self, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return P, P' and the z + D/I_i, shape (N, 3)."""
+        """Return P (N,), not below zero, its derivative P' (N,), and z + D/I_i (N, 3)."""
         x = np.asarray(z)[..., None] + self.a
         x1, x2, x3 = np.moveaxis(x, -1, 0)
         return (np.maximum(x1 * x2 * x3, 0.0), x1 * x2 + x2 * x3 + x3 * x1, x)

@@ -32,16 +32,16 @@ PRECISION = 128
 """Binary digits of the balls of period and angles."""
 
 NEWTON_STEPS = 40
-"""Steps to a state with given values."""
+"""Number of steps of Newton's method to a state with given values."""
 
 GRID = np.concatenate([np.geomspace(1e-12, 1e-3, 400)[:-1], 1 - np.linspace(1.0, -1.0, 2001)[1:-1]])
 """Places 1 - end nu at which the potential is looked at, from the pole nu = end, where they are dense, to the other."""
 
 MIN_LOOP_SIZE = 2.0**-40
-"""Part of the momentum and of the energy of a spin that the size of a loop must exceed."""
+"""Least size of a loop, relative to momentum and energy of the spin."""
 
 MAX_ELLIPSES = 12
-"""Ellipses that are tried, each half as large as the one before."""
+"""Upper limit of the number of ellipses tried, each half as large as the one before."""
 
 MIN_RATE_SQUARE = 1e-280
 """Least square of a rate, beside which an energy keeps its digits."""
@@ -235,7 +235,11 @@ def _room(depth: FloatArray) -> float:
 
 
 def state(wells: Wells, p: float, g: float, I: float, coupling: tuple[float, float]) -> tuple[Any, Any]:
-    """Return a direction (n2, n3) and an angular velocity that have these values, as near as floats are."""
+    """Return a direction (n2, n3) and an angular velocity (3,) of momentum p and energy g, up to rounding.
+
+    The moments are those of the wells' top in units of I2, with I = I3/I2 and `coupling` (k2/I2, k3/I2). Raises
+    DomainError where no motion has these values.
+    """
     (k2, k3), end = coupling, int(np.sign(p * wells.M3) or 1)
     _, spin, D = wells.spin(end)
     depth = (_depth(wells, p, end, D) + (g - spin)) * GRID * (2 - GRID)

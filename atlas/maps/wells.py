@@ -21,7 +21,7 @@ from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 
 END_TOLERANCE = 2.0**-48
-"""Part of the reach below which two ends of branches are one."""
+"""Distance, relative to the reach, below which two ends of branches are the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Wells:
 
     @classmethod
     def of(cls, top: TopMotion) -> "Wells":
-        """Return the potentials of the motions that have this one's M3."""
+        """Return the potentials of all motions of this top with the same M3."""
         (I2, I3), (k2, k3) = top.inertia, top.coupling
         M3 = float(top.invariants()["M3"])
         A = (k3 / I3 * k3 - k2 / I2 * k2 + top.quadratic) / I2

@@ -1,4 +1,4 @@
-"""Objects as arrays: a pandas data frame, a row an object or a row a time, and the curve of a third axis."""
+"""Objects as arrays: a pandas data frame with a row for each object or time, and the path of the third axis."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
@@ -18,7 +18,10 @@ from atlas.sweeps.families import FAMILIES, Swept
 
 
 def frame(subject: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
-    """Return the pandas data frame of an object, see `Shown.to_dataframe`."""
+    """Return the pandas data frame of an object, see `Shown.to_dataframe`: a row per time, or per motion.
+
+    Raises AtlasError for an object without a family, and for an unknown quantity.
+    """
     swept = FAMILIES.get(subject.family)
     if swept is None:
         raise AtlasError(f"The register has no table of a {type(subject).__name__}.")
@@ -30,7 +33,10 @@ def frame(subject: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
 
 
 def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
-    """Go through parameters and quantities, each a value an object."""
+    """Yield (name, array with a value for each object) for parameters and quantities; NaN where there is no value.
+
+    Raises AtlasError for an unknown quantity.
+    """
     known = {name: swept.quantities[name] for q in swept.family.quantities for name in q.names}
     shape = getattr(subject, "shape", ())
     if not subject.made_by and len(subject.arguments) == len(swept.family.parameters):
@@ -49,7 +55,10 @@ def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> It
 
 
 def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
-    """Yield (name, column) for the functions of time of an object; all, or those in `names`."""
+    """Yield ("t", times (N,)), then (name, column (N,)) for the functions of time of an object; all, or `names`.
+
+    Raises AtlasError for an unknown name, an array of motions, and an object that does not depend on time.
+    """
     swept = FAMILIES[subject.family]
     if getattr(subject, "shape", ()):
         raise AtlasError(f"Rows by time are of one {type(subject).__name__}: make one with numbers in place of arrays.")
@@ -72,7 +81,10 @@ def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -
 
 
 def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> tuple[FloatArray, FloatArray]:
-    """Return times (N,) and points (N, 3) of the axis, see `Motion.trace`."""
+    """Return times (N,) and points (N, 3) of the body's axis R e3, see `Motion.trace`.
+
+    Raises AtlasError for several motions, and without `stop` for a motion that has no period.
+    """
     name = type(motion).__name__
     if motion.shape:
         raise AtlasError(f"A trace is of one {name}, not of several: make one with numbers in place of arrays.")

@@ -26,7 +26,10 @@ def plot(
     target: str | None,
     parameters: dict[str, Any],
 ) -> Figure:
-    """Draw an object, see `Shown.plot`: on `ax` one panel; without `ax` all panels, or panel number `panel`."""
+    """Return the figure of an object, see `Shown.plot`; with `ax`, panel `panel` (by default 1) is drawn on that axes.
+
+    Raises AtlasError for a panel that there is not, for `target` with `ax`, and as `scene_of` does.
+    """
     scene = scene_of(subject, figure, parameters)
     if panel is not None and panel not in range(1, len(scene.panels) + 1):
         raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel!r}.")
@@ -42,14 +45,18 @@ def plot(
 
 
 def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
-    """Return a motion as an animation, see `Motion.animate`."""
+    """Return the animation of a motion by Matplotlib, see `Motion.animate`."""
     from atlas.pictures.drawing.animation import of_motion
 
     return of_motion(motion, times, fps=fps, style=style)
 
 
 def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
-    """Return the scene of an object. Raises AtlasError where no recipe takes it."""
+    """Return the `Scene` of an object, by the named figure or the family's first.
+
+    Raises AtlasError for an object without a picture, several objects, an unknown figure, and a parameter that the
+    object fixes.
+    """
     family, name = FAMILIES.get(subject.family), type(subject).__name__
     known = family.figures if family else ("flight",) if isinstance(subject, Flight) else ()
     if not known:
@@ -69,7 +76,7 @@ def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> 
 
 
 def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
-    """Return the scene of a `Flight`, which has no family in the register."""
+    """Return the scene of a `Flight`, which has no family in the register. Raises AtlasError for another parameter."""
     known = signature(flight.scene_of).parameters
     for key in parameters:
         if key not in known or key == "flight":
@@ -78,7 +85,7 @@ def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
 
 
 def alone(scene: Scene, panel: int) -> Scene:
-    """Return a scene with one panel of a scene, at that panel's size."""
+    """Return a scene with only panel number `panel`, from 1, of a scene, at that panel's size."""
     rows = -(-len(scene.panels) // scene.columns)
     size = scene.size[0] / min(scene.columns, len(scene.panels)), scene.size[1] / rows
     return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())

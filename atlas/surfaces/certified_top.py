@@ -31,7 +31,7 @@ def inputs_of_top(
 def constants(
     inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any
 ) -> tuple[fmpq, fmpq, fmpq, Surd, Surd, fmpq, fmpq]:
-    """Return the exact arguments of the formulas in `atlas.surfaces.formula_top`."""
+    """Return (I, k2, k3, n2, n3, a0, A0) in units of I2, n of length 1, for the functions of `formula_top`."""
     I, (k2, k3), (n2, n3), potential = inputs_of_top(inertia, coupling, direction, linear, quadratic)
     N = n2 * n2 + n3 * n3
     size = Surd.root(N)
@@ -39,7 +39,10 @@ def constants(
 
 
 class TopQuadric(Quadric):
-    """The surface n3 (omega1^2 + w^2) - I n2 w v = -n2^2 n3 D of starts at which nu'' = 0."""
+    """The surface n3 (omega1^2 + w^2) - I n2 w v = -n2^2 n3 D of starts at which nu'' = 0, nu = cos theta.
+
+    w, v and D are those of `atlas.surfaces.kernel.TopQuadric`.
+    """
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0, quadratic: Any = 0) -> None:
         self.I, _, (self.B2, self.B3), _ = inputs_of_top(inertia, coupling, direction, linear, quadratic)
@@ -90,13 +93,16 @@ class TopQuadric(Quadric):
         return residual.value
 
     def canonical(self, omega: Any) -> list[Real]:
-        """Return the coordinates along the axes about the centre, (53)."""
+        """Return the three coordinates of a point along the axes (53), from the centre."""
         shifted = [x - c for x, c in zip(rationals(omega, "omega", 3), self.centre, strict=True)]
         return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]
 
 
 class TopHyperbola:
-    """The curve omega1 = 0 of that surface: its points are steady precessions, theorem-top-hyperbola."""
+    """The curve omega1 = 0 of `TopQuadric`: its points are steady precessions, theorem-top-hyperbola.
+
+    Raises DomainError for n2 = 0; its methods raise DomainError at the pole.
+    """
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0, quadratic: Any = 0) -> None:
         self.top = constants(inertia, coupling, direction, linear, quadratic)
@@ -120,18 +126,18 @@ class TopHyperbola:
         return k.value, phi.value
 
     def stability(self, omega2: Any) -> Real:
-        """Return the square of the frequency of small nutations."""
+        """Return the square of the frequency of small nutations at omega2, in 1/time^2; negative if unstable."""
         square: Surd = top.stability(*self.top, self._off_the_pole(omega2))
         return square.value
 
     def stable(self, omega2: Any) -> bool:
-        """Say whether the motion is stable against nutation; where the frequency is zero, by the next derivatives."""
+        """Return whether the motion at omega2 is stable against nutation; at zero frequency by `_holds`."""
         w2 = self._off_the_pole(omega2)
         squared: Surd = top.stability(*self.top, w2)
         return squared.sign > 0 or (squared.is_zero and self._holds(w2))
 
     def _holds(self, omega2: Surd) -> bool:
-        """Whether a motion without a frequency is stable: a fourfold root, A < 0."""
+        """Whether a motion whose nutation frequency is zero is stable: at a fourfold root of the quartic with A < 0."""
         _, k2, _, n2, *_ = self.top
         return bool(evaluated(self._fourfold, omega2 / n2 + k2).is_zero and self._leading < 0)
 

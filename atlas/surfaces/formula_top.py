@@ -28,7 +28,7 @@ def constants(
     I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number,
     omega1: Number, omega2: Number, omega3: Number,
 ) -> tuple[Number, Number, Number]:  # fmt: skip
-    """Return twice the energy, M3 along the axis and p = (M, n), M = I Omega + k b."""
+    """Return twice the energy, the momentum M3 along the axis, and p = (M, n) along n, with M = I Omega + k n."""
     pull, M3 = n3 * a0, n3 * k3 + I * omega3
     energy = n3 * n3 * A0 + pull + pull + (omega1 * omega1 + omega2 * omega2 + I * omega3 * omega3)
     return energy, M3, (n2 * k2 + omega2) * n2 + M3 * n3
@@ -43,7 +43,7 @@ def centre(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number
 
 
 def excess(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> Number:
-    """Return n3 D, finite for n3 = 0 too, in the place of (I - 1) B3 b."""
+    """Return n3 D, finite for n3 = 0 too; for the paper's body (I - 1) B3 b."""
     del n2
     turn = k3 / I
     return n3 * (turn * (k3 + turn - (k2 + k2)) + A0) + a0
@@ -65,7 +65,7 @@ def residual(
     I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number,
     omega1: Number, omega2: Number, omega3: Number,
 ) -> Number:  # fmt: skip
-    """Return n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D, the second rate of -nu at t = 0."""
+    """Return n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D, which is -d^2 nu/dt^2 at t = 0, nu = cos theta."""
     top = I, k2, k3, n2, n3, a0, A0
     second, third = centre(*top)
     w, v = omega2 - second, omega3 - third

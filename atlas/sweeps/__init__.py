@@ -1,1 +1,1 @@
-"""Tables of quantities over many parameters: a grid or a list of them, in parts, on any executor."""
+"""Tables of quantities over many parameters, a grid or a list, computed in parts on any executor."""

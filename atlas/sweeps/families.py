@@ -17,17 +17,17 @@ from atlas.motions.register import Family, Quantity
 
 Row = Mapping[str, Any]
 NAME = "U28"
-"""Text in a table: the names of cases and kinds, none of which is longer."""
+"""NumPy type of text in a table: no name of a case or kind is longer."""
 
 MISSING = "missing"
-"""Column that says why a quantity of a row has no value."""
+"""Name of the column with the reason why a quantity of a row has no value."""
 
 
 @dataclass(frozen=True)
 class Column:
-    """A quantity in a table: how to get it from objects of kernels, or of balls, and from the row's parameters.
+    """A quantity in a table: `of` maps a motion and the row's parameters to the value, `exact` maps a motion in balls.
 
-    `missing` says why it may have no value in a row; its cell is empty there: NaN, or no text.
+    `missing` is the reason why the quantity may have no value in a row; its cell there is NaN, or an empty text.
     """
 
     of: Callable[[Any, Row], Any]
@@ -39,7 +39,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Swept:
-    """A family as a table: its parameters and quantities as columns, and columns `beside` the register's."""
+    """A family as a table: its parameters and quantities as columns, and further columns `beside` by name."""
 
     family: Family
     beside: Mapping[str, Column] = field(default_factory=dict)
@@ -51,7 +51,7 @@ class Swept:
 
     @cached_property
     def optional(self) -> Mapping[str, float | None]:
-        """Parameters that may be left out, with the value that they have then (None: left out)."""
+        """Default values by name of the parameters that may be left out; None for a parameter without a default."""
         defaults = {name: p.omitted for p in self.family.parameters if not p.needed for name in p.names}
         return defaults | ({"t": 0.0} if self.family.sampled else {})
 
@@ -71,7 +71,7 @@ class Swept:
         return columns
 
     def make(self, row: Row, *, exact: bool = False) -> Any:
-        """Return the objects of parameters, arrays or numbers."""
+        """Return the motion, or motions, of parameters by name, numbers or arrays; with `exact` in balls."""
         values = []
         for p in self.family.parameters:
             components: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
@@ -83,7 +83,10 @@ class Swept:
     def columns(
         self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], exact: dict[str, Fraction]
     ) -> dict[str, NDArray[Any]]:
-        """Return the quantities of rows of parameters, arrays of floats or of text; of `exact` ones in all rows."""
+        """Return the named quantities, arrays (N,) of floats or text, for parameters (N,); "missing" has reasons.
+
+        `exact` has parameters, the same in all rows, as fractions, which replace those in `parameters`.
+        """
         size, at_once = next(iter(parameters.values())).size, self.family.at_once
         pieces: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
         for start in range(0, size, at_once):
@@ -97,7 +100,7 @@ class Swept:
     def digits(
         self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int, exact: dict[str, Fraction]
     ) -> dict[str, Any]:
-        """Return the quantities as text with certified digits, row by row."""
+        """Return the named quantities as arrays (N,) of text with certified digits, for parameters (N,)."""
         from atlas.arithmetic.certified_digits import certified
 
         texts: dict[str, list[str]] = {name: [] for name in names}
@@ -125,7 +128,7 @@ class Swept:
         return "inf" if isinstance(value, arb) and value == arb("inf") else value
 
     def _explained(self, columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-        """Return the columns, and where a quantity may have no value a column "missing" with the reason."""
+        """Return the columns; if a quantity may have no value, also a column "missing" with the reasons, or ""."""
         reasons_by_name = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
         if reasons_by_name:
             reasons = np.zeros(next(iter(columns.values())).shape, dtype=NAME)
@@ -138,7 +141,10 @@ class Swept:
         return columns
 
     def check(self, parameters: Sequence[str], names: Sequence[str], digits: int | None) -> None:
-        """Raise AtlasError for parameters or quantities that the family does not have, or that are missing."""
+        """Raise AtlasError for an unknown parameter or quantity, a missing parameter, or no quantity.
+
+        With `digits` the quantities must have certified digits.
+        """
         names_known = (*self.needed, *self.optional)
         certified = [name for name, column in self.quantities.items() if column.certified]
         lists = (
@@ -160,7 +166,7 @@ class Swept:
 
 
 def empty(column: NDArray[Any]) -> NDArray[np.bool]:
-    """Return where a column of a table has no value."""
+    """Return a mask (N,) of the rows in which a column has no value: NaN or an empty text."""
     return np.asarray(column == "" if column.dtype.kind == "U" else np.isnan(column))
 
 
@@ -191,7 +197,7 @@ def _error(name: str, motion: Any, row: Row) -> Any:
 
 FAR = "phase beyond 2^50"
 BESIDE = {"elementary": {x: Column(partial(_error, x), missing=FAR) for x in ("error", "plain_error")}}
-"""Columns that compare two ways to compute."""
+"""Further columns by family: errors of R by the atlas and by the plain formula."""
 
 FAMILIES: Mapping[str, Swept] = {
     name: Swept(family, BESIDE.get(name, {})) for name, family in families.FAMILIES.items()

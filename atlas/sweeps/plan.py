@@ -1,4 +1,4 @@
-"""A sweep as data: the family, its parameters by name, the quantities; and any rows of its table."""
+"""A sweep as data: the family, its parameters by name, the quantities; and the rows of its table."""
 
 import shlex
 from collections.abc import Mapping, Sequence
@@ -28,19 +28,20 @@ LAUNCH = ("B1", "B2", "B3", "omega1", "omega2", "omega3")
 """Components of the field and of the angular velocity at t = 0."""
 
 MAX_ROWS = 10**11
-"""Rows of a table: some 10 TB of them."""
+"""Largest number of rows of a table, some 10 TB."""
 
 
 @dataclass(frozen=True)
 class Plan:
     """Rows of parameters of a family, and the quantities that each is to have.
 
-    `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
-    one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
-    time in headings. `first` is the number in the whole table of the first row. `exact` has those of one value that no
-    float holds, as fractions: the quantities are of these. `axes` are the principal axes in those of the user, where
-    these differ: columns that depend on the axes then end in "_principal". `slopes` are the changes of uncertain
-    parameters over one standard deviation of each independent input; the numbers `deviating` have columns in "_sigma".
+    `parameters` are arrays by name. The rows are all their combinations, the last name varying fastest; if `listed`,
+    the rows are the elements of the arrays, and an array of one value holds for all rows. With `digits` the quantities
+    are text with this number of certified digits. `time` is the unit of time in headings. `first` is the index of the
+    first row in the whole table. `exact` has, as pairs (numerator, denominator), parameters of one value that no float
+    holds: quantities are computed from these. `axes` describes the principal axes in those of the user, where these
+    differ: columns that depend on the axes then end in "_principal". `slopes` are the changes of uncertain parameters
+    over one standard deviation of each independent input; the quantities `deviating` have columns in "_sigma".
     """
 
     family: str
@@ -67,7 +68,11 @@ class Plan:
         time: str = TIME,
         axes: str = "",
     ) -> "Plan":
-        """Check the input. Raises AtlasError for unknown, missing, non-numeric or unequally long values."""
+        """Return the plan of checked input; a parameter is a number, a sequence, or uncertain.
+
+        Raises AtlasError for unknown or missing names, values that are no numbers, lists of different lengths, digits
+        below 1, and too many rows.
+        """
         if family not in FAMILIES:
             raise AtlasError(
                 f"There is no family {family!r} to sweep{nearest(family, FAMILIES)}; known: {', '.join(FAMILIES)}."
@@ -104,7 +109,7 @@ class Plan:
 
     @property
     def count(self) -> int:
-        """How many rows the table has."""
+        """Number of rows of the table."""
         sizes = [array.size for array in self.parameters.values()]
         return max(sizes) if self.listed else prod(sizes)
 
@@ -146,7 +151,7 @@ class Plan:
         return [f"{name} [{unit}]" if unit else name for name, unit in columns]
 
     def list_of(self, start: int, stop: int) -> "Plan":
-        """Return some rows of the table as a list, to be sent."""
+        """Return the plan of the rows start to stop as a listed plan, small enough to be sent to a worker."""
         parameters = self._parameters(np.arange(start, stop))
         arrays = {
             name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
@@ -154,7 +159,10 @@ class Plan:
         return replace(self, parameters=arrays, listed=True, first=self.first + start)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
-        """Return rows start to stop of the table, by default all. An AtlasError names the failing row and inputs."""
+        """Return the columns by name, arrays (stop - start,), of rows start to stop, by default all.
+
+        Raises AtlasError, or its subclass, which names the first failing row and its inputs.
+        """
         stop = self.count if stop is None else stop
         try:
             return self._columns(start, stop)
@@ -165,7 +173,7 @@ class Plan:
             raise type(error)(f"In row {self.first + row + 1} of the table, {values}: {reason}") from error
 
     def _failing(self, low: int, high: int) -> int:
-        """Return the index of the first failing row, in a range with at least one."""
+        """Return the index of the first failing row in the range low to high, where at least one row fails."""
         while high - low > 1:
             middle = (low + high) // 2
             low, high = (low, middle) if self._refusal(low, middle) else (middle, high)
@@ -180,7 +188,7 @@ class Plan:
         return None
 
     def _columns(self, start: int, stop: int) -> Columns:
-        """Return some rows of the table."""
+        """Return the columns by name of rows start to stop, without names of rows in errors."""
         parameters = self._parameters(np.arange(start, stop))
         exact = {name: Fraction(*pair) for name, pair in self.exact.items()}
         quantities = self._quantities(parameters, exact)
@@ -190,7 +198,7 @@ class Plan:
         return dict(zip(self.names, columns, strict=True))
 
     def _quantities(self, parameters: Columns, exact: dict[str, Fraction]) -> Columns:
-        """Return the quantities of rows of parameters."""
+        """Return the quantities by name, arrays (N,), for parameters (N,); defaults for those left out."""
         family, count = FAMILIES[self.family], next(iter(parameters.values())).size
         defaults = {name: value for name, value in family.optional.items() if value is not None}
         inputs: Columns = {name: np.full(count, value) for name, value in defaults.items()} | parameters
@@ -199,7 +207,7 @@ class Plan:
         return family.digits(inputs, self.quantities, self.digits, exact)
 
     def _deviations(self, row: int) -> list[float]:
-        """Return the standard deviations of the numbers of a row, NaN where there is none."""
+        """Return the standard deviations of the quantities `deviating` in a row, NaN where one is not finite."""
         parameters, own_names = (
             self._parameters(np.array([row])),
             [x.removesuffix("_principal") for x in self.deviating],
@@ -215,7 +223,7 @@ class Plan:
         return [x if isfinite(x := sigma.get((name, 0), nan)) else nan for name in own_names]
 
     def _parameters(self, rows: NDArray[np.int64]) -> Columns:
-        """Return the parameters of some rows."""
+        """Return the parameters by name, arrays (N,), at the row indices (N,)."""
         places = [rows * (array.size > 1) for array in self.parameters.values()]
         if not self.listed:
             places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
@@ -223,7 +231,10 @@ class Plan:
 
 
 def _nominal(parameters: Mapping[str, Any], digits: int | None) -> tuple[dict[str, Any], dict[str, tuple[float, ...]]]:
-    """Return parameters without standard deviations, and the slopes of a plan. Raises AtlasError where it has none."""
+    """Return the nominal values of parameters by name, and the `slopes` of a `Plan`.
+
+    Raises AtlasError for an uncertain parameter with several values, and for deviations with certified digits.
+    """
     nominal, slopes = in_independent_inputs(parameters)
     for name, value in nominal.items():
         if is_uncertain(value):
@@ -249,7 +260,7 @@ class Range:
 
     @classmethod
     def middles(cls, edges: FloatArray, *, log: bool = False) -> "Range":
-        """Return the middles of the cells between edges at even steps; the first and the last to seven digits."""
+        """Return the middles of the cells between evenly spaced edges, as a range with ends rounded to 7 digits."""
         even = np.log(edges) if log else edges
         start, stop = (float(f"{np.exp(x) if log else x:.7g}") for x in (even[1:] + even[:-1])[[0, -1]] / 2)
         return cls(start, stop, len(edges) - 1, log)
@@ -272,7 +283,7 @@ class Tabulation:
     quantities: tuple[str, ...]
 
     def columns(self) -> Columns:
-        """Return the columns of the table, each with an axis for every setting that has several values."""
+        """Return the columns by name, each an array with an axis for every setting that has several values."""
         parameters = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
         plan = Plan.of(self.family, parameters, self.quantities)
         sizes = [x.size for x in plan.parameters.values() if x.size > 1]

@@ -21,14 +21,14 @@ BITS = 110
 
 
 def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
-    """Return B2hat, B3hat, k and phi, (79) and (72), of numbers or arrays, as anyone would compute them."""
+    """Return B2/b, B3/b, k and phi, (79) and (72), of numbers or arrays, in plain floats without care for rounding."""
     b = np.hypot(B2, B3)
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
     return B2 / b, B3 / b, omega2 * b / B2, phi
 
 
 def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
-    """Evaluate (84) in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
+    """Return R (..., 3, 3) by (84) in plain NumPy at times t (...), from (B2/b, B3/b, k, phi); written into `out`."""
     h2, h3, k, phi = constants
     c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
     R = np.empty((*t.shape, 3, 3)) if out is None else out
@@ -47,14 +47,17 @@ def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = No
 
 
 def error(motion: ElementaryMotion, p: Any) -> FloatArray:
-    """Largest error in any entry of R(t), (84), at most 1, which is no digit; NaN for phases beyond 2^50."""
+    """Largest error in any entry of the atlas's R(t), an array (N,), at most 1; NaN for phases beyond 2^50."""
     rows, is_near = _rows(motion, p)
     ratio, B2, B3, omega2, t, *omega3 = rows
     return _against_balls(ElementaryMotion(ratio, (B2, B3), omega2, *omega3).rotation(t), rows, is_near)
 
 
 def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
-    """Largest error in any entry of R(t) by the formula as anyone would write it. DomainError for B2 = 0."""
+    """Largest error in any entry of R(t) by `formula`, an array (N,), at most 1; NaN for phases beyond 2^50.
+
+    Raises DomainError for B2 = 0.
+    """
     if np.any(p["B2"] == 0):
         raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")
     rows, is_near = _rows(motion, p)

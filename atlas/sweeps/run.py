@@ -1,4 +1,4 @@
-"""The sweep itself: parts of the table computed anywhere, kept as files until the table is whole."""
+"""A sweep: parts of the table computed here or on an executor, kept as files until the table is complete."""
 
 import hashlib
 import json
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PART_SECONDS, MAX_PART_ROWS = 2.0, 2**18
-"""How long a part should take, and the most rows that it has, which a worker keeps in memory."""
+"""Intended seconds per part; largest number of rows per part, which a worker keeps in memory."""
 PARTS_PER_WORKER, MIN_PART_SECONDS = 16, 0.25
-"""Parts that each worker should still get, since some rows take longer; how long a part takes in any case."""
+"""Least number of parts left for each worker, since some rows take longer; least intended seconds per part."""
 MIN_PART_ROWS, EQUAL_PARTS = 4096, 64
-"""Rows that are one part in any case, unless they have certified digits; twice as many after so many parts each, so
-that a table has hundreds of parts, whatever the time of a row is believed to be."""
+"""Least number of rows per part without certified digits; number of parts after which this least number doubles, so
+that a table has hundreds of parts, whatever the estimated time of a row."""
 PARTS_AHEAD = 4
-"""Parts in progress for each worker, few so that results not yet written take little memory."""
+"""Number of parts in progress per worker: few, so that results not yet written take little memory."""
 CODE = ("arithmetic", "bodies", "surfaces", "motions", "families", "sweeps")
 """Folders of the code that computes rows and writes them."""
 SECONDS_PER_PROCESS = 1.0
@@ -171,7 +171,7 @@ def write_plan(
 def _compute(
     plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
 ) -> list[str]:
-    """Compute the missing parts, each stored as soon as it is done; return the names of all parts in order."""
+    """Compute the missing parts, each stored as soon as it is computed; return the names of all parts in order."""
     names = table.whole_parts()
     spans = Spans(plan, names, rows, workers)
     done = plan.count - spans.rows_left
@@ -219,19 +219,20 @@ class Spans(Iterator[Span]):
         )
 
     def learn(self, span: Span, seconds: float) -> None:
-        """Note the time of a part, from which the next ones are sized."""
+        """Set the seconds per row from the time of a part; the sizes of the next parts follow from it."""
         self.pace = max(seconds, 1e-9) / (span[1] - span[0])
 
     @property
     def processes(self) -> int:
-        """The number of processes, at most `workers`, that the remaining work is worth."""
+        """Number of processes for the remaining work: one per second of work, at most `workers`."""
         return min(self.workers, int(min(self.rows_left * self.pace, 1e9) / SECONDS_PER_PROCESS))
 
 
 def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
-    """Write a part of a table into its folder; return its name and the processor's seconds that it took.
+    """Compute rows start to stop of a table; return (name of the part, None, seconds of processor time).
 
-    Where the table's folder is out of reach, return the part itself, too.
+    The part is written into the table's folder. Where this process does not see that folder, the part's bytes are
+    returned in the place of None.
     """
     begin = perf_counter(), process_time()
     data = PARTS[table.ending](plan.rows(start, stop), head_of(plan.conventions, plan.headings))
@@ -245,7 +246,7 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
 
 
 def width(executor: Any, jobs: int | None) -> int:
-    """Return the number of parts that are computed at a time."""
+    """Return the number of parts computed at a time: `jobs`, the processors, or the workers of the executor."""
     if executor is None:
         return jobs or processors()
     if hasattr(executor, "ncores"):
@@ -254,10 +255,10 @@ def width(executor: Any, jobs: int | None) -> int:
 
 
 def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
-    """Call `make` for each part, here or, a few ahead of the results, elsewhere; yield the results in order.
+    """Yield the results of `make` for each part, in order; on an executor a few parts are computed ahead.
 
-    `executor` is one, a client of Dask, or None: then the parts are made here, and from where it is worth it by so many
-    processes, if the system lets us have any. At the end nothing is under way any more, however it came.
+    `executor` is an executor, a Dask client, or None: then this process makes the parts until the remaining work is
+    worth several processes, if the system allows these. When the generator ends or is closed no part is in progress.
     """
     processes = None
     if executor is None:

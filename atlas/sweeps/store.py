@@ -1,7 +1,7 @@
-"""Where a table and its parts are: on this machine or at any address that fsspec knows, one sweep at a time.
+"""The place of a table and its parts: on this machine or at any address that fsspec knows, for one sweep at a time.
 
-The name of a part has its rows, the key of its sweep, and the digest of its bytes. A part that is cut, altered or of
-another sweep is so recognised, without a record beside it.
+The name of a part has its rows, the key of its sweep, and the digest of its bytes. By its name a part that is cut,
+altered or of another sweep is recognised.
 """
 
 import fcntl
@@ -27,11 +27,11 @@ from atlas.places import own_folder
 from atlas.sweeps.tables import check_format
 
 PART = re.compile(r"part-(\d{12})-(\d{12})-([0-9a-f]{16})-([0-9a-f]{32})\.(csv|npz|parquet)", re.ASCII)
-"""First row, the one behind the last, key of the sweep; digest of these and of the contents."""
+"""Name of a part: first row, row after the last, key of the sweep, digest of these and of the contents."""
 MARK = "atlas sweep"
 MEMORY = "memory://"
 Span = tuple[int, int]
-"""A row and the one behind the last."""
+"""Half-open range of rows (start, stop)."""
 
 
 def span_of(name: str) -> Span:
@@ -54,7 +54,7 @@ class Folder:
 
     @cached_property
     def is_local(self) -> bool:
-        """Whether it is on this machine."""
+        """Whether the folder is on this machine."""
         return "://" not in self.address
 
     @property
@@ -67,7 +67,10 @@ class Folder:
         return system, str(path).rstrip("/")
 
     def names(self) -> set[str]:
-        """Return the names of the parts in the folder. Raises AtlasError for other files and for a link."""
+        """Return the names of the parts in the folder; the empty set if there is no folder.
+
+        Raises AtlasError for other files, a symbolic link, a file in its place, and an address out of reach.
+        """
         path = Path(self.address)
         if self.is_local and (path.is_symlink() or (path.exists() and not path.is_dir())):
             kind = "a symbolic link" if path.is_symlink() else "no folder"
@@ -99,13 +102,13 @@ class Folder:
         return False
 
     def open(self, name: str) -> IO[bytes]:
-        """Return a file to be read. Raises FileNotFoundError."""
+        """Return a file of the folder, open for reading bytes. Raises FileNotFoundError."""
         system, path = self._place
         file: IO[bytes] = system.open(f"{path}/{name}", "rb")
         return file
 
     def write(self, name: str, data: bytes) -> None:
-        """Write a file; the folder is made if need be."""
+        """Write bytes into a file of the folder, which is made if missing."""
         system, path = self._place
         system.makedirs(path, exist_ok=True)
         with files.named(Path(path, name)):
@@ -125,7 +128,7 @@ class Folder:
         system.mv(f"{path}/{name}", f"{target}/{name}")
 
     def clear(self, names: Iterable[str]) -> None:
-        """Delete files, and the folder if it is empty then."""
+        """Delete the named files, then the folder if that is empty."""
         for name in names:
             self.delete(name)
         system, path = self._place
@@ -164,7 +167,7 @@ class Table:
             self.lock = (own_folder() or Path(gettempdir())) / f"sweep-{name}.lock"
 
     def name(self, span: Span, data: bytes) -> str:
-        """Return the name of a part."""
+        """Return the name of the part with these rows and bytes."""
         rows = f"part-{span[0]:012d}-{span[1]:012d}-{self.key}"
         return f"{rows}-{hashlib.sha256(rows.encode() + data).hexdigest()[:32]}.{self.ending}"
 
@@ -188,7 +191,7 @@ class Table:
         return parts_by_rows
 
     def move(self, names: list[str]) -> None:
-        """Move all parts of a data set to its place, after the parts of the old one are removed."""
+        """Move the named parts of a data set to its place, after other parts there are removed; a file has none."""
         if self.whole is not None:
             self.whole.clear(self.whole.names() - {*names})
             for name in sorted(self.parts.names() & {*names}):

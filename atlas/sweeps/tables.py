@@ -1,4 +1,4 @@
-"""A table from its parts: CSV, NPZ or Parquet, written a part at a time, the same bytes whatever the parts are."""
+"""A table from its parts: CSV, NPZ or Parquet, written part by part; its bytes do not depend on the parts."""
 
 import io
 import zipfile
@@ -21,7 +21,7 @@ Columns = Mapping[str, NDArray[Any]]
 Parts = Sequence[Path]
 
 ROW_GROUP = 2**17
-"""Rows of a row group of Parquet."""
+"""Number of rows of a row group of Parquet."""
 
 
 def head_of(sentences: Iterable[str], headings: Iterable[str]) -> str:
@@ -30,7 +30,7 @@ def head_of(sentences: Iterable[str], headings: Iterable[str]) -> str:
 
 
 def csv_part(columns: Columns, _: str = "") -> bytes:
-    """Return rows as text; floats with the shortest digits that read back the same, and nothing for NaN."""
+    """Return rows as CSV, encoded: floats with the shortest digits that read back the same, an empty cell for NaN."""
     cells = [map(_quoted, x.tolist()) if x.dtype.kind == "U" else _shortest(x) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
 
@@ -52,7 +52,7 @@ def _shortest(column: NDArray[Any]) -> Iterable[str]:
 
 
 def array_part(columns: Columns, head: str) -> bytes:
-    """Return columns as NumPy's arrays; the head is the comment of the archive."""
+    """Return the bytes of an NPZ file of the columns; the head is the comment of the archive."""
     buffer = io.BytesIO()
     np.savez(buffer, **columns)  # type: ignore[arg-type]  # columns, not its options
     with zipfile.ZipFile(buffer, "a") as archive:
@@ -61,7 +61,7 @@ def array_part(columns: Columns, head: str) -> bytes:
 
 
 def parquet_part(columns: Columns, head: str) -> bytes:
-    """Return rows as a Parquet file, null where they have no value; the head is in its metadata."""
+    """Return the bytes of a Parquet file of the columns, null where there is no value; the head is in its metadata."""
     buffer = io.BytesIO()
     with _pyarrow() as (arrow, parquet):
         table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
@@ -70,11 +70,14 @@ def parquet_part(columns: Columns, head: str) -> bytes:
 
 
 PARTS: Mapping[str, Callable[[Columns, str], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
-"""How the rows of a part are kept, by the ending of its file and of the table."""
+"""Function from columns and head to the bytes of a part, by the ending of its file."""
 
 
 def write(out: Path, plan: Plan, part_files: Parts) -> Mapping[str, str]:
-    """Write a table from its parts to its path, or next to an existing file, see `atlas.files.settle`."""
+    """Write a table from its parts to its path, or next to an existing file; return new names by old ones.
+
+    See `atlas.files.settle`.
+    """
     with unfinished(out) as file:
         WRITERS[out.suffix[1:]](file, plan, part_files)
         with turn(out.parent):
@@ -107,7 +110,7 @@ def write_npz(out: Path, plan: Plan, part_files: Parts) -> None:
 
 
 def write_parquet(out: Path, _: Plan, part_files: Parts) -> None:
-    """Write row groups of ROW_GROUP rows, the last of fewer."""
+    """Write a Parquet file of row groups of ROW_GROUP rows, the last one perhaps smaller."""
     with _pyarrow() as (arrow, parquet):
         rows = parquet.read_schema(part_files[0]).empty_table()
         with parquet.ParquetWriter(out, rows.schema) as writer:
