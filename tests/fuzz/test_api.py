@@ -241,6 +241,6 @@ CALLS = {
 @given(
     st.sampled_from(sorted(CALLS)), st.one_of(no_numbers, st.lists(no_numbers | numbers, max_size=4), arrays(numbers))
 )
-def test_what_is_no_number(name: str, value: Any) -> None:
+def test_non_numbers_are_refused(name: str, value: Any) -> None:
     """Text, None, NaN, objects and ragged lists in any place are told in one line."""
     answered(lambda: [CALLS[name](value), 0.0][1], name)

@@ -61,9 +61,7 @@ def lines(draw: Any) -> list[str]:
 
 @share(0.01, 6)
 @given(words=lines())
-def test_any_words_make_what_was_asked_for_or_one_line(
-    tmp_path_factory: pytest.TempPathFactory, words: list[str]
-) -> None:
+def test_any_words_give_files_or_a_one_line_error(tmp_path_factory: pytest.TempPathFactory, words: list[str]) -> None:
     """Files whole, in the folder that was named; a server that has an address."""
     out = Path(tmp_path_factory.mktemp("made"))
     if words[0] != "explore":

@@ -198,7 +198,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.slow
 @share(0.2, 40)
 @given(content=files(), given_too=st.booleans(), as_json=st.booleans())
-def test_any_file_is_graded_or_told(folder: Path, content: bytes, *, given_too: bool, as_json: bool) -> None:
+def test_any_file_is_graded_or_refused(folder: Path, content: bytes, *, given_too: bool, as_json: bool) -> None:
     """A CSV file of any content."""
     file = folder / "mine.csv"
     file.write_bytes(content)

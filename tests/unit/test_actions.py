@@ -95,7 +95,7 @@ def test_drag_in_proportion_to_the_moments_leaves_the_motion_and_slows_it() -> N
         assert values[1] == pytest.approx(values[0] * np.exp(-3.0 * power), rel=1e-6)
 
 
-def test_what_has_no_drift_is_refused() -> None:
+def test_motions_without_drift_are_refused() -> None:
     """Curves, arrays, times that go back, and fields that are gone before the last of them."""
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
     with pytest.raises(atlas.AtlasError, match="not EllipticMotion"):

@@ -258,7 +258,7 @@ def test_a_precession_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 
 @each(SPECIAL)
-def test_the_motions_that_equation_71_loses_are_those_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_motions_that_equation_71_loses_agree_with_the_ledger(tie: Tie, floor: str) -> None:
     """Where omega3 is free: the lines of the ball and of a transverse field, no field, and a spin along it."""
     agree(tie, floor)
 

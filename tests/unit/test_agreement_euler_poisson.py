@@ -314,12 +314,12 @@ TIES = (*EQUATIONS, *MATTER)
 
 
 @each(EQUATIONS)
-def test_the_equations_of_motion_are_those_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_equations_of_motion_agree_with_the_ledger(tie: Tie, floor: str) -> None:
     """For any inertia tensor, and in components for a symmetric body."""
     agree(tie, floor)
 
 
 @each(MATTER)
-def test_what_the_equations_are_made_of_is_what_the_ledger_says(tie: Tie, floor: str) -> None:
+def test_ingredients_of_the_equations_agree_with_the_ledger(tie: Tie, floor: str) -> None:
     """Inertia tensors, mass matrices, and the field B' in both systems of units."""
     agree(tie, floor)

@@ -218,7 +218,7 @@ def test_every_public_quantity_is_tied_to_the_ledger(floor: str) -> None:
 
 
 @pytest.mark.slow
-def test_what_is_registered_exists() -> None:
+def test_registered_quantities_exist() -> None:
     """No tie and no reason outlives its quantity."""
     existing = quantities("kernel") | quantities("certified")
     assert {tie.quantity for tie in TIES} | set(UNTIED) <= existing

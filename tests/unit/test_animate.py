@@ -128,7 +128,7 @@ def test_cones_touch_along_omega_at_every_time() -> None:
 
 
 @pytest.mark.parametrize("name", MOVING)
-def test_what_rides_has_a_path_and_starts_where_it_is_drawn(name: str) -> None:
+def test_moving_layers_have_a_path_and_start_where_they_are_drawn(name: str) -> None:
     """Each path is followed by a layer and is rigid; at t = 0 nothing is moved; surfaces take their form along."""
     scene = recipes.load(name).scene()
     rides = {one.rides for panel in (*scene.panels, *scene.narrow) for one in panel.layers if hasattr(one, "rides")}
@@ -229,7 +229,7 @@ def test_a_file_has_the_frames(tmp_path: Path, kind: str) -> None:
 
 
 @pytest.mark.slow
-def test_an_mp4_is_what_ffmpeg_makes_of_the_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_mp4_is_encoded_by_ffmpeg_from_the_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Matplotlib's writer gives raw frames to the program; here one that keeps them stands for it."""
     program, out = tmp_path / "ffmpeg", tmp_path / "out"
     program.write_text('#!/bin/sh\nfor last; do :; done\ncat > "$last"\n')

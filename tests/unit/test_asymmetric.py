@@ -69,7 +69,7 @@ def turn(axis: Any, angle: arb) -> Any:
 
 
 @pytest.mark.slow
-def test_thirty_digits_at_t_100_are_those_of_taylor_series() -> None:
+def test_thirty_digits_at_t_100_agree_with_taylor_series() -> None:
     """R(100), reduced modulo the periods, holds an integration of (12), (16) to 30 digits; so does R(3)."""
     motion = Balls(BODY, FIELD, OMEGA)
     states = taylor(fractions(BODY), fractions(FIELD), fractions(OMEGA), [3, 100], digits=34)
@@ -146,7 +146,7 @@ def test_thirty_digits_are_proven_at_a_trillion() -> None:
 
 
 @pytest.mark.slow
-def test_a_motion_goes_on_from_where_it_is() -> None:
+def test_a_motion_restarted_from_its_state_continues() -> None:
     """R(t + s) = R(t) R(s) of the motion that starts with the state at t, rounded to 80 bits, t = 1e9."""
     motion, t, s = quick(), 10**9, fmpq(7, 2)
     with ctx.workprec(90):
@@ -256,7 +256,7 @@ def test_an_elliptic_motion_is_found_with_its_place(inertia: tuple[int, ...], v:
         assert overlap(motion.angular_velocity(10**6), true.angular_velocity(10**6))
 
 
-def test_a_pendulum_is_gone_directly_up_to_a_limit() -> None:
+def test_a_pendulum_is_integrated_directly_up_to_a_time_limit() -> None:
     """On the discriminant there is an answer for a while, and then a line that says how long; R has its exact zeros."""
     motion = Balls(BODY, (0, 0, 1), (1, 0, -1))
     assert motion.kind == "on the discriminant"
@@ -313,7 +313,7 @@ def not_found(_: Any) -> None:
 
 
 @pytest.mark.slow
-def test_a_period_that_is_none_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_period_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     """With a period off by a part in eight Newton's method in balls finds no proof, and says so."""
     true = torus.real_periods
     monkeypatch.setattr(torus, "lattice", not_found)
@@ -402,7 +402,7 @@ def test_the_start_is_known_without_a_closed_form(monkeypatch: pytest.MonkeyPatc
         ((BODY, FIELD, (1, 2, "far")), "real number"),
     ],
 )
-def test_what_is_no_motion_is_refused_in_one_line(case: tuple[Any, ...], words: str) -> None:
+def test_impossible_motions_are_refused_in_one_line(case: tuple[Any, ...], words: str) -> None:
     """Errors say what is wrong and what would be right, in one line."""
     with pytest.raises(atlas.AtlasError, match=words) as raised:
         Balls(*case)

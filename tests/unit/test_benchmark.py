@@ -69,7 +69,7 @@ def places(panel: Any) -> set[tuple[float, ...]]:
     return {tuple(p) for layer in panel.layers if layer.role != "limit" for p in layer.points.tolist()}
 
 
-def test_costs_are_those_of_the_record() -> None:
+def test_costs_agree_with_the_record() -> None:
     """Left stand the nanoseconds of one thread, right the multiples of filling the memory, from 10^4 matrices on."""
     costs = [cost for cost in results.read().costs if cost.nanoseconds is not None]
     each, multiples = recipes.load("cost").scene().panels

@@ -35,7 +35,7 @@ def states(b: float, c: float, count: int, size: float = 1.0) -> tuple[FloatArra
     return M * chance.gamma(1.0, size, size=(count, 1)) + c * K / b**2, K
 
 
-def test_the_values_are_those_of_elliptic_motions() -> None:
+def test_the_values_agree_with_elliptic_motions() -> None:
     """H and F of 30 motions from M and K themselves, on both ovals with both signs of v, 64 ulp of their terms."""
     chance = np.random.default_rng(3)
     for z, branch in product((-1.2, -0.8, -0.3, 0.5, 4.0), (1, -1)):
@@ -48,7 +48,7 @@ def test_the_values_are_those_of_elliptic_motions() -> None:
 
 
 @pytest.mark.parametrize("c", MOMENTA)
-def test_what_is_stable_is_where_the_curve_is_convex(c: float) -> None:
+def test_stability_is_the_convexity_of_the_curve(c: float) -> None:
     """The second derivative of H by F, by differences, has the sign of each stretch; the slope is -z/2D to 1e-6."""
     one, kinds = Bifurcation(BODY, 1.0, c), set()
     for stretch in one.stretches():
@@ -63,7 +63,7 @@ def test_what_is_stable_is_where_the_curve_is_convex(c: float) -> None:
 
 
 @pytest.mark.parametrize("c", [*MOMENTA, 0.52, 1.38])
-def test_the_kinds_of_spins_are_those_of_their_eigenvalues(c: float) -> None:
+def test_the_kinds_of_spins_agree_with_their_eigenvalues(c: float) -> None:
     """Of the equations of M and K, linear about a spin: imaginary, real, or complex exponents; both kinds occur."""
     one = Bifurcation(BODY, 1.0, c)
     for spin in one.spins:
@@ -189,7 +189,9 @@ def test_the_edge_is_reached() -> None:
     ("inertia", "b", "c", "words"),
     [((1.0, 1.0, 1.5), 1.0, 1.0, "equal"), (BODY, 0.0, 1.0, "b must")],
 )
-def test_what_has_no_such_curve_is_refused(inertia: tuple[float, ...], b: float, c: float, words: str) -> None:
+def test_bodies_without_a_bifurcation_curve_are_refused(
+    inertia: tuple[float, ...], b: float, c: float, words: str
+) -> None:
     """Two equal moments, no field."""
     with pytest.raises(DomainError, match=words):
         Bifurcation(inertia, b, c)

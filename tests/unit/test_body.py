@@ -190,7 +190,7 @@ def test_the_symmetry_axis_may_be_any_of_the_three(axis: int) -> None:
 
 
 @given(seeds)
-def test_inertia_and_mass_matrix_are_those_of_the_points(seed: int) -> None:
+def test_inertia_and_mass_matrix_agree_with_the_points(seed: int) -> None:
     """Both tensors follow from their definitions as sums over points, and one from the other."""
     rng = np.random.default_rng(seed)
     masses, positions = rng.uniform(0.1, 1, size=6), rng.normal(size=(6, 3))
@@ -238,7 +238,7 @@ def test_no_body_lies_outside_the_domain(ratio: float) -> None:
         moments(ratio)
 
 
-def test_a_ratio_above_two_is_told_why() -> None:
+def test_a_ratio_above_two_is_refused_with_the_reason() -> None:
     """The error names the mass matrix element that would be negative."""
     with pytest.raises(DomainError, match=r"g3 = \(2 I2 - I3\)/2 is a sum of m x\^2"):
         moments(2.1)
@@ -307,7 +307,7 @@ def test_an_array_of_bodies_is_its_bodies(of: Callable[[SymmetricBody], Any]) ->
         lambda: from_shape("ring"),
     ],
 )
-def test_what_is_no_body_is_one_sentence(make: Callable[[], object]) -> None:
+def test_impossible_bodies_are_refused_in_one_sentence(make: Callable[[], object]) -> None:
     """Text, holes, impossible sizes and misspelt dimensions raise one sentence, never a NaN."""
     with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
         make()

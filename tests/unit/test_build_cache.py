@@ -82,7 +82,7 @@ def test_two_processes_that_put_the_same_do_no_harm(tmp_path: Path) -> None:
     assert Cache(tmp_path).get(KEY) == LARGE
 
 
-def test_what_is_out_of_use_is_removed(tmp_path: Path) -> None:
+def test_unused_cache_entries_are_removed(tmp_path: Path) -> None:
     """Entries that nobody read for long go, and so does what a killed build left; what is in use stays."""
     cache, now = Cache(tmp_path), time.time()
     for key in (KEY, OTHER):

@@ -175,7 +175,7 @@ def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, 
 
 
 @pytest.mark.slow
-def test_a_full_disk_is_one_line_and_the_last_good_report_stays(undisturbed: dict[str, str], copy: Path) -> None:
+def test_a_full_disk_is_one_line_and_the_last_good_report_is_kept(undisturbed: dict[str, str], copy: Path) -> None:
     """When a file cannot be written in full, the command says so in one line and leaves what was there."""
     words = command(copy)
     (copy / "small.toml").write_text(REPORT.replace("A Small Report", "Another Title"))

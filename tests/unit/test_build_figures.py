@@ -136,7 +136,7 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("file", "old", "new", "again"), [c[1:] for c in CHANGES], ids=[c[0] for c in CHANGES])
-def test_a_change_draws_again_what_depends_on_it(
+def test_a_change_redraws_exactly_the_dependent_figures(
     checkout: Path, keys: Keys, file: str, old: str, new: str, again: set[str]
 ) -> None:
     """Each kind of change makes new the keys of exactly those figures that it can alter."""
@@ -157,7 +157,7 @@ def test_a_parameter_draws_again_its_figure(checkout: Path, keys: Keys) -> None:
 
 
 @pytest.mark.slow
-def test_the_gl_library_draws_again_what_is_shaded(checkout: Path, keys: Keys) -> None:
+def test_another_gl_library_redraws_shaded_figures(checkout: Path, keys: Keys) -> None:
     """Another GL library, or none, makes only the shaded figures new."""
     assert checkout.is_dir()
     assert different(keys("egl"), keys("osmesa")) == {"quadric"}
@@ -200,7 +200,7 @@ def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_what_changed_is_told_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_changes_that_cause_a_redraw_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A figure that is drawn again says which parts of what it depends on are new, or that a file was lost."""
     cache = Cache(tmp_path)
     made([figure("lssc")], cache)
@@ -305,7 +305,7 @@ def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) 
 
 
 @pytest.mark.slow
-def test_a_library_that_cannot_be_loaded_is_told(tmp_path: Path) -> None:
+def test_a_library_that_cannot_be_loaded_is_reported(tmp_path: Path) -> None:
     """What Matplotlib refuses when it is loaded is a failure of each figure, in a line."""
     broken = tmp_path / "broken" / "contourpy"
     broken.mkdir(parents=True)

@@ -133,7 +133,7 @@ def test_formulas_are_mathml_and_equations_have_their_numbers(built: Built) -> N
     assert tags == ["(71)", "(A1) flight"]
 
 
-def test_the_math_font_holds_radicals_and_what_the_pages_show(built: Built) -> None:
+def test_the_math_font_holds_radicals_and_all_characters_of_formulas(built: Built) -> None:
     """The embedded subset has a MATH table, U+221A, and every character of every formula."""
     with TTFont(built.index.parent / "fonts" / "math.woff") as font:
         covered = set(font.getBestCmap())

@@ -69,7 +69,7 @@ def test_comments_and_formatting_change_no_digest(
     assert (before == after) is same
 
 
-def test_what_is_remembered_is_not_stale(tmp_path: Path) -> None:
+def test_cached_sources_are_never_stale(tmp_path: Path) -> None:
     """A changed file is read anew, also one that was changed within a moment and keeps its time and size."""
     recipe, cache = write(tmp_path / "recipe.py", "x = 1\n"), Cache(tmp_path / "cache")
     times = recipe.stat().st_atime_ns, recipe.stat().st_mtime_ns

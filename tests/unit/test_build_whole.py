@@ -103,7 +103,7 @@ def test_a_killed_build_leaves_the_last_good_report(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_what_is_stale_goes_and_what_is_foreign_stays(tmp_path: Path) -> None:
+def test_stale_pages_are_removed_and_user_files_are_kept(tmp_path: Path) -> None:
     """Pages that a report no longer has are removed from its folder; files of the user stay, in it and beside it."""
     out, file = tmp_path / "out", report(tmp_path, "T")
     second = '\n[[pages]]\nslug = "second"\ntitle = "U"\nblocks = []\n'
@@ -130,7 +130,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("link", [False, True])
-def test_an_edited_file_stays_and_the_new_one_is_beside_it(tmp_path: Path, *, link: bool) -> None:
+def test_an_edited_file_is_kept_and_the_new_file_is_written_beside_it(tmp_path: Path, *, link: bool) -> None:
     """It is told each time until it is as written; what is stale and edited stays, the new one of before goes."""
     place = tmp_path / "d"
     if link:

@@ -156,14 +156,14 @@ R = GENERAL.rotation(TIMES)
         ([TIMES, TIMES[:5]], {"rotation": [R, R[:5]], "step": [1, 0.5]}, "over the same time"),
     ],
 )
-def test_what_cannot_be_graded_is_one_sentence(t: Any, given: dict[str, Any], words: str) -> None:
+def test_ungradable_data_are_refused_in_one_sentence(t: Any, given: dict[str, Any], words: str) -> None:
     """Arrays of other shapes, no motion, runs without an order."""
     with pytest.raises(AtlasError, match=words) as caught:
         atlas.check(t, **({"motion": GENERAL} | given))
     assert "\n" not in str(caught.value)
 
 
-def test_the_names_of_a_fit_are_those_of_a_check() -> None:
+def test_the_names_of_a_fit_agree_with_a_check() -> None:
     """The plurals are taken as well; another name is none."""
     graded = [atlas.check(TIMES, **{name: R}, motion=GENERAL).record() for name in ("rotation", "rotations")]
     assert graded[0] == graded[1]

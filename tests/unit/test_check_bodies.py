@@ -74,7 +74,7 @@ def test_a_body_with_three_moments_has_its_digits(tmp_path: Path, of_body: np.nd
 
 
 @pytest.mark.slow
-def test_an_error_of_such_a_body_is_measured_by_balls(tmp_path: Path, of_body: np.ndarray) -> None:
+def test_errors_for_three_moments_are_measured_by_balls(tmp_path: Path, of_body: np.ndarray) -> None:
     """R22 off by 2^-30 from the third row on has 9.03 digits there; Omega is measured by the largest rate."""
     wrong = of_body.copy()
     wrong[2:, COLUMNS.index("R22")] += 2.0**-30
@@ -147,7 +147,7 @@ def test_a_top_has_its_digits(tmp_path: Path, of_top: np.ndarray) -> None:
         (BODY | {"omega": (float("nan"), 0.0, 0.0)}, "finite"),
     ],
 )
-def test_what_is_no_motion_is_refused(tmp_path: Path, of_body: np.ndarray, given: dict[str, Any], words: str) -> None:
+def test_impossible_motions_are_refused(tmp_path: Path, of_body: np.ndarray, given: dict[str, Any], words: str) -> None:
     """In one sentence that says what would be right."""
     with pytest.raises(AtlasError, match=words) as caught:
         check(written(tmp_path, of_body), **given)

@@ -41,7 +41,7 @@ def flow(name: str) -> Flow:
         ("still", (8, 1), 128, 4, 8.0121e4, 4.96612e8),
     ],
 )
-def test_the_error_of_a_way_is_what_is_stated(
+def test_errors_of_a_path_are_within_their_stated_bounds(
     name: str, times: tuple[Any, Any], bits: int, steps: int, state: float, turn: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Steps, and the largest radii of (W, K) and q; each radius bounds the difference from 120 more bits."""
@@ -61,7 +61,7 @@ def test_the_error_of_a_way_is_what_is_stated(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", BODIES)
-def test_states_that_a_way_passes_are_those_at_which_it_would_end(name: str) -> None:
+def test_intermediate_states_of_a_path_agree_with_shorter_paths(name: str) -> None:
     """At fractions of a way each radius bounds the difference from 120 more bits, and is small."""
     fractions = [fmpq(n, 97) for n in (1, 2, 40, 41, 90, 97)]
     passed = list(flow(name).pass_by(fmpq(-3), fractions, 128))
@@ -77,7 +77,7 @@ def test_states_that_a_way_passes_are_those_at_which_it_would_end(name: str) -> 
             assert max(float(x.rad()) for x, _ in pairs) < 2.0**-80
 
 
-def test_errors_that_grow_too_far_are_said() -> None:
+def test_errors_that_grow_too_far_are_reported() -> None:
     """In steps of few bits errors beyond a fourth of the bits have no bound; nor have steps that are too many."""
     with pytest.raises(NotCertifiedError, match="grow beyond their bounds"):
         flow("quick").go(fmpq(1), fmpq(0), 60)

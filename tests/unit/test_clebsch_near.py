@@ -91,7 +91,7 @@ def test_motions_whose_periods_are_too_long_are_held_against_the_twin_where_it_i
 
 
 @pytest.mark.slow
-def test_periods_too_long_to_be_gone_are_an_error_in_one_line() -> None:
+def test_periods_too_long_to_integrate_are_refused_in_one_line() -> None:
     """Moments of a ball but for a billionth: times up to a limit have an answer, and it is said why no others have."""
     motion = atlas.AsymmetricMotion((1.0, 1 + 2.0**-30, 1 + 1.75 * 2.0**-30), (0.5, -1.0, 0.25), (0.25, 1.0, -0.5))
     assert "certified at each time: the periods found for the motion's torus" in motion.agreement

@@ -181,7 +181,7 @@ def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize(("H", "F"), [(1.0, 0.0), (0.0, 1.0), (3.0, -3.0), (2.0, 3.0)])
-def test_errors_grow_no_faster_than_is_said(H: float, F: float) -> None:
+def test_errors_grow_no_faster_than_the_stated_rate(H: float, F: float) -> None:
     """Lengths of small errors of M, K and N change by what the linearized equations make of them, at most."""
     sizes = clebsch_proof._sizes(made())
     growth, I = clebsch_proof._growth(made(), sizes, H, F), np.array([float(x) for x in torus().moments])

@@ -184,7 +184,7 @@ def test_columns_fields_and_grids_are_parts_of_the_matrix() -> None:
     assert np.abs(out.reshape(3, 9) - exact).max() < 8 * EPS
 
 
-def test_a_motion_goes_on_from_where_it_is_with_axes_in_another_order() -> None:
+def test_a_motion_restarted_with_permuted_axes_continues() -> None:
     """R(t + s) = R(t) P^T R'(s) P, R' that of the state at t with the axes in cyclic order, t = 1000, s = 40."""
     closed, order = kernel(*QUICK), [1, 2, 0]
     t, s = 1000.0, 40.0
@@ -217,7 +217,7 @@ def test_it_tends_to_the_symmetric_body() -> None:
 
 
 @pytest.mark.slow
-def test_frequencies_are_those_of_the_motion() -> None:
+def test_frequencies_agree_with_the_motion() -> None:
     """K at 2000 times up to 1e6 is a sum of cosines and sines of n1 f1 + n2 f2 alone, |n| <= 9, to 8 digits."""
     closed = kernel(*WEAK)
     f1, f2, _ = (float(x.mid()) for x in closed.frequencies)
@@ -423,7 +423,7 @@ def test_a_table_of_periods_names_them_from_one_on() -> None:
 
 
 @pytest.mark.parametrize("exponent", [-1400, 0, 1400])
-def test_a_residual_is_beside_its_values_at_any_scale(exponent: int) -> None:
+def test_a_residual_is_relative_to_its_values_at_any_scale(exponent: int) -> None:
     """Values too small or too large for a float that are no multiple of a column are not fitted by it."""
     scale = arb(10) ** exponent
     _, error = clebsch_theta._least_squares([[acb(1)], [acb(1)]], [acb(scale), acb(3 * scale)])

@@ -144,7 +144,7 @@ def test_control_characters_are_not_printed() -> None:
         "check mine.csv --figure {}.svg",
     ],
 )
-def test_a_place_below_a_file_is_told_before_any_work(words: str, tmp_path: Path) -> None:
+def test_a_path_below_a_file_is_refused_before_any_work(words: str, tmp_path: Path) -> None:
     """What cannot be written is named as it was given, and no hidden file with it; a wrong place is a wrong input."""
     file = tmp_path / "mine.csv"
     file.write_text("t,R11\n0,1\n", encoding="utf-8")
@@ -157,7 +157,7 @@ def test_a_place_below_a_file_is_told_before_any_work(words: str, tmp_path: Path
     assert ".part" not in result.stderr
 
 
-def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_read_only_folder_is_refused_before_any_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where nothing may be written, the folder given is named."""
     monkeypatch.setattr(os, "access", lambda _path, _mode: False)
     result = CliRunner().invoke(command, ["figure", "lssc", "--out", str(tmp_path / "new")])
@@ -259,7 +259,7 @@ def test_a_motion_is_labelled_by_its_case(words: str, says: tuple[str, ...]) -> 
     assert ("(71)" in out) == ("(71)" in says)
 
 
-def test_a_reason_is_told_once() -> None:
+def test_a_shared_reason_is_printed_once() -> None:
     """Where several quantities lack for the same reason, the reason stands there once."""
     out = CliRunner().invoke(command, "classify --ratio 1.5 --field 0 0".split(), catch_exceptions=False).stdout
     assert out.count("there is no angle beta") == 1
@@ -296,7 +296,9 @@ def test_a_broken_recipe_hides_no_other(bad_recipe: Path) -> None:
 
 
 @pytest.mark.slow
-def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_gl_a_line_drawing_replaces_a_shaded_figure_with_a_notice(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A line drawing in place of a shaded figure is told in one line, with the command that brings the rest."""
     from atlas import gl
 
@@ -321,7 +323,7 @@ def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
     assert (tmp_path / "hyperbola.png").exists()
 
 
-def test_a_figure_that_fails_says_what_its_user_can_mend(bad_recipe: Path) -> None:
+def test_a_failing_figure_names_the_fault_of_its_parameter(bad_recipe: Path) -> None:
     """A wrong parameter is told in its own sentence; only what nobody expected comes with the name of its class."""
     (bad_recipe.parent / "figures" / "aa_bad.py").write_text(
         '"""Bad."""\ndef scene(*, ratio=1.0):\n    return 1 / 0\n', encoding="utf-8"
@@ -350,7 +352,7 @@ def test_a_setting_is_typed_as_a_number_is(text: str, value: object) -> None:
     assert setting(text) == ("x", value)
 
 
-def test_a_closed_standard_output_is_told() -> None:
+def test_a_closed_standard_output_is_reported() -> None:
     """Without a standard output there is one line and no traceback."""
     result = subprocess.run(
         ["/bin/sh", "-c", 'exec "$@" >&-', "sh", *ATLAS, "list"], stderr=subprocess.PIPE, text=True, check=False
@@ -378,7 +380,7 @@ def test_the_minus_of_a_page_is_one(words: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["0.1", "1/3", "1e-3", "-2.5", "0x1.8p1", "+1.", ".5E+3", "0X.8P-1"])
-def test_a_typed_number_remembers_what_was_typed(text: str) -> None:
+def test_a_typed_number_keeps_its_exact_value(text: str) -> None:
     """The double is the nearest one, and the exact number is kept."""
     number = Typed(text)
     exact = number.exactly()
@@ -424,7 +426,7 @@ def test_a_long_table_is_the_same_as_all_at_once(monkeypatch: pytest.MonkeyPatch
     assert len(whole[0]) > 3 * 40
 
 
-def test_check_shows_what_there_is(tmp_path: Path) -> None:
+def test_check_shows_only_existing_digits_and_integrals(tmp_path: Path) -> None:
     """One row is a row, no digits are 0.0 digits, an integral that the columns do not give is not headed."""
     file = tmp_path / "one.csv"
     file.write_text("t,q0,q1,q2,q3\n0,0,0,0,0\n", encoding="utf-8")
@@ -461,7 +463,7 @@ def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, more: str
     assert (result.stdout != "") == (status < 2)
 
 
-def test_general_says_what_a_separatrix_has_not() -> None:
+def test_a_separatrix_lacks_angles_per_period_with_a_reason() -> None:
     """On a separatrix the period is infinite, and no angle belongs to it; at a triple root there is no nome."""
     out = record("motion", *"--ratio 3/4 --field 20 15 --omega 6 -24.5 -7".split())
     assert (out["kind"], out["period"], out["nome"]) == ("separatrix", "infinite", 1.0)

@@ -58,7 +58,7 @@ def numbers(*words: str) -> dict[str, Any]:
     return {name: value for name, value in json.loads(out).items() if name != "parameters"}
 
 
-def test_a_symmetric_body_is_told_in_its_own_axes_and_in_those_given() -> None:
+def test_a_symmetric_body_is_printed_in_its_own_and_in_the_given_axes() -> None:
     """The table has m over I2 in any axes; where the axis is not e3, it is said along which axes Omega3 is."""
     start = "--omega 1 2 3 --times 0".split()
     for inertia in ("--inertia 2 2 3", "--shape ring --radius 2"):
@@ -237,7 +237,7 @@ def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -
 
 
 @pytest.mark.slow
-def test_units_are_those_of_si() -> None:
+def test_units_agree_with_si() -> None:
     """A cylinder in um, kg/m3, e, T and degrees is that in SI by hand, and turns a second are 2 pi as many radians."""
     typed = (
         "motion --shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e --magnetic 0.8T "
@@ -266,7 +266,7 @@ def test_units_are_those_of_si() -> None:
         ("--ratio 1.5 --field 2 --angle 90deg", "--ratio 1.5 --field 2 1.2246467991473532e-16"),
     ],
 )
-def test_what_is_typed_with_units_is_the_same_without(one: str, other: str) -> None:
+def test_numbers_with_units_equal_numbers_in_si(one: str, other: str) -> None:
     """Prefixes, powers and quotients; a bare number beside a unit is in SI."""
     rest = "--omega2 0.7 --times 1 --json"
     found, true = (numbers("motion", *words.split(), *rest.split()) for words in (one, other))
@@ -461,7 +461,7 @@ def test_a_vector_in_one_word_may_have_uncertainties() -> None:
     assert found[0] == 0
 
 
-def test_help_is_given_whatever_stands_beside_it() -> None:
+def test_help_is_printed_despite_other_wrong_words() -> None:
     """Neither an option that there is not nor too few numbers stand in its way."""
     assert run("classify", "--rato", "1", "--field", "1", "--help") == run("classify", "--help")
 
@@ -475,7 +475,7 @@ def test_a_file_after_a_vector_may_begin_with_a_digit(tmp_path: Path, monkeypatc
     assert run(*words, "1", "3.csv")[1].endswith("--field takes 2 numbers, B2 B3; found 1.\n")
 
 
-def test_points_are_symmetric_as_given_or_it_is_told(tmp_path: Path) -> None:
+def test_points_off_symmetry_are_reported(tmp_path: Path) -> None:
     """Products of 1e-10 stay where the body may have three moments; where it must be symmetric it is said once."""
     square = np.array([[1.0, 0, 0, 1], [-1, 0, 0, 1], [0, 1, 0, 1], [0, -1, 0, 1], [0, 0, 0.5, 1], [0, 0, -0.5, 1]])
     words = "--field 1 2 --omega 0.1 0.2 0.3 --json".split()

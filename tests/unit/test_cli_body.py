@@ -75,7 +75,7 @@ def test_mass_and_charge_are_their_ratio(units: list[str]) -> None:
     assert by_charge["omega3"] == by_ratio["omega3"]
 
 
-def test_points_are_the_body_that_they_are(tmp_path: Path) -> None:
+def test_points_on_a_ring_are_a_ring(tmp_path: Path) -> None:
     """Four points on a ring are a ring, with the charge-to-mass ratio of each; their place does not matter."""
     (tmp_path / "ring.csv").write_text(TETRAGON, encoding="utf-8")
     points = record("motion", "--points", str(tmp_path / "ring.csv"), *"--magnetic 1 2 --omega2 0.7".split())

@@ -130,7 +130,7 @@ def test_the_field_of_a_charge_is_exact(units: str, c: int) -> None:
     assert found["inputs"] == "the doubles nearest to what was typed"
 
 
-def test_numbers_that_are_rounded_from_what_was_typed_are_said_to_be(tmp_path: Path) -> None:
+def test_rounding_of_typed_numbers_is_reported(tmp_path: Path) -> None:
     """The sentence on the inputs names what is computed in doubles first, in a table as in JSON; none is a decimal."""
     (tmp_path / "ring.csv").write_text("x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n", encoding="utf-8")
     start = "motion --omega2 0.1 --digits 40"
@@ -191,7 +191,7 @@ def test_one_time_that_cannot_be_had_does_not_lose_the_others() -> None:
     assert best.reason == "too far"
 
 
-def test_what_stands_beside_long_numbers_is_in_one_line() -> None:
+def test_rows_with_long_numbers_stay_on_one_line() -> None:
     """A row a quantity, however many digits it has."""
     words = "motion --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --digits"
     few, many = (CliRunner().invoke(command, [*words.split(), digits]).stdout.splitlines() for digits in ("5", "120"))

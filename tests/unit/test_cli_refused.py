@@ -416,7 +416,7 @@ def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -
     ],
     ids=["usage", "input", "disk", "interrupt", "end", "memory", "long"],
 )
-def test_what_goes_wrong_is_one_line_and_a_status(
+def test_every_failure_is_one_line_and_a_status(
     error: BaseException, status: int, says: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """2 for what was typed, 1 for what failed, 128 and the signal's number for what was interrupted."""
@@ -442,7 +442,7 @@ def test_a_table_without_an_end_is_given_up(tmp_path: Path, monkeypatch: pytest.
         assert "long.csv has more than" in told(words.split())[0]
 
 
-def test_too_few_numbers_are_told_and_not_the_option_that_follows() -> None:
+def test_too_few_numbers_are_reported_before_the_next_option() -> None:
     """The name of the next option was not meant for a number."""
     message, _ = told("motion --ratio 1.5 --field 1 2 --omega 0.7 --times 1".split())
     assert message == "--omega takes 3 numbers, W1 W2 W3; found 1."

@@ -99,7 +99,7 @@ def test_families_with_fields_of_their_own_carry_theirs() -> None:
     assert numbers(words)["sigma"]["period"] > 0
 
 
-def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
+def test_quantities_beyond_first_order_are_sampled_and_named() -> None:
     """The modulus is not of first order in a wide omega2: that is said, and it has the same digits each time."""
     status, out = run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")
     assert (status, out) == run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")

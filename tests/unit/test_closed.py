@@ -80,7 +80,7 @@ def test_the_two_excluded_numbers_are_refused() -> None:
         assert curve.closed(-p, q).winding == Fraction(-p, q)
 
 
-def test_what_has_no_single_motion_is_refused() -> None:
+def test_inputs_without_a_unique_closed_motion_are_refused() -> None:
     """I = 1, B3 = 0, B2 = 0, and what is no quotient of whole numbers."""
     for ratio, field, why in ((1.0, (1.0, 2.0), "I = 1"), (1.5, (1.0, 0.0), "B3 = 0"), (1.5, (0.0, 1.0), "B2 = 0")):
         with pytest.raises(atlas.DomainError, match=why):

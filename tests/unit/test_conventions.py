@@ -43,7 +43,7 @@ CONVENTIONS: dict[str, tuple[Callable[[Any], dict[str, Any]], str]] = {
 
 @pytest.mark.parametrize("kind", MOTIONS)
 @pytest.mark.parametrize("name", CONVENTIONS)
-def test_a_convention_that_fits_is_said(name: str, kind: str) -> None:
+def test_a_convention_that_fits_is_reported(name: str, kind: str) -> None:
     """It is the only one, and is not said where the data are off by 1e-3 in it, nor where they are right as given."""
     motion, (make, words) = MOTIONS[kind], CONVENTIONS[name]
     data = make(motion)

@@ -129,7 +129,7 @@ def test_without_pyarrow_there_is_csv_and_a_line(tmp_path: Path, monkeypatch: py
         build_data(tmp_path / "small.toml", tmp_path)
 
 
-def test_samples_are_those_of_the_motion(data: Path) -> None:
+def test_samples_agree_with_the_motion(data: Path) -> None:
     """R13 at each time is that of the kernel."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
     for row in read(data / "tables" / "samples.csv"):
@@ -166,7 +166,7 @@ def test_the_same_report_gives_the_same_bytes(data: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["folder", "link"])
-def test_files_of_the_user_stay(data: Path, tmp_path: Path, kind: str) -> None:
+def test_files_of_the_user_are_kept(data: Path, tmp_path: Path, kind: str) -> None:
     """What is there stays; so does what a link leads to."""
     place, theirs = tmp_path / "small", tmp_path / "theirs"
     theirs.mkdir()
@@ -179,7 +179,7 @@ def test_files_of_the_user_stay(data: Path, tmp_path: Path, kind: str) -> None:
     assert (place / "thesis.tex").read_text("utf-8") == "x"
 
 
-def test_a_figure_that_fails_leaves_what_was_there(data: Path, tmp_path: Path) -> None:
+def test_a_failing_figure_keeps_existing_files(data: Path, tmp_path: Path) -> None:
     """The reason is told in a line, and the status is 2."""
     wrong = REPORT.replace("parameters.ratio = 1.5", "parameters.ratio = 7.5")
     assert wrong != REPORT
@@ -197,7 +197,7 @@ def test_heads_become_names() -> None:
     ]  # fmt: skip
 
 
-def test_what_is_not_proven_is_said_beside_its_column(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unproven_numbers_are_marked_in_a_second_column(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A column with one number that is not proven has another, which tells them apart; the rest has none."""
     document, *_ = composed(data.parents[1] / "small.toml", data.parent, lambda _: ("csv.gz",), lambda *_: None, 1)
     (table, *_) = [one for one in document.listed("table") if one.id == "tab-samples"]

@@ -38,9 +38,7 @@ EXAMPLES = [
 
 
 @pytest.mark.parametrize("words", EXAMPLES)
-def test_the_documents_type_what_the_command_line_takes(
-    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_command_lines_in_the_documents_are_valid(words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each command line of the README, and of the list in the guide, is read without complaint."""
     monkeypatch.chdir(tmp_path)
     for file in re.findall(r"\w+\.csv", words):
@@ -82,7 +80,7 @@ def test_every_kind_of_block_has_its_name() -> None:
     assert set(re.findall(r"`(\w+)`", listed)) == set(KINDS) - {"prose"}
 
 
-def test_the_table_of_blocks_is_what_a_page_may_hold() -> None:
+def test_the_table_of_blocks_lists_all_block_kinds() -> None:
     """Each kind has its record under the name that is written in a file, and its templates; there is no other."""
     assert {kind: one.record for kind, one in KINDS.items()} == {
         block.__struct_config__.tag: block for block in get_args(Block)

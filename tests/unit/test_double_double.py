@@ -58,7 +58,7 @@ def test_a_root_keeps_its_bound(a: float, b: float) -> None:
     assert abs(value(root) ** 2 - value(square)) <= 3 * rel * value(square)
 
 
-def test_what_cancels_beyond_two_words_is_in_doubt() -> None:
+def test_cancellation_beyond_double_double_is_flagged() -> None:
     """A sum of inexact terms that cancels to nothing is not certain, nor what is made of it; exact zeros are."""
     third = number(1.0) / number(3.0)
     sixth = number(0.5) / number(3.0)

@@ -111,7 +111,7 @@ def test_the_page_has_the_size_of_the_scene(tmp_path: Path) -> None:
     assert [int.from_bytes(header[i : i + 4], "big") for i in (0, 4)] == [500, 500]
 
 
-def test_a_drawing_that_fails_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+def test_a_failing_drawing_keeps_the_old_file_alone(tmp_path: Path) -> None:
     """Whole or not at all."""
     path = tmp_path / "ball.svg"
     path.write_text("old", encoding="utf-8")
@@ -328,7 +328,7 @@ def test_a_mark_on_the_frame_is_drawn_whole(at: tuple[float, float], whole: bool
     assert line.get_clip_on()
 
 
-def test_a_legend_finds_what_is_named_beside_it() -> None:
+def test_a_legend_finds_curves_named_by_a_label() -> None:
     """A label names the last curve or points of its role that have no name: ``axes.legend()`` lists them."""
     layers = (Curve(ROD, "guide"), Curve(ROD, "main"), Points(ROD, "rest"), Label(ROD[0], "$a$", "main"))
     panel = drawn(*layers, Curve(ROD, "second", "$b$"), Label(ROD[1], "rest", "rest"), Label(ROD[1], "note", "main"))

@@ -72,7 +72,7 @@ def test_a_child_that_dies_means_no(monkeypatch: pytest.MonkeyPatch) -> None:
     assert gl.library() is None
 
 
-def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it() -> None:
+def test_without_gl_one_line_names_the_omission_and_the_remedy() -> None:
     """The command ends well: the first report says it, too."""
     done = subprocess.run(
         [sys.executable, "-m", "atlas.gl"],
@@ -87,7 +87,7 @@ def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it() -> None:
 
 
 @pytest.mark.parametrize("module", ["atlas.gl", "atlas"])
-def test_a_choice_that_is_no_library_is_told(module: str, tmp_path: Path) -> None:
+def test_an_unknown_gl_library_is_refused(module: str, tmp_path: Path) -> None:
     """A misspelt ATLAS_GL is one sentence that names the known values, and exit status 2; nothing is drawn."""
     words = ["figure", "ball", "--renderer", "shaded", "--out", str(tmp_path)] if module == "atlas" else []
     done = subprocess.run(
@@ -103,7 +103,7 @@ def test_a_choice_that_is_no_library_is_told(module: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.usefixtures("fresh")
-def test_without_vtk_the_line_names_what_is_missing(
+def test_without_vtk_the_line_names_the_missing_package(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """No VTK, no trial: the command is pip's."""
@@ -125,7 +125,7 @@ def test_without_vtk_the_line_names_what_is_missing(
         ("egl", "echo never asked; false", ""),
     ],
 )
-def test_set_up_installs_what_is_missing_where_it_may(tmp_path: Path, answer: str, apt: str, says: str) -> None:
+def test_set_up_installs_missing_libraries_where_permitted(tmp_path: Path, answer: str, apt: str, says: str) -> None:
     """As root on Debian `make setup` brings the libraries and says so; where it can't it says why, and goes on."""
     for name, text in {"python": f"echo '{answer}'", "id": "echo 0", "apt-get": apt}.items():
         (tmp_path / name).write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")

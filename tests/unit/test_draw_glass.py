@@ -158,7 +158,7 @@ GLASS: dict[str, tuple[Callable[[], list[Surface]], float, float]] = {
 @pytest.mark.parametrize(
     "case", [pytest.param(case, marks=[pytest.mark.slow] * (k % 2)) for k, case in enumerate(GLASS)]
 )
-def test_glass_is_what_sorted_rays_give(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_glass_agrees_with_sorted_rays(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Away from edges at most one pixel in 5000 is more than three grey levels from the exact picture."""
     make, azimuth, elevation = GLASS[case]
     views = []

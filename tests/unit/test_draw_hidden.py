@@ -113,7 +113,7 @@ def test_a_circle_on_a_ball_is_hidden_on_the_far_half_only() -> None:
             assert (heights >= -1e-12).all() if visible else (heights <= 1e-12).all()
 
 
-def test_what_lies_in_front_is_not_hidden() -> None:
+def test_curves_in_front_of_a_surface_are_visible() -> None:
     """A surface hides what is behind it, not what is before it."""
     plane = solids.rectangle(np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
     points = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [-1.0, 1.5, 0.0], [0.0, 0.2, 0.2]])

@@ -40,7 +40,7 @@ def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
     assert (first < 250).any()
 
 
-def test_what_is_inside_a_translucent_ball_shines_through(tmp_path: Path) -> None:
+def test_curves_inside_a_translucent_ball_shine_through(tmp_path: Path) -> None:
     """Behind glass a red line is still redder than the glass, but not as red as before it."""
     ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
 

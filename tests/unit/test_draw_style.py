@@ -70,7 +70,7 @@ def test_the_look_of_plotted_lines_is_the_cycle_of_the_sheet() -> None:
     assert {line.get_linewidth() for line in axes.lines} == {3.25}
 
 
-def test_dashes_of_a_sheet_are_those_of_matplotlib() -> None:
+def test_dashes_of_a_sheet_agree_with_matplotlib() -> None:
     """By their sign and by their name, of the pattern that the settings have for them."""
     for linestyle in ("--", "dashed", "-.", "dashdot", ":", "dotted", "-", "solid"):
         word = {"--": "dashed", "-.": "dashdot", ":": "dotted"}.get(linestyle, linestyle)
@@ -329,7 +329,7 @@ def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:
         assert 0.0 < look.glass <= 1.0, role
 
 
-def test_widths_say_what_matters() -> None:
+def test_line_widths_follow_importance() -> None:
     """Vectors of the physics have one weight within 30 %, what only helps is thinner, and no curve is twice as wide."""
     wide = {role: look.width for role, look in STYLES.items()}
     thinnest, widest = min(wide[role] for role in VECTORS), max(wide[role] for role in VECTORS)
@@ -348,7 +348,7 @@ def test_dashes_gaps_and_tints_can_be_seen() -> None:
 
 
 @pytest.mark.parametrize("role", ["surface", "sphere", "ball", "cone", "tangent_plane", "plane"])
-def test_what_stands_behind_two_walls_is_seen(role: str) -> None:
+def test_curves_behind_two_walls_are_seen(role: str) -> None:
     """Where curves run on and behind a surface its near wall and the far one, of half its tint, pass 2/5 of the light.
 
     Both tint: together they take a tenth of it away at least.

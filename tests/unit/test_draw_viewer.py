@@ -57,7 +57,7 @@ def full(form: list[float]) -> FloatArray:
     return found + np.triu(found, 1).T
 
 
-def test_points_of_surfaces_obey_what_is_handed_over() -> None:
+def test_points_of_surfaces_lie_on_the_given_quadric() -> None:
     """In the units of the view the grid of each surface lies on its quadric, within its planes and in its box."""
     scene = recipes.load("hyp_a").scene()
     (panel,) = scene.panels

@@ -189,7 +189,7 @@ def test_shapes_that_do_not_meet_are_one_sentence() -> None:
         pair.rotation(np.ma.masked_array([0.0, 1.0], [True, False]))
 
 
-def test_the_free_body_beside_precesses_alike() -> None:
+def test_the_free_body_with_the_same_k_precesses_alike() -> None:
     """The free body of (87) has the same k and axis, and phi = (I2 - I3) B3hat k/I3."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
     free = motion.beside

@@ -55,7 +55,7 @@ def fraction(x: object) -> Fraction:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_balls_hold_what_taylor_series_of_the_equations_give(name: str) -> None:
+def test_balls_hold_the_taylor_integration(name: str) -> None:
     """R(t) and Omega(t) as balls hold the values of an integration of (12), (16), to 28 digits."""
     with ctx.workprec(240):
         motion = Balls(*CASES[name])
@@ -176,7 +176,7 @@ def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
     assert other.period == pytest.approx(motion.period, rel=64 * EPS)
 
 
-def test_a_motion_goes_on_from_where_it_is() -> None:
+def test_a_motion_restarted_from_its_state_continues() -> None:
     """R(t + s) = R(s) R(t), the latter of the same z in the field K(s)."""
     motion = atlas.EllipticMotion(BODY, FIELD, 1.7)
     for s in (0.7, -13.0):
@@ -337,7 +337,7 @@ def departure(case: tuple[object, ...], push: float, until: float) -> float:
         ((BODY, FIELD, 0, -1), "stable"),
     ],
 )
-def test_pushed_motions_leave_what_is_unstable_only(case: tuple[object, ...], stability: str) -> None:
+def test_pushed_motions_leave_only_unstable_motions(case: tuple[object, ...], stability: str) -> None:
     """A push of 1e-4 stays below 1e-3, or grows beyond 0.01, within 16 units of time."""
     motion = atlas.EllipticMotion(*case)
     assert motion.stability == stability
@@ -414,7 +414,7 @@ def test_stability_is_decided_exactly_or_left_open() -> None:
         ((BODY, FIELD, "far"), "z must be a real number"),
     ],
 )
-def test_what_is_no_elliptic_motion_is_refused_in_one_line(case: tuple[object, ...], words: str) -> None:
+def test_impossible_elliptic_motions_are_refused_in_one_line(case: tuple[object, ...], words: str) -> None:
     """Errors say what is wrong and what would be right."""
     with pytest.raises(atlas.AtlasError, match=words):
         atlas.EllipticMotion(*case)

@@ -67,7 +67,7 @@ class Cloud:
 
 
 @given(seeds)
-def test_mass_matrix_and_energy_are_those_of_the_points(seed: int) -> None:
+def test_mass_matrix_and_energy_agree_with_the_points(seed: int) -> None:
     """The mass matrix g of (8) is (tr I/2) 1 - I, and (Omega, I Omega)/2 is the points' kinetic energy."""
     c = Cloud.random(seed)
     assert np.abs(mass_matrix(c.inertia) - mass_matrix_of_points(c.masses, c.start)).max() < c.tolerance

@@ -13,7 +13,7 @@ from atlas.errors import AtlasError, DomainError
 
 
 @pytest.mark.parametrize("name", SHAPES)
-def test_the_moments_in_floats_are_those_of_the_shape(name: str) -> None:
+def test_the_moments_in_floats_agree_with_the_shape(name: str) -> None:
     """Each shape's floats lie within 2 ulp of the exact moments, for the same dimensions."""
     assert set(SHAPES) == set(CORE_SHAPES)
     sizes = dict(zip(SHAPES[name][0], (1.7, 0.3, 1.1), strict=False))
@@ -46,7 +46,7 @@ def test_the_quotient_of_a_body_is_exact() -> None:
     ("value", "words"),
     [("two", "finite real number"), (float("nan"), "finite"), (float("inf"), "finite"), (True, "real"), (1j, "real")],
 )
-def test_what_is_no_number_is_refused(value: object, words: str) -> None:
+def test_non_numbers_are_refused_by_name(value: object, words: str) -> None:
     """The sentence names the argument."""
     with pytest.raises(AtlasError, match=f"x must be a?.*{words}"):
         rational(value, "x")

@@ -76,7 +76,7 @@ def test_the_kind_is_decided_on_the_exact_inputs(kind: str) -> None:
 @pytest.mark.parametrize(
     "inputs", [pytest.param(x, marks=[pytest.mark.slow] * (k % 2)) for k, x in enumerate([*KINDS.values(), *MORE])]
 )
-def test_it_is_what_the_equations_of_motion_make(inputs: Any) -> None:
+def test_certified_motions_agree_with_a_taylor_integration(inputs: Any) -> None:
     """R and Omega agree to 30 digits with a Taylor integration that shares no code, forwards and backwards."""
     I, B, omega = inputs
     motion, scale = GeneralMotion(*inputs), max(map(abs, (*B, *omega)))
@@ -178,7 +178,7 @@ def test_digits_are_certified_at_any_time(kind: str) -> None:
         assert abs(Fraction(a) - Fraction(b)) <= Fraction(1, 2 * 10**20)
 
 
-def test_what_has_no_limit_is_refused_with_a_reason() -> None:
+def test_quantities_without_a_limit_are_refused_with_a_reason() -> None:
     """Angles of a period on a separatrix, and the nome at a triple root, raise DomainError."""
     with pytest.raises(DomainError, match="no period"):
         _ = GeneralMotion(*KINDS["separatrix"]).precession_per_period
@@ -204,7 +204,7 @@ def test_the_nome_lies_between_0_of_elementary_motions_and_1_of_separatrices() -
         (GeneralMotion(2, (0, 1), (1e-4, 0, -1)), (2, 0)),
     ],
 )
-def test_what_is_zero_by_symmetry_is_exactly_zero(motion: GeneralMotion, place: tuple[int, int]) -> None:
+def test_entries_that_vanish_by_symmetry_are_exactly_zero(motion: GeneralMotion, place: tuple[int, int]) -> None:
     """Where the body swings in a plane of Larmor's frame, or is a ball, an entry that stays zero has no radius."""
     R = motion.rotation(7.3)
     assert [(i, j) for i in range(3) for j in range(3) if R[i][j] == 0] == [place]
@@ -258,7 +258,7 @@ def test_a_passage_through_both_poles_counts_alike_in_both_forms_of_the_sums(ome
         ("1.5", (1, 2), ("0.3", "0.7", "0.2"), [1, 1, 1, 1]),
     ],
 )
-def test_the_roots_are_those_of_the_polynomial(ratio: Any, field: Any, omega: Any, multiplicities: list[int]) -> None:
+def test_the_roots_agree_with_the_polynomial(ratio: Any, field: Any, omega: Any, multiplicities: list[int]) -> None:
     """The product over all roots, each as often as it counts, has the coefficients of Q, at any scale."""
     with ctx.workprec(4000):
         quartic = GeneralMotion(ratio, field, omega).quartic

@@ -336,7 +336,7 @@ def test_a_point_of_the_body_flies_with_the_centre_and_turns_with_the_body() -> 
     assert [float(x) if isinstance(x, arb) else float(int(x.p) / int(x.q)) for x in start] == [0.25, -1.0, 3.0]
 
 
-def test_what_is_given_is_certified_at_the_start() -> None:
+def test_the_start_is_certified_as_given() -> None:
     """At t = 0 position and velocity are the given ones, exact where they are zero, whatever the field."""
     p = ParticleMotion(12, (0.5, -0.25, 1.0), (1, 1, 1), (0, 2, 0), (0, fmpq(-1, 3), 0.7))
     assert [x == 0 for x in (*p.position(0), *p.velocity(0))] == [True, False, True, True, False, False]

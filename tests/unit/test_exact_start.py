@@ -94,7 +94,7 @@ def unstable(seed: int) -> tuple[float, np.ndarray, np.ndarray]:
 
 
 @pytest.mark.slow
-def test_sixty_turned_starts_on_the_unstable_band_are_those_of_proven_digits() -> None:
+def test_sixty_turned_starts_on_the_unstable_band_agree_with_proven_digits() -> None:
     """In the body's axes and from an attitude, whose rotation is that of its quaternion, up to t = 100."""
     for seed in range(60):
         ratio, B, w = unstable(seed)
@@ -198,7 +198,7 @@ def test_the_moments_of_a_heavy_top_are_not_rounded() -> None:
 
 
 @pytest.mark.slow
-def test_the_error_of_rounded_inputs_bounds_what_an_ulp_changes() -> None:
+def test_the_error_of_rounded_inputs_bounds_the_effect_of_an_ulp() -> None:
     """On the unstable start each input moved by half an ulp, in twice the digits, turns the body by no more."""
     m = atlas.motion(RATIO, FIELD, OMEGA)
     t = 30.0

@@ -178,7 +178,7 @@ def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None
         assert shown[key]["sure"] == ("10 digits proven" if re.search(r"\d", printed[key]) else "decided exactly")
 
 
-def test_doubles_are_the_kernels_and_say_what_is_promised(server: Explorer) -> None:
+def test_doubles_come_from_the_kernels_and_promise_no_digits(server: Explorer) -> None:
     """While a slider moves the numbers are doubles: the period is that of the class, and no digit is called proven."""
     found = own(server, "state", subject="general", ratio=0.9, omega1=0.4)
     numbers = {one["name"]: one for one in found["numbers"]}
@@ -227,7 +227,7 @@ def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
         ("figure:cusps", [[0, 0, 0.5, 0.5], [0.5, 0, 0.5, 0.5], [0, 0.5, 0.5, 0.5]]),
     ],
 )
-def test_what_turns_fills_the_picture(server: Explorer, name: str, places: list[list[float]]) -> None:
+def test_panels_that_turn_fill_the_picture(server: Explorer, name: str, places: list[list[float]]) -> None:
     """Panels with two axes, which do not turn, and titles take no room; the others have the shape of their cells."""
     found, drawn = own(server, "state", subject=name, proven=0), subject(name)
     scene = drawn.scene(answers.values_of(drawn, {}))
@@ -259,12 +259,14 @@ def test_figures_are_saved(server: Explorer) -> None:
         ({}, "there is no family or figure ''"),
     ],
 )
-def test_what_is_wrong_is_said(server: Explorer, query: dict[str, str], says: str) -> None:
+def test_wrong_requests_are_answered_in_a_sentence(server: Explorer, query: dict[str, str], says: str) -> None:
     """In a sentence for the page, which goes on with the picture before."""
     assert says in own(server, "state", **query)["error"]
 
 
-def test_a_disk_without_room_is_said(server: Explorer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_reported_and_the_server_continues(
+    server: Explorer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A figure that cannot be written on the way is a sentence, and the server goes on."""
     monkeypatch.setattr(answers, "TemporaryDirectory", lambda: nullcontext(str(tmp_path / "nosuch" / ("x" * 300))))
     assert "nothing could be saved" in own(server, "figure", subject="hyperbola")["error"]
@@ -368,7 +370,7 @@ def test_names_are_written_as_in_the_atlas() -> None:
     assert [one.symbol for one in subject("hyperbola").sliders][:3] == ["I", "B₂", "B₃"]
 
 
-def test_what_is_not_there_is_said_before_a_server_starts() -> None:
+def test_unknown_names_are_refused_before_a_server_starts() -> None:
     """An unknown name is told with the nearest one."""
     with pytest.raises(AtlasError, match=r"no family or figure 'hyp_c'.* families are elementary, .*`atlas list`"):
         subject("hyp_c")
@@ -380,7 +382,7 @@ def test_a_body_that_cannot_be_is_said_before_a_server_starts() -> None:
         started("--inertia 0.8 1 3 --field 0.2 1 0.6 --spin 2".split())
 
 
-def test_a_port_that_is_taken_is_said(server: Explorer) -> None:
+def test_a_port_in_use_is_reported(server: Explorer) -> None:
     """One line that names the port and says what would be right, as for any wrong input."""
     with pytest.raises(AtlasError, match=f"port {server.server_address[1]} cannot be used .*another, or none"):
         Explorer("general", server.server_address[1])

@@ -52,7 +52,7 @@ def cases() -> Any:
 
 @pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_closed_forms_of_the_script_are_those_of_python(cases: Any) -> None:
+def test_closed_forms_of_the_script_agree_with_python(cases: Any) -> None:
     """10 000 motions: scalars within 1e-11 of their size, the entries of R(t) within that times the phase."""
     done = subprocess.run(
         [str(node), "-e", script("explorer.js") + PROGRAM],

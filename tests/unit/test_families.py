@@ -61,7 +61,7 @@ def plain(name: str, value: Any) -> bool:
 
 
 @EVERY
-def test_what_a_family_offers_is_what_it_was(snapshot: SnapshotAssertion, one: Family) -> None:
+def test_the_offer_of_each_family_is_unchanged(snapshot: SnapshotAssertion, one: Family) -> None:
     """A line for the family, and for each parameter, quantity and function of time: names, units, ranges, promises."""
     parts = (one, *one.parameters, *one.quantities, *one.sampled)
     said = [{name: value for name, value in vars(part).items() if plain(name, value)} for part in parts]
@@ -70,7 +70,7 @@ def test_what_a_family_offers_is_what_it_was(snapshot: SnapshotAssertion, one: F
 
 
 @EVERY
-def test_names_are_told_apart(one: Family) -> None:
+def test_names_of_columns_and_checks_are_distinct(one: Family) -> None:
     """No two columns of a table have one name, and no two checked things."""
     columns = [name for q in one.quantities for name in q.names]
     columns += [name for s in one.sampled for name in s.columns]
@@ -119,7 +119,7 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
 
 @pytest.mark.slow
 @EVERY
-def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None:
+def test_kernels_and_balls_agree_on_all_samples(one: Family) -> None:
     """Matrices within their promise in ulps of 1, vectors in ulps of their length; or within sixteen."""
     found, exact = both(one.name)
     for s in (s for s in one.sampled if not s.uncertified):

@@ -105,7 +105,7 @@ def test_a_negative_charge_turns_b_prime_round() -> None:
     assert np.array_equal(frame.to_laboratory(field.B), [0, -3, 4])
 
 
-def test_what_is_left_out_of_a_field_is_nothing() -> None:
+def test_omitted_parts_of_a_field_are_zero() -> None:
     """No electric field, unit charge-to-mass ratio and no c, in SI too."""
     for field in (Field([0, 3, 4]), Field.si([0, 3, 4], mu=1.0)):
         assert (field.E.tolist(), field.mu, field.c) == ([0.0, 0.0, 0.0], 1.0, 1.0)
@@ -144,13 +144,13 @@ def test_only_directions_and_the_unit_of_time_matter(axis: np.ndarray, power: in
         lambda: LaboratoryFrame([0, 0, 1], [0, 1, 0]).rotation_to_user(np.eye(2)),
     ],
 )
-def test_what_is_no_frame_is_one_sentence(make: Callable[[], object]) -> None:
+def test_impossible_frames_are_refused_in_one_sentence(make: Callable[[], object]) -> None:
     """A zero axis, wrong shapes and lengths beyond a float raise one sentence."""
     with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
         make()
 
 
-def test_a_zero_axis_says_what_is_missing() -> None:
+def test_a_zero_axis_is_refused_for_its_direction() -> None:
     """The error tells that the axis needs a direction."""
     with pytest.raises(DomainError, match="direction"):
         Field([1, 2, 3]).frame([0, 0, 0])

@@ -147,7 +147,7 @@ def test_a_body_may_stand_for_its_ratio(name: str) -> None:
         assert np.allclose(one, other, rtol=1e-12, atol=1e-12)
 
 
-def test_a_flight_ends_when_it_is_told() -> None:
+def test_a_flight_ends_at_the_given_time() -> None:
     """The time is ``turns`` cyclotron periods pi/b, or ``stop``; too many turns of the body are refused."""
     recipe = load("flight")
     by_turns = recipe.scene(turns=2.0)
@@ -387,7 +387,7 @@ def test_drawn_angular_momentum_keeps_its_projection_on_the_field() -> None:
 
 
 @pytest.mark.parametrize("mu", [1.0, -0.5])
-def test_trochoids_are_those_of_the_paper(mu: float) -> None:
+def test_trochoids_agree_with_the_paper(mu: float) -> None:
     """The paths are x = V t + a sin(omega t), y = a cos(omega t), (99), with omega of the sign of the charge."""
     E, B, c = (0.3, 1.0, 2.0), (0.0, 1.0, 2.0), 1.5
     scene = load("trochoids").scene(mu=mu, E=E, B=B, c=c, speeds=(2.0, 1.0, 0.5, 0.0), turns=2.5)

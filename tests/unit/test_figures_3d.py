@@ -74,7 +74,7 @@ def test_the_heavy_line_is_the_hyperbola(name: str, parameters: dict[str, Any]) 
 
 
 @pytest.mark.parametrize(("ratio", "field"), [(1.5, (1.0, 2.0)), (0.4, (2.0, -1.0)), (1.0, (-1.0, 1.0))])
-def test_canonical_axes_and_vectors_are_those_of_the_kernel(ratio: float, field: tuple[float, float]) -> None:
+def test_canonical_axes_and_vectors_agree_with_the_kernel(ratio: float, field: tuple[float, float]) -> None:
     """The arrows omega' run along Quadric.axes through -B'; B' and I^-1 B' start at the origin and span beta."""
     quadric = Quadric(ratio, field)
     arrows = layers("quadric", Arrow, "canonical", ratio=ratio, field=field)

@@ -169,7 +169,7 @@ GOOD: list[tuple[str, dict[str, Any]]] = [
 ]
 
 
-def test_what_cannot_be_drawn_is_told_and_every_refusal_has_its_case() -> None:
+def test_every_refusal_of_a_recipe_is_reached_and_named() -> None:
     """One sentence of the recipe's own names what was wrong, and each statement that raises in figures/ is reached."""
     reached = set()
     for name, parameters, tells in BAD:
@@ -230,6 +230,6 @@ def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple
         ("spectrum", {"field": (0.0, 1.0), "omega": (0.0, 0.0, 1.0)}, ": all at zero. (a)"),
     ],
 )
-def test_a_caption_says_what_is_drawn(name: str, parameters: dict[str, Any], says: str) -> None:
+def test_captions_agree_with_the_drawing(name: str, parameters: dict[str, Any], says: str) -> None:
     """On which side a path drifts; that nothing turns; which lines, planes and axes there are."""
     assert says in made(name, **parameters).caption

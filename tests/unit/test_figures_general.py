@@ -299,7 +299,7 @@ def test_critical_values_are_extrema_of_the_effective_potential() -> None:
 
 
 @pytest.mark.parametrize("M3", [0.25, -0.5, 3.0])
-def test_the_least_energies_of_a_ball_are_those_of_its_precessions_with_w_zero(M3: float) -> None:
+def test_the_least_energies_of_a_ball_agree_with_its_precessions_with_w_zero(M3: float) -> None:
     """Between p = M3 and -M3 the potential of a ball has one least value, 2H = M3^2 + b^2, at nu = p/M3."""
     (panel,) = panels("energy_momentum", ratios=(1.0,), M3=M3)
     line = layers(panel, Curve, "main")[-1].points

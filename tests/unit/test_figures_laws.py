@@ -144,7 +144,7 @@ def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, given
 
 
 @pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
-def test_names_stand_among_what_they_name(name: str, given: dict[str, Any]) -> None:
+def test_labels_stand_within_their_panel(name: str, given: dict[str, Any]) -> None:
     """The place of every label lies in the limits of its panel, or among the drawn things, and says something."""
     for panel in made(name, **given).panels:
         drawn = [array for layer in panel.layers if not isinstance(layer, Label) for array in places(layer)]

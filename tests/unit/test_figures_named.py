@@ -49,7 +49,7 @@ SAYING = re.compile(
 
 
 @pytest.mark.parametrize("name", recipes.names())
-def test_a_recipe_says_in_one_sentence_what_is_to_be_seen(name: str) -> None:
+def test_a_recipe_describes_its_picture_in_one_sentence(name: str) -> None:
     """The sentence has a verb and begins the caption; it and the row of the gallery are read without a run."""
     recipe = recipes.load(name)
     words = re.sub(r"\$[^$]*\$", "F", recipe.seen)
@@ -87,7 +87,7 @@ def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str
     [pytest.param(*case, marks=[pytest.mark.slow] * (k % 4 > 0)) for k, case in enumerate(CASES)],
     ids=lambda value: str(value)[:40],
 )
-def test_what_a_caption_names_can_be_seen(name: str, parameters: dict[str, Any]) -> None:
+def test_looks_named_in_a_caption_can_be_seen(name: str, parameters: dict[str, Any]) -> None:
     """Each named look stands in the caption, has layers, and its picture changes where they are taken away."""
     scene = made(name, **parameters)
     words = re.sub(r"\$[^$]*\$", "", scene.caption)
@@ -155,7 +155,7 @@ def test_a_trace_of_too_many_turns_is_left_out() -> None:
 FIELD, REACH, CELLS = (1.0, 0.3), 2.5, 60
 
 
-def test_the_motion_map_has_the_hyperbola_and_what_is_special_on_it() -> None:
+def test_the_motion_map_marks_the_hyperbola_and_its_special_points() -> None:
     """Its views have reach |B'| to each side of -B'; lines are elementary motions, 1e-9; rest and -2B' are marked."""
     scene = made("motion_map", field=FIELD, reach=REACH, cells=CELLS)
     half = REACH * np.hypot(*FIELD)

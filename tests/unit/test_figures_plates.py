@@ -60,7 +60,7 @@ def test_levels_are_semi_axes_by_the_eigenvalues_of_the_form() -> None:
 
 
 @pytest.mark.parametrize("name", ["escape", "separatrix", "film_strip", "two_turns", "rolling_cones", "general_motion"])
-def test_a_caption_says_first_what_to_see(name: str) -> None:
+def test_a_caption_begins_with_the_picture(name: str) -> None:
     """The body and the field, in the capitals I and B of the paper, stand in it, but not at its beginning."""
     caption = recipes.load(name).scene().caption
     assert not caption.startswith("A ")
@@ -139,7 +139,7 @@ def on_torus(first: FloatArray, second: FloatArray) -> FloatArray:
     return np.stack([far * np.cos(first), far * np.sin(first), 0.42 * np.sin(second)], axis=1)
 
 
-def test_of_a_line_on_the_torus_is_drawn_what_no_part_of_it_hides() -> None:
+def test_only_visible_parts_of_a_line_on_the_torus_are_drawn() -> None:
     """By steps along the rays to the eye: drawn points are seen, and their share is that of the points seen, 1 %."""
     panel = panels("ball_torus")[0]
     first = np.linspace(0.0, 4.0 * np.pi, 3000)

@@ -95,7 +95,7 @@ def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_doe
         assert inside(loop.points, *spin.points[0])
 
 
-def test_the_quadrics_of_tops_are_those_of_the_class() -> None:
+def test_the_quadrics_of_tops_agree_with_the_class() -> None:
     """Every point of a drawn sheet, at its own centre, has the residual 0 within 1e-9; the kinds part at the border."""
     scene = made("quadrics_of_tops")
     row, plane = scene.panels

@@ -18,7 +18,7 @@ from atlas.libraries import LIBRARIES, release, versions
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def test_what_is_written_is_there(tmp_path: Path) -> None:
+def test_files_are_written_whole_and_alone(tmp_path: Path) -> None:
     """Text is written as UTF-8, bytes as they are, in folders that are made, and nothing else is left."""
     files.write(tmp_path / "a" / "b.txt", "é")
     assert (tmp_path / "a" / "b.txt").read_bytes() == "é".encode()
@@ -78,7 +78,7 @@ SWEEP = "sweep quadric --set ratio=0.5:2:99 --set B2=1 --set B3=2 --quantity bet
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), [(SWEEP, "t.csv.parts"), ("report mine.toml --out out", "cache")])
-def test_a_full_disk_is_told_with_the_file_that_did_not_fit(tmp_path: Path, words: str, name: str) -> None:
+def test_a_full_disk_is_reported_with_the_file(tmp_path: Path, words: str, name: str) -> None:
     """One line, which says where there is no room: beside the output or in the cache."""
     (tmp_path / "mine.toml").write_text(
         'name = "mine"\ntitle = "T"\n[[pages]]\nslug = "index"\ntitle = "T"\n'
@@ -101,7 +101,7 @@ def test_a_full_disk_is_told_with_the_file_that_did_not_fit(tmp_path: Path, word
     assert re.search(rf"File too large: .*{name}", done.stderr), done.stderr
 
 
-def test_the_libraries_are_those_of_the_project() -> None:
+def test_the_libraries_agree_with_the_project() -> None:
     """The list holds the dependencies in pyproject.toml that results depend on, in versions of the ranges there."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     wanted = {one.name: one.specifier for one in map(Requirement, project["dependencies"])}
@@ -124,7 +124,7 @@ def test_the_locks_have_every_dependency_in_its_range() -> None:
         assert name == "-test" or "mypy" not in locked
 
 
-def test_git_sees_what_was_asked_for_and_no_notes(tmp_path: Path) -> None:
+def test_git_sees_requested_files_and_no_internal_records(tmp_path: Path) -> None:
     """In a repository of the user's; a .gitignore of their own stays as it is, and elsewhere none is made."""
     theirs, plain = tmp_path / "theirs", tmp_path / "plain"
     git = [str(shutil.which("git")), "-C", str(theirs)]

@@ -92,7 +92,7 @@ def test_a_prediction_keeps_to_its_band(attitudes: Any) -> None:
 
 @pytest.mark.parametrize("family", ["general", "elementary"])
 @pytest.mark.parametrize("kind", ["rotation", "axis", "angular_velocity", "field_in_body", "signal"])
-def test_slopes_are_those_of_the_residuals(kind: str, family: str) -> None:
+def test_slopes_agree_with_the_residuals(kind: str, family: str) -> None:
     """By central differences, of residuals that are small, as they are where least squares end."""
     t = np.linspace(0.1, 5, 9)
     values = {"ratio": RATIO} | dict(
@@ -159,7 +159,7 @@ def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
     assert [len(words) for words in told] == [0, 0, 1]
 
 
-def test_one_outlier_of_few_attitudes_is_told() -> None:
+def test_one_outlier_of_few_attitudes_is_reported() -> None:
     """Of eighteen attitudes of a free body one is off by thirty times the noise."""
     rng, t = np.random.default_rng(1), np.linspace(0, 6, 18)
     turns = rng.normal(0, 1e-3, (18, 3))
@@ -180,7 +180,7 @@ def test_rounding_errors_determine_nothing() -> None:
 
 
 @pytest.mark.slow
-def test_drag_is_told() -> None:
+def test_drag_is_reported() -> None:
     """A spin that dies away by two percent is no motion of the family: chi square and correlations say so."""
     t, _ = measured("rotation", 60, 15.0)
     slowed = t - 0.02 * t * t / (2 * t[-1])
@@ -299,7 +299,7 @@ def test_a_fit_is_one_line_in_a_list(attitudes: Any) -> None:
     assert "\n" not in repr(attitudes)
 
 
-def test_what_is_known_is_fixed_by_name() -> None:
+def test_known_parameters_are_fixed_by_name() -> None:
     """As `--fix` does it; where `params` has the name too, it is refused."""
     t, R = measured("rotation", 60, 10.0)
     found = atlas.fit(t, rotation=R, sigma=NOISE, fix={"ratio": RATIO}, params={"B1": 0.1})
@@ -382,7 +382,7 @@ def test_solutions_that_are_equal_by_symmetry_are_listed(family: str, signal: An
 
 @pytest.mark.parametrize("held", [(), ("B1", "B2"), ("B1", "B2", "B3")])
 @pytest.mark.parametrize("family", ["general", "asymmetric", "elliptic"])
-def test_slopes_in_the_attitude_are_those_of_motions_beside(family: str, held: tuple[str, ...]) -> None:
+def test_slopes_in_the_attitude_agree_with_motions_beside(family: str, held: tuple[str, ...]) -> None:
     """Whether the field is free, partly free or zero: a rotation of the laboratory turns the field."""
     t = np.linspace(0, 3, 30)
     data = of_arrays(t, {"signal": (np.ones((30, 3)), diagonal)}, 1.0, 0.0, scalar_first=False)
@@ -543,7 +543,7 @@ def test_three_moments_are_found() -> None:
     assert abs(rates.params["I1"].value - 0.7) < 5 * rates.params["I1"].stderr < 0.1
 
 
-def test_an_elliptic_motion_says_what_it_does_not_tell() -> None:
+def test_an_elliptic_motion_names_its_undetermined_parameters() -> None:
     """Its field turns in the body as a free body's momentum does, which many bodies share."""
     rng = np.random.default_rng(5)
     t = np.sort(rng.uniform(0, 20, 60))
@@ -603,7 +603,7 @@ def test_a_free_body_is_not_taken_for_one_of_those_in_a_field_that_turn_alike() 
     assert {"I1", "I3"} <= set(found.undetermined[1].split(" are not")[0].replace(" and", ",").split(", "))
 
 
-def test_bodies_that_turn_like_a_free_one_are_bodies_for_the_fields_that_are_said() -> None:
+def test_bodies_that_turn_like_a_free_body_exist_for_the_stated_fields() -> None:
     """Moments J_i (J_j + J_k + s) are those of a body for s > 0, and where the two conditions on s < 0 hold."""
     rng, kinds = np.random.default_rng(4), set()
     for s in rng.uniform(-5, 1, 300):
@@ -621,7 +621,7 @@ def test_bodies_that_turn_like_a_free_one_are_bodies_for_the_fields_that_are_sai
 
 
 @pytest.mark.slow
-def test_confidence_intervals_are_those_of_lmfit(attitudes: Any) -> None:
+def test_confidence_intervals_agree_with_lmfit(attitudes: Any) -> None:
     """Where errors are small the ends at one sigma are one standard error away; none where nothing is determined."""
     found = attitudes.conf_interval(p_names=["ratio"], sigmas=[1])["ratio"]
     low, best, high = (value for _, value in found)
@@ -676,7 +676,7 @@ def test_a_hardly_nutating_motion_tells_its_body_or_that_it_does_not() -> None:
 
 
 @pytest.mark.parametrize("loss", ["linear", pytest.param("soft_l1", marks=pytest.mark.slow)])
-def test_standard_errors_are_those_of_many_measurements(loss: str) -> None:
+def test_standard_errors_agree_with_many_measurements(loss: str) -> None:
     """Squared distances from the truth, by the covariance, are those of ten degrees of freedom each; with outliers too.
 
     Of 40 measurements of small noise; the mean of so many squares of normal numbers scatters by a fourteenth.

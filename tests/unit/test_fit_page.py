@@ -76,7 +76,7 @@ def rows(page: Path, table: str) -> list[list[str]]:
 
 
 @pytest.mark.slow
-def test_its_numbers_are_those_of_the_fit(folder: Path) -> None:
+def test_its_numbers_agree_with_the_fit(folder: Path) -> None:
     """Parameters and errors to the digits shown, correlations, horizons and a prediction, as `atlas fit` has them."""
     page = folder / "out" / "fit-mine-predict-20.html"
     text = CliRunner().invoke(
@@ -138,7 +138,7 @@ def unbuilt(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("unbuilt")
-def test_what_is_not_determined_is_told(tmp_path: Path) -> None:
+def test_undetermined_parameters_are_reported(tmp_path: Path) -> None:
     """An elementary motion does not tell the ratio and the field apart: there are no numbers, and a sentence."""
     file = written(tmp_path / "steady.csv", atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7))
     with pytest.raises(AtlasError, match="not built here"):
@@ -178,7 +178,7 @@ def test_the_picture_is_of_the_fit_in_the_table(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_what_speaks_against_the_family_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_evidence_against_the_family_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A body that slows down: chi square and correlated residuals on the page and on the terminal, with status 1."""
     file = written(tmp_path / "mine.csv", nutating(), slower=2e-3)
     with pytest.raises(SystemExit) as ended:

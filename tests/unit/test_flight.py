@@ -118,7 +118,7 @@ def test_centre_and_body_must_be_in_one_field() -> None:
 
 
 @pytest.mark.parametrize(("off", "agrees"), [(0.9 * AGREEMENT, True), (1.1 * AGREEMENT, False)])
-def test_fields_agree_to_what_typed_digits_lose(off: float, agrees: bool) -> None:
+def test_fields_agree_to_the_precision_of_typed_digits(off: float, agrees: bool) -> None:
     """A field off by less than 1e-9 of its size is taken for the same, by more it is not, on either side."""
     larger = np.abs(FRAME.field).max()
     for sign in (1, -1):

@@ -132,7 +132,7 @@ def test_a_kind_next_to_a_border_is_decided_exactly() -> None:
             assert kind == Balls(row[0], row[1:3], row[3:]).kind
 
 
-def test_rest_and_spin_along_the_field_are_told_in_arrays() -> None:
+def test_rest_and_spin_along_the_field_are_recognised_in_arrays() -> None:
     """Arrays tell these kinds; a motion beside one is of another kind."""
     I, B, _ = ordinary(20, 4)
     none, push = np.zeros(20), np.array([[0.0], [1e-3], [0.0]])

@@ -113,7 +113,7 @@ def test_a_sweep_near_rest_writes_true_numbers() -> None:
 
 
 @pytest.mark.parametrize("power", [-16, -8, -1, 0, 3])
-def test_field_and_momentum_are_within_what_is_said(power: int) -> None:
+def test_field_and_momentum_are_within_their_promise(power: int) -> None:
     """K is within 1.8e-15 of |B'| and m within 7e-15 of its length, alone and in arrays."""
     *_, t = inputs = motions(power, 5, 4)
     together = GeneralMotion(inputs[0], tuple(inputs[1]), tuple(inputs[2]))

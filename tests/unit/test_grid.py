@@ -188,7 +188,7 @@ def half_turns(turn: float, start: float, step: float, i: int) -> Fraction:
 
 
 @pytest.mark.parametrize(("start", "step", "origin"), TIMES)
-def test_phases_are_those_of_the_exact_times(start: float, step: float, origin: int) -> None:
+def test_phases_agree_with_the_exact_times(start: float, step: float, origin: int) -> None:
     """Half the phase less half turns of this parity is within 2^-6 w; where it is small, within 2.5 w of itself."""
     phases = Progression([rational(turn) for turn in TURNS], start, step, origin, max(PLACES))
     i = np.array([PLACES, np.ones(len(PLACES))])

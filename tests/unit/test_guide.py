@@ -31,7 +31,7 @@ def blocks() -> list[tuple[str, str, str]]:
 
 
 @pytest.mark.slow
-def test_every_block_of_the_guide_gives_what_it_shows(
+def test_every_block_of_the_guide_prints_its_output(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Files are written, sessions of Python and of the shell are gone through in one folder and in one process."""
@@ -86,7 +86,7 @@ def test_the_reference_holds_every_public_name() -> None:
 
 
 @pytest.mark.slow
-def test_examples_in_docstrings_give_what_they_show() -> None:
+def test_examples_in_docstrings_print_their_output() -> None:
     """What `help` shows of the package and of its classes of motions and surfaces can be typed."""
     texts = {"atlas": atlas.__doc__ or ""} | {name: one.docstring for name, one in described().items()}
     examples = {
@@ -101,7 +101,7 @@ def test_examples_in_docstrings_give_what_they_show() -> None:
     assert not failures, "".join(failures)
 
 
-def test_examples_in_the_kernels_give_what_they_show() -> None:
+def test_examples_in_the_kernels_print_their_output() -> None:
     """So do those of formulas, of balls and of doubles."""
     homes = (Path(atlas.__file__).parent / floor for floor in ("arithmetic", "bodies", "surfaces", "motions", "maps"))
     files = [path for home in homes for path in home.rglob("*.py") if ">>>" in path.read_text("utf-8")]
@@ -144,7 +144,7 @@ def test_sections_of_a_docstring_become_tables() -> None:
     assert "<pre><code>&gt;&gt;&gt; 1 + 1\n2</code></pre>" in piece
 
 
-def test_parameters_of_docstrings_are_those_of_signatures() -> None:
+def test_parameters_of_docstrings_agree_with_signatures() -> None:
     """Each public class, function and method lists its parameters in their order, and results where it has some."""
     missing = list[str]()
     for name, one in described().items():

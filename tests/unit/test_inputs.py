@@ -25,7 +25,7 @@ def test_numbers_of_any_kind_become_floats() -> None:
 
 @pytest.mark.parametrize("place", range(4))
 @pytest.mark.parametrize("bad", [np.inf, -np.inf, np.nan])
-def test_what_was_computed_is_finite_in_every_place(place: int, bad: float) -> None:
+def test_computed_values_are_finite_everywhere(place: int, bad: float) -> None:
     """One value that is not, of a number, of an array, and in any member of several, is told; none passes as it is."""
     array = np.arange(4.0)
     good = (1.0, array, np.ones((2, 2)), 3.0)
@@ -108,7 +108,7 @@ def test_a_tuple_of_components_is_an_array_of_vectors() -> None:
 
 
 @pytest.mark.parametrize("value", [{1.0: 2.0, 2.0: 3.0}, {1.0, 2.0}, b"\x01\x02", bytearray(2)])
-def test_what_has_no_order_or_other_names_is_no_vector(value: Any) -> None:
+def test_unordered_or_named_collections_are_refused_as_vectors(value: Any) -> None:
     """Keys, bytes and names of columns are numbers, too, but not those of a field."""
     with pytest.raises(AtlasError):
         atlas.ElementaryMotion(1.5, value, 0.7)

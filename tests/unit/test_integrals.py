@@ -37,7 +37,7 @@ def test_the_differences_from_one_and_two_are_not_rounded() -> None:
     assert shape_factors(body)[1] == -np.spacing(3.0) / 3
 
 
-def test_what_is_no_state_is_one_sentence() -> None:
+def test_impossible_states_are_refused_in_one_sentence() -> None:
     """Vectors without three components raise."""
     with pytest.raises(AtlasError, match="three components"):
         integrals(1.5, [1, 2], [0, 1, 2])
@@ -113,7 +113,7 @@ def test_the_integrals_of_a_state_are_rounded_once(unit: float, size: float) -> 
             assert getattr(found, name)[i] == getattr(one, name) == float(value), (name, i)
 
 
-def test_the_constants_of_an_elliptic_motion_are_those_of_its_state() -> None:
+def test_the_constants_of_an_elliptic_motion_agree_with_its_state() -> None:
     """Rounded once from balls, alone and in an array; a state whose omega is rounded has them within some ulp."""
     body, field, z = (0.8, 1.0, 1.3), (0.2, 1.0, 0.6), np.array([1.7, 2.5])
     many = atlas.EllipticMotion(body, field, z).invariants()

@@ -187,7 +187,7 @@ def test_tables_of_the_levitated_ball_have_one_precession() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("spin", [0.0, 500.0])
-def test_deviations_are_those_of_a_fit(spin: float) -> None:
+def test_deviations_agree_with_a_fit(spin: float) -> None:
     """A fit to noisy looks has the errors of the table, by differences of motions; it tells I3 where the table does."""
     data = table("inferred", **BALL, spins=[spin], samples=400, seconds=0.05, noise=0.01)
     expected = [getattr(row[1], "digits", "") for row in data.rows]

@@ -84,7 +84,7 @@ def test_a_key_has_the_proven_digits_and_the_unit(numbers: dict[str, tuple[int, 
     assert numbers["samples/1/R_13"] == (99, "0", "")
 
 
-def test_what_a_table_prints_has_a_key(made: Path, numbers: dict[str, tuple[int, str, str]]) -> None:
+def test_printed_numbers_of_tables_have_keys(made: Path, numbers: dict[str, tuple[int, str, str]]) -> None:
     """Every number of the two tables is there, and no other."""
     texts = [(made / "tables" / f"{name}.tex").read_text("utf-8") for name in ("numbers", "samples")]
     rows = [line for text in texts for line in text.partition(r"\midrule")[2].splitlines() if line.endswith(r"\\")]
@@ -132,7 +132,7 @@ def test_a_figure_is_made_for_its_place(made: Path, name: str, kind: str, width:
         ("2.5", "1", ("2.5", "")),
     ],
 )
-def test_units_are_those_of_siunitx(number: str, unit: str, expected: tuple[str, str]) -> None:
+def test_units_agree_with_siunitx(number: str, unit: str, expected: tuple[str, str]) -> None:
     """A power of ten before a unit goes to the number; units are parted by points."""
     assert _with_unit(number, unit) == expected
 

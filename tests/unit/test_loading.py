@@ -216,7 +216,7 @@ def test_every_command_has_a_case() -> None:
 @pytest.mark.parametrize(
     "case", [pytest.param(case, id=case.words, marks=[pytest.mark.slow] * case.slow) for case in CASES]
 )
-def test_a_command_loads_what_it_lists(room: Room, case: Case) -> None:
+def test_a_command_loads_its_listed_modules_alone(room: Room, case: Case) -> None:
     """A real run loads exactly the heavy modules on its list: a number no drawing library, a 2-D figure no VTK."""
     if "shaded" in case.words and gl.library() is None:
         pytest.skip("no GL library can draw off-screen here")
@@ -240,7 +240,7 @@ def test_a_page_with_other_digits_loads_nothing_that_draws(room: Room) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
-def test_a_report_loads_what_its_change_needs(room: Room) -> None:
+def test_a_report_loads_only_modules_its_change_needs(room: Room) -> None:
     """A page rebuilt without changed figures loads no drawing library in any process, a 2-D figure no VTK or SymPy."""
     text = PROSE.replace('"prose"', '"mixed"', 1) + FIGURES
     for step in STEPS:
@@ -310,6 +310,6 @@ def test_help_is_there_at_once() -> None:
         ("from atlas import Quadric, Hyperbola, ElementaryMotion, BallMotion, ParticleMotion, Flight", "numpy flint"),
     ],
 )
-def test_a_door_in_python_loads_what_it_lists(statement: str, loads: str) -> None:
+def test_an_import_loads_its_listed_modules_alone(statement: str, loads: str) -> None:
     """The package, the command line and the ledger load without NumPy; the kernels need it and flint."""
     assert {name.split(".")[0] for name in loaded_by(statement)} & set(WATCHED) == set(loads.split())

@@ -143,7 +143,7 @@ def test_a_steady_precession_may_lie_on_the_axis(end: int) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.4, 0.8, 1.0, 1.6])
-def test_maps_tell_what_a_simulation_does(ratio: float) -> None:
+def test_maps_agree_with_a_simulation(ratio: float) -> None:
     """The range of nu, and whether the precession turns back, are those of a long simulation, to 1e-3 of the range."""
     rng = np.random.default_rng(8)
     field = (1.0, 0.3)
@@ -169,7 +169,7 @@ def test_where_the_axis_stops_the_potential_is_the_energy() -> None:
         assert potential(I, b, found.M3, found.p, B3 / b) == pytest.approx(found.h, rel=64 * EPS)
 
 
-def test_what_the_map_does_not_take_is_refused() -> None:
+def test_arguments_outside_the_map_are_refused() -> None:
     """No field, a cosine of 1, and an end that is none."""
     with pytest.raises(atlas.DomainError, match="not zero"):
         momentum_map(1.5, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))

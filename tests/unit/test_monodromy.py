@@ -125,7 +125,7 @@ def test_periods_that_balls_do_not_tell_are_refused() -> None:
 
 
 @pytest.mark.parametrize("given", [((1.0, 0.5), [0.5]), ((1.0, 0.5), "a"), ((1.0, [0.5]), 0.5)])
-def test_what_are_no_numbers_of_one_top_is_refused_in_one_line(given: Any) -> None:
+def test_non_numbers_of_a_top_are_refused_in_one_line(given: Any) -> None:
     """Text and lists in the place of a number are AtlasErrors."""
     with pytest.raises(atlas.AtlasError, match=r"^A parameter of the top must be [^\n]*$"):
         atlas.monodromy(*given, linear=1.0)

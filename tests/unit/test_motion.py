@@ -161,7 +161,7 @@ def test_arrays_have_each_motion_of_their_own() -> None:
     assert atlas.motion((1.0, 1.0, ratios), tuple(B.T), tuple(w.T)).shape == (6,)
 
 
-def test_a_motion_in_given_axes_is_copied_and_says_what_it_is() -> None:
+def test_a_motion_in_given_axes_is_copied_and_has_a_repr() -> None:
     """By the call that makes it."""
     m = atlas.motion((1.0, 1.0, 1.5), (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), Rotation.from_euler("x", 0.3))
     top = atlas.TopMotion.in_laboratory(
@@ -188,7 +188,7 @@ def test_a_start_beside_an_elementary_one_is_not_taken_for_it(ratio: float, fiel
 
 
 @pytest.mark.slow
-def test_what_is_given_broadcasts() -> None:
+def test_given_arrays_broadcast() -> None:
     """Arrays of moments in a tuple, of fields that are zero, of attitudes; columns of arrays."""
     a, b, c = np.array([0.8, 0.7]), np.array([1.0, 1.1]), np.array([1.3, 1.2])
     moments = atlas.motion((a, b, c), (0.3, 1.0, 2.0), (0.1, 0.7, 0.2))
@@ -201,7 +201,7 @@ def test_what_is_given_broadcasts() -> None:
     assert np.abs(free.rotation(1.0) - slow.rotation(1.0)).max() < 8 * EPS
 
 
-def test_what_was_given_may_change_afterwards() -> None:
+def test_later_changes_of_given_arrays_have_no_effect_on_copies() -> None:
     """Copies are of what was given then; and of an attitude as it was, which is made orthogonal again."""
     moments, start = np.array([0.8, 1.0, 1.3]), np.array([0.1, 0.7, 0.2])
     motions = [
@@ -259,7 +259,7 @@ def test_three_different_moments_are_no_symmetric_body(made: Any, more: Any) -> 
 
 
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-0.4, 0.3)])
-def test_mean_rates_are_what_the_axis_and_the_body_turn_by(field: tuple[float, float]) -> None:
+def test_mean_rates_agree_with_counted_turns(field: tuple[float, float]) -> None:
     """Over 50 periods the azimuth of the axis about B grows by the rate; without nutation they are k and phi."""
     m = atlas.GeneralMotion(1.5, field, (0.3, 0.7, 0.2))
     t = np.linspace(0, 50 * m.period, 20001)
@@ -302,7 +302,7 @@ def test_a_field_along_any_axis_turns_the_body_in_any_unit_of_time(ratio: float,
         ((0.8, [1, 1], [1.3, 1.3, 1.3]), (1, 0, 1), (1, 0.2, 1)),
     ],
 )
-def test_what_has_no_one_shape_is_refused_in_one_line(given: Any) -> None:
+def test_ragged_inputs_are_refused_in_one_line(given: Any) -> None:
     """Ragged lists and components that do not broadcast are AtlasErrors."""
     with pytest.raises(atlas.AtlasError, match=r"^The [^\n]*$"):
         atlas.motion(*given)

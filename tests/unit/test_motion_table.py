@@ -61,7 +61,7 @@ def test_a_table_that_cannot_be_is_refused(tmp_path: Path, more: tuple[str, ...]
 
 
 @pytest.mark.parametrize("seq", ["ZXZ", "zyx", "XYZ"])
-def test_euler_angles_are_those_of_the_matrix(seq: str) -> None:
+def test_euler_angles_agree_with_the_matrix(seq: str) -> None:
     """Turned back by SciPy they give R(t), for one time and for several motions at several."""
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, [0.7, 0.8], 0.2))
     t = np.array([0.3, 1.0, 2.5])[:, None]

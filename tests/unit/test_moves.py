@@ -95,7 +95,7 @@ def test_marks_start_where_the_figure_has_them() -> None:
 
 
 @pytest.mark.parametrize("name", ["rolling_cones", "flight"])
-def test_what_rides_is_there_on_both_screens(name: str) -> None:
+def test_moving_layers_exist_on_both_screens(name: str) -> None:
     """The entries that are to be moved are among those that the viewer has for each screen."""
     scene = recipes.load(name).scene()
     given, found = viewer.data(scene), moves.data(scene)
@@ -106,7 +106,7 @@ def test_what_rides_is_there_on_both_screens(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_what_does_not_move_has_no_script() -> None:
+def test_still_figures_have_no_script() -> None:
     """A figure without paths has none; one that is flat has marks alone; the program is small and asks for nothing."""
     assert not moves.script(recipes.load("cone").scene())
     flat = moves.data(recipes.load("escape").scene())

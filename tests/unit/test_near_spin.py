@@ -42,7 +42,7 @@ def test_a_spin_along_the_field_in_turned_axes_is_a_uniform_rotation(axis: int, 
 
 
 @pytest.mark.slow
-def test_a_spin_next_to_an_unstable_axis_is_what_was_typed() -> None:
+def test_a_spin_next_to_an_unstable_axis_is_evaluated_as_typed() -> None:
     """Rounding of the middle axis grows as the body flees: the motion is that of the given doubles."""
     e = TURN[:, 1]
     J, B, w = tensor((0.57, 1.01, 1.54)), 0.4 * e, 1.7 * e

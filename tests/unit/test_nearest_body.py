@@ -55,7 +55,7 @@ def test_printed_plates_are_bodies(digits: int) -> None:
         (("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071"), "of the length 0.99999, .* divided by it"),
     ],
 )
-def test_what_is_off_by_its_last_digits_is_taken_with_a_line(words: tuple[str, ...], told: str) -> None:
+def test_inputs_off_by_their_last_digits_are_corrected_with_a_warning(words: tuple[str, ...], told: str) -> None:
     """A disk, a ratio, a tensor, a quaternion."""
     outcome = run(*words, *FREE)
     assert outcome.exit_code == 0, outcome.output
@@ -72,7 +72,7 @@ def test_bodies_are_taken_as_typed(exact: tuple[str, ...]) -> None:
 @pytest.mark.parametrize(
     "words", [("--inertia", "1", "3"), ("--ratio", "2.1"), ("--ratio", "3"), ("--inertia", "0.8", "1", "1.9")]
 )
-def test_what_is_off_by_more_is_refused(words: tuple[str, ...]) -> None:
+def test_inputs_off_by_more_are_refused(words: tuple[str, ...]) -> None:
     """One digit that is off by a tenth is no matter of digits."""
     with pytest.raises(DomainError):
         program([*("motion", *words), *FREE], standalone_mode=False)
@@ -80,7 +80,7 @@ def test_what_is_off_by_more_is_refused(words: tuple[str, ...]) -> None:
     assert "length" in str(outcome.exception)
 
 
-def test_the_error_names_what_would_do() -> None:
+def test_the_error_names_a_possible_value() -> None:
     """In Python, where digits are not known, the sentence has the moment that mends it."""
     for inertia, words in (((0.0833, 0.3333, 0.4167), "0.4166 would do"), ((0.281, 0.563), "2 I2 = 0.562")):
         with pytest.raises(DomainError, match=words):

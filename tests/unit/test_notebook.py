@@ -93,7 +93,7 @@ def test_it_can_be_copied_and_sent_to_another_process(one: Any) -> None:
 
 
 @pytest.mark.parametrize("one", [one for one in ONE if isinstance(one, Shown)], ids=name)
-def test_what_it_was_made_of_cannot_be_changed(one: Any) -> None:
+def test_inputs_of_an_object_cannot_be_changed(one: Any) -> None:
     """Another value would stand beside numbers of the old one: it is refused, by the name that was typed."""
     said, argument = repr(one), next(iter(one.arguments))
     with pytest.raises(AttributeError, match=f"^{argument} of .* can't be changed"):
@@ -101,7 +101,7 @@ def test_what_it_was_made_of_cannot_be_changed(one: Any) -> None:
     assert repr(one) == said
 
 
-def test_what_was_computed_cannot_be_changed() -> None:
+def test_computed_values_of_an_object_cannot_be_changed() -> None:
     """It would be one number more, and none of the others would hang on it."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
     k = motion.k
@@ -128,7 +128,7 @@ def test_a_repr_says_of_which_kind_it_is(one: Any, kind: str) -> None:
 
 
 @pytest.mark.parametrize("one", TABLED, ids=name)
-def test_html_shows_what_the_register_has_of_it(one: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_html_shows_all_registered_quantities(one: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each quantity that has a value stands in the table, by its name or those of its components."""
     monkeypatch.setattr("atlas.notebook.show.picture", lambda shown: f"<img {type(shown).__name__}>")
     shown, table = one._repr_html_(), one._repr_latex_()
@@ -181,7 +181,7 @@ def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
     assert pixels(shown)[0] in {599, 600}
 
 
-def test_arrays_and_what_has_no_family_have_a_line() -> None:
+def test_arrays_and_objects_without_family_have_a_line() -> None:
     """The table is of one object of the register."""
     for one in (Quadric([1.5, 0.5], (1, 2)), ONE[1], ONE[6]):
         assert "<table>" not in one._repr_html_()
@@ -327,7 +327,7 @@ def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
         (ONE[13].to_dataframe, "no table of a Flight"),
     ],
 )
-def test_what_cannot_be_shown_says_so(wrong: Any, says: str) -> None:
+def test_objects_that_cannot_be_shown_give_a_reason(wrong: Any, says: str) -> None:
     """In one line, with what would be right."""
     with pytest.raises(AtlasError, match=re.escape(says)) as told:
         wrong()

@@ -33,7 +33,7 @@ def outputs(ran: Any) -> list[tuple[str, list[Any], str]]:
 
 
 @pytest.mark.slow
-def test_cells_print_what_stands_below_them(ran: Any) -> None:
+def test_cells_print_the_output_below_them(ran: Any) -> None:
     """A block of text below a cell is what it prints."""
     printed = 0
     for source, given, below in outputs(ran)[:-1]:

@@ -88,7 +88,7 @@ def number(text: str) -> mpmath.mpf:
     return mpmath.mpf(re.sub(r"[\s\u202f]", "", text).replace("\N{MINUS SIGN}", "-").replace("×10", "e"))
 
 
-def test_its_numbers_are_those_of_the_formulas(made: Path) -> None:
+def test_its_numbers_agree_with_the_formulas(made: Path) -> None:
     """Eight numbers of the page agree with the formulas at 40 digits, to the last one shown."""
     found = rows(made, "properties-elementary")
     with mpmath.workdps(40):
@@ -349,7 +349,7 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
 
 
 @pytest.mark.slow
-def test_a_precession_too_slow_to_be_drawn_is_told(
+def test_a_precession_too_slow_to_draw_is_reported(
     unbuilt: Callable[[str], dict[str, Any]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A cylinder that spins at 2 MHz precesses at 2 mHz: eight minutes a turn, and nutates within a microsecond."""
@@ -370,7 +370,7 @@ def test_a_precession_too_slow_to_be_drawn_is_told(
             CliRunner().invoke(command, ["page", *words], catch_exceptions=False)
 
 
-def test_neighbours_are_what_their_words_say(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+def test_neighbours_agree_with_their_description(unbuilt: Callable[[str], dict[str, Any]]) -> None:
     """The pair turns with phi of the other sign, (80); the one that turns as a whole has phi = 0; at rest R is 1."""
     record = unbuilt("--ratio 1.3 --field 1 2 --omega2 0.7")
     (rows,) = (block["rows"] for block in record["pages"][0]["blocks"] if block.get("id") == "neighbours")
@@ -395,7 +395,7 @@ def test_the_figures_of_a_family_draw_it() -> None:
 @pytest.mark.parametrize(
     "words", ["--ratio 1.5 --field 1 2 --omega2 -1", "--ratio 2.5 --field 1 2", "particle --mu inf", "ball --inertia 0"]
 )
-def test_a_page_of_what_there_is_not_is_refused_at_once(
+def test_a_page_of_an_unknown_object_is_refused_at_once(
     words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Before anything is loaded for its figures, in the background or here."""
@@ -437,7 +437,7 @@ def test_a_field_at_an_angle_stands_as_it_was_typed() -> None:
     assert wanted.field["title"] == "field of 0.8T at 30deg"
 
 
-def test_properties_say_what_is_not_proven() -> None:
+def test_properties_mark_unproven_numbers() -> None:
     """All numbers of a body in a field are proven, a zero is exact, and a parameter that is missing is an error."""
     case = [body_and_field(Body("b", ratio=1.5), Field("f", prime=(1.0, 2.0)))]
     data = compute("properties", Request(case, {"family": "hyperbola", "given": False}, 8))

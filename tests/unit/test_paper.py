@@ -47,7 +47,7 @@ def test_the_numbers_are_those_in_print() -> None:
 
 
 @pytest.mark.parametrize("name", EQUATIONS)
-def test_an_entry_says_what_it_is_in_one_line(name: str) -> None:
+def test_an_entry_is_described_in_one_line(name: str) -> None:
     """Every field is filled, no sentence runs over a line, none ends in a stop."""
     entry = equation(name)
     assert entry.name == name
@@ -92,7 +92,7 @@ def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
         ("\N{SUPERSCRIPT TWO}", "there is no equation"),
     ],
 )
-def test_a_misspelt_name_is_told_its_neighbour(word: str, said: str) -> None:
+def test_a_misspelt_name_is_answered_with_the_nearest(word: str, said: str) -> None:
     """An unknown number, name or label is an error that says the nearest one."""
     with pytest.raises(AtlasError, match=said):
         find(word)

@@ -216,7 +216,7 @@ def test_the_unit_of_time_changes_no_bit(power: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["drift", "period", "radius", "axes"])
-def test_what_needs_a_magnetic_force_says_so(name: str) -> None:
+def test_quantities_of_a_magnetic_force_are_refused_without_it(name: str) -> None:
     """Without B there is no drift, period, radius or frame: an error, not a NaN."""
     p = ParticleMotion(1, [1, 0, 0], ORIGIN, ORIGIN, ORIGIN)
     assert p.cyclotron_frequency == 0
@@ -243,7 +243,7 @@ def test_what_needs_a_magnetic_force_says_so(name: str) -> None:
         lambda: ParticleMotion(1, [0, 0, 1e308], [0, 0, 1], ORIGIN, ORIGIN).guiding_centre(1e200),
     ],
 )
-def test_what_is_no_motion_is_one_sentence(make: Callable[[], object]) -> None:
+def test_impossible_motions_are_refused_in_one_sentence(make: Callable[[], object]) -> None:
     """Wrong shapes, text, NaN and overflows raise one sentence."""
     with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
         make()

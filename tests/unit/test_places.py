@@ -15,7 +15,7 @@ from atlas.cli.app import NEAR
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def test_what_is_remembered_lies_in_the_users_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cached_records_lie_in_the_users_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """XDG_CACHE_HOME comes first, then ~/.cache."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     assert places.own_folder() == tmp_path / "cache" / "atlas"
@@ -37,7 +37,7 @@ def test_without_a_home_it_lies_in_the_environment(tmp_path: Path, monkeypatch: 
     assert places.own_folder() is None
 
 
-def test_what_is_built_is_kept_in_the_checkouts_build_or_in_the_users_cache(
+def test_built_figures_are_cached_in_the_checkout_or_the_users_cache(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Never in a paper's folder; the variable ATLAS_CACHE comes first, and where nothing can be written it goes."""

@@ -11,7 +11,7 @@ from atlas.cli.plot import figure_of
 
 
 @pytest.mark.parametrize("ending", [".csv", ".npz"])
-def test_points_and_units_are_those_of_the_table(ending: str, tmp_path: Path) -> None:
+def test_points_and_units_agree_with_the_table(ending: str, tmp_path: Path) -> None:
     """A sweep's table is drawn number by number, with its units at the axes."""
     table = tmp_path / f"table{ending}"
     words = "sweep elementary --field 1 2 --omega2 0.7 --set ratio=0.3:1.8:7 --quantity k phi --out".split()

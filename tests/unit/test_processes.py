@@ -104,7 +104,7 @@ def test_a_program_that_is_run_reads_names_in_any_locale(
     assert programs.run([sys.executable, "-I", "-c", told], 20).stdout.split()[-1] == "UTF-8"
 
 
-def test_the_first_line_of_what_pandoc_says_is_told() -> None:
+def test_the_first_line_of_pandocs_error_is_reported() -> None:
     """The reason stands there, and hints below it."""
     with pytest.raises(AtlasError, match="could not set the text of the report: Unknown input format nosuch"):
         pandoc.run(["-f", "nosuch"], "")

@@ -57,7 +57,7 @@ def test_every_entry_of_the_ledger_has_a_trial_and_a_recorded_verdict() -> None:
         assert trial(name).name == name
 
 
-def test_the_recorded_verdicts_are_those_of_the_present_proofs() -> None:
+def test_the_recorded_verdicts_agree_with_the_present_proofs() -> None:
     """No proof has changed since its verdict was recorded; `atlas verify` records anew."""
     assert stale(RECORDED) == []
 
@@ -95,12 +95,12 @@ def test_every_verdict_is_sound() -> None:
         assert not verdict.false or verdict.false_verdict == "refuted", name
 
 
-def test_what_holds_by_definition_is_not_called_proved() -> None:
+def test_definitions_are_not_called_proved() -> None:
     """These entries only say what their letters mean."""
     assert [name for name, verdict in RECORDED.items() if verdict.verdict == "definition"] == DEFINITIONS
 
 
-def test_a_counterexample_names_what_it_takes_and_when() -> None:
+def test_a_counterexample_names_its_numbers_and_its_time() -> None:
     """At t = 0 the particle is at a e2 of its circle; the sign of the charge and the field along B are told."""
     for name in ("(99)", "(101)", "text-ball-centre"):
         found = RECORDED[name].counterexample
@@ -161,7 +161,7 @@ def test_a_false_sentence_that_changes_nothing_is_refused() -> None:
 
 
 @pytest.mark.parametrize("name", [*REFUTED, *UNFINISHED])
-def test_the_shown_correction_marks_what_has_changed(name: str) -> None:
+def test_the_shown_correction_marks_the_changes(name: str) -> None:
     """Something is marked, but not all of it."""
     tex = RECORDED[name].corrected_tex
     assert r"\boxed{" in tex
@@ -173,7 +173,7 @@ def test_the_shown_correction_marks_what_has_changed(name: str) -> None:
     assert len(left) > 4
 
 
-def test_what_is_unfinished_is_true_and_its_whole_form_is_proved() -> None:
+def test_incomplete_equations_are_true_and_their_complete_form_is_proved() -> None:
     """(52), (71) leave out lines, each point of which is a solution, (29) a point; (5) has a letter without meaning."""
     assert {"(5)", "(29)", "(52)", "(71)"} <= {*UNFINISHED}
     for name in UNFINISHED:
@@ -338,7 +338,7 @@ def test_sampling_proves_nothing() -> None:
     assert "5 exact points" in found.method
 
 
-def test_what_no_point_refutes_and_no_expansion_proves_is_undecided() -> None:
+def test_unrefuted_and_unproved_claims_are_undecided() -> None:
     """An inequality that is true but not term by term is left undecided, not called proved."""
     x = sympy.Symbol("x", positive=True)
     assert decide("x^2 - x + 1 > 0", Model({"x": x})).decision == "undecided"

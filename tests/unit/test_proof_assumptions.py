@@ -98,7 +98,7 @@ def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.Monkey
 
 
 @pytest.mark.slow
-def test_what_is_not_read_is_on_record() -> None:
+def test_unread_assumptions_are_recorded() -> None:
     """Clauses of an entry that are not held against its model stand in its record, and no others do."""
     for name, entry in EQUATIONS.items():
         left = trial(name).assumed.unread

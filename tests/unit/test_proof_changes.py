@@ -75,7 +75,7 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
         ("text-ball-limit", r"\implies", r"\iff"),
     ],
 )
-def test_what_says_nothing_or_less_is_not_proved(name: str, right: str, wrong: str) -> None:
+def test_weakened_equations_are_not_proved(name: str, right: str, wrong: str) -> None:
     """A bracket of something with itself, one index for all, a denied equation, a lost mark: none is proved."""
     assert right in EQUATIONS[name].tex
     other = replace(trial(name), tex=EQUATIONS[name].tex.replace(right, wrong, 1))

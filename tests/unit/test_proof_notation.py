@@ -43,14 +43,14 @@ def _both(line: str, **ranges: tuple[int, ...]) -> list[tuple[object, object]]:
         "0 = x*0",
     ],
 )
-def test_index_formulas_mean_what_they_say(line: str) -> None:
+def test_index_formulas_follow_the_summation_convention(line: str) -> None:
     """Repeated indices are summed, free ones run over all values, matrices multiply."""
     for left, right in _both(line, N=(1, 2)):
         assert sympy.expand(left - right) == 0
 
 
 @pytest.mark.parametrize("line", ["R[i,j] = v[i]", "v[i] = v[i] + w[j]", "x = v", "R = v", "x"])
-def test_what_does_not_balance_has_no_meaning(line: str) -> None:
+def test_sides_of_different_kinds_are_refused(line: str) -> None:
     """Sides of different kinds are refused, not broadcast."""
     with pytest.raises((NoMeaningError, TypeError)):
         Reader(LETTERS).relations(line)

@@ -15,7 +15,7 @@ from atlas.trial.proofs import recorded, run
 VERDICT = recorded.load()["(72)"]
 
 
-def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
+def test_saved_records_are_read_back(tmp_path: Path) -> None:
     """A record is the same after the way through the file, and others of the file stay."""
     path = tmp_path / "verdicts.json"
     recorded.save([VERDICT, recorded.load()["(48)"]], path)
@@ -26,7 +26,7 @@ def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
     assert set(recorded.load(path)) == {"(48)", "(72)"}
 
 
-def test_the_command_keeps_what_it_found(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_command_saves_its_verdicts(monkeypatch: pytest.MonkeyPatch) -> None:
     """``atlas verify --record`` saves all that the trial gave."""
     kept, found = list[Any](), [*recorded.load().values()]
     monkeypatch.setattr(run, "verify", lambda *_labels, **_options: found)
@@ -86,7 +86,7 @@ def test_a_changed_verdict_differs() -> None:
     assert recorded.differs([VERDICT], {}) == [("(72)", "not recorded", "proved")]
 
 
-def test_the_fingerprint_follows_what_a_proof_builds_on(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_fingerprint_follows_the_dependencies_of_a_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """A change in the machinery touches every proof, a change in a topic those that build on it, a comment none."""
     before = {name: recorded.source(name) for name in ("(72)", "(84)", "(4)", "(51)")}
     normal = recorded._normal

@@ -31,7 +31,7 @@ def run(script: str) -> tuple[int, str]:
 
 
 @pytest.mark.parametrize("name", SAMPLE)
-def test_a_script_says_what_is_recorded(name: str) -> None:
+def test_a_script_repeats_the_recorded_verdict(name: str) -> None:
     """It exits with 0, and its last line has the recorded verdict on the printed form and on the corrected one."""
     found = RECORDED[name]
     status, last = run(SCRIPTS[name])

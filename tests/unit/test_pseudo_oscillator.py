@@ -68,7 +68,7 @@ def test_arrays_broadcast() -> None:
         assert isinstance(getattr(alone, name)(0.3), float)
 
 
-def test_what_is_no_field_is_one_sentence() -> None:
+def test_impossible_fields_are_refused_in_one_sentence() -> None:
     """A field without two components raises."""
     for field in ((1,), 3.0, (1, 2, 3), "ab"):
         with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):

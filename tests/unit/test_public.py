@@ -37,7 +37,7 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
                     yield f"{of.__name__}.{key}", method
 
 
-def test_public_functions_take_what_they_took(snapshot: SnapshotAssertion) -> None:
+def test_public_signatures_are_unchanged(snapshot: SnapshotAssertion) -> None:
     """A line for each: a change here is one for every user."""
     assert [name + taken(call) for name, call in dict(public()).items()] == snapshot.use_extension(lines.Lines)
 

@@ -95,7 +95,7 @@ def test_the_axes_are_a_rotation_and_the_centre_is_minus_the_field() -> None:
 
 
 @pytest.mark.parametrize("direction", [(1.0, 0.3), (-1.0, 0.3), (1.0, -0.3), (-1.0, -0.3), (-1.0, 0.0)])
-def test_the_axes_are_those_of_a_stronger_field(direction: tuple[float, float]) -> None:
+def test_the_axes_agree_with_a_stronger_field(direction: tuple[float, float]) -> None:
     """Their signs, too, depend on the direction of the field alone."""
     axes, *others = (Quadric([1.5], tuple([2.0**n * B] for B in direction)).axes for n in (0, 7, -7, 900, -900))
     for other in others:

@@ -82,7 +82,7 @@ def test_quaternion_does_not_jump(name: str, start: float) -> None:
     assert np.abs(m.quaternion(t[some]) - q[some]).max() <= 4 * 2.0**-52
 
 
-def test_sign_without_a_closed_form_has_a_limit_that_is_said() -> None:
+def test_a_sign_without_a_closed_form_has_a_stated_time_limit() -> None:
     """Each value is certified, and its sign followed from t = 0; far away that is refused."""
     m = MOTIONS["without a closed form"]()
     q = m.quaternion(np.linspace(0.0, 12.0, 25))
@@ -136,7 +136,7 @@ def test_angular_velocity_in_the_laboratory_is_the_turned_one() -> None:
     [((1, 0), (0, 0.7, 0), [0, 2]), ((0, 1), (0, 0, 0.7), [0, 1]), ((0, 0), (0.3, 0, 0), [1, 2]),
      ((0, 0), (0.3, 0.4, 0), [2]), ((0, 0), (0, 0.4, 0.3), []), ((1, 2), (0, 0, 0), [0, 1, 2])],
 )  # fmt: skip
-def test_what_is_zero_at_all_times_is_exactly_zero(field: Any, omega: Any, zeros: list[int]) -> None:
+def test_components_zero_at_all_times_are_exactly_zero(field: Any, omega: Any, zeros: list[int]) -> None:
     """A body that turns about one axis has the quaternion of that axis; where there is no zero, there is none."""
     q = atlas.GeneralMotion(1.5, field, omega).quaternion(np.linspace(0.1, 60.0, 400))
     assert np.flatnonzero((q == 0.0).all(0)).tolist() == zeros

@@ -65,7 +65,7 @@ def calls() -> Iterator[Any]:
 
 
 @pytest.mark.parametrize(("call", "docstring"), list(calls()))
-def test_what_a_wrong_input_raises_stands_in_the_docstring(call: Callable[..., Any], docstring: str) -> None:
+def test_errors_of_wrong_inputs_are_documented(call: Callable[..., Any], docstring: str) -> None:
     """With words in the place of numbers each raises an AtlasError, and says that or its kind where it is described."""
     taken = list(inspect.signature(call).parameters.values())
     needed = [x.name for x in taken if x.default is x.empty and x.kind is not x.VAR_KEYWORD] or [taken[0].name]
@@ -204,7 +204,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
 
 
 @pytest.mark.parametrize(("make", "says"), REFUSED, ids=[says for _, says in REFUSED])
-def test_what_is_refused_says_why(make: Callable[[], Any], says: str) -> None:
+def test_refusals_give_a_reason(make: Callable[[], Any], says: str) -> None:
     """One sentence, with the number or the name that is wrong."""
     with pytest.raises(AtlasError) as told:
         make()

@@ -60,7 +60,7 @@ def observed(I: Vector, K: Vector, omega: Vector, T: float) -> tuple[int, float,
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("I", "omega"), TUMBLING)
-def test_rates_of_a_free_body_are_those_of_the_axis_that_its_momentum_goes_round(I: Vector, omega: Vector) -> None:
+def test_rates_of_a_free_body_agree_with_the_axis_that_its_momentum_goes_round(I: Vector, omega: Vector) -> None:
     """The period is Jacobi's, the rates are those that integrated motions have, and balls agree."""
     motion = atlas.motion(I, (0, 0, 0), omega)
     momentum2, energy2 = float(np.sum(np.multiply(I, omega) ** 2)), float(np.sum(I * np.square(omega)))
@@ -104,7 +104,7 @@ def test_rates_of_a_free_body_go_on_where_two_moments_become_equal(I3: float, om
 @pytest.mark.parametrize("branch", [1, -1])
 @pytest.mark.parametrize("z", [1.7, 0.4, -1.2])
 @pytest.mark.parametrize("field", [(0.2, 1.0, 0.6), (0.2, 0.3, -1.0), (-1.0, 0.1, 0.1)])
-def test_rates_of_an_elliptic_motion_are_those_of_the_axis_that_the_field_goes_round(
+def test_rates_of_an_elliptic_motion_agree_with_the_axis_that_the_field_goes_round(
     field: Vector, z: float, branch: int
 ) -> None:
     """By DOP853 on Euler's equations with the torque of the charge; one motion and arrays agree."""

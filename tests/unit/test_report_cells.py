@@ -75,7 +75,7 @@ def test_the_cells_of_named_points() -> None:
         assert {row[0] for row in data.rows} == {"", "at rest", r"$\phi=0$", r"$\omega_3=0$"}
 
 
-def test_a_point_at_the_pole_is_told_below() -> None:
+def test_a_point_at_the_pole_is_noted_below_the_table() -> None:
     """It has no row; of others nothing is said."""
     data = table("points", omega2=[-B2, 0.25])
     assert len(data.rows) == 4

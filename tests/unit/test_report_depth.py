@@ -51,7 +51,7 @@ def test_a_text_nested_too_deeply_is_refused_at_once(text: str) -> None:
         set_in_typst(text)
 
 
-def test_what_is_nested_as_people_nest_is_none_of_these() -> None:
+def test_ordinary_nesting_is_accepted() -> None:
     """Escaped brackets, brackets of other paragraphs, and a handful of levels are no matter."""
     assert deepest("\\[" * 30) == deepest("") == 0
     assert deepest("[0, 1)\n\n" * 30) == 1

@@ -50,7 +50,7 @@ def test_a_formula_that_cannot_be_read_is_an_error_that_names_it() -> None:
         (r"\frac{1}{2}+" * 80 + r"\foo", r"unexpected .*\\foo"),
     ],
 )
-def test_what_is_wrong_with_a_formula_is_told_in_a_line(tex: str, reason: str) -> None:
+def test_faults_of_a_formula_are_reported_in_a_line(tex: str, reason: str) -> None:
     """The message names the formula and the first thing that is wrong, in no more than 200 characters."""
     with pytest.raises(AtlasError, match=reason) as caught:
         one(f"${tex}$")
@@ -127,7 +127,7 @@ def test_a_comma_stays_on_the_line_of_its_formula() -> None:
     assert "together" not in one("$$a$$, and so on")
 
 
-def test_what_touches_a_formula_stands_on_its_line() -> None:
+def test_units_and_brackets_stay_on_the_line_of_their_formula() -> None:
     """A unit keeps number and exponent, a bracket its formula, both what ends the clause; a word and a space don't."""
     assert re.fullmatch('30\xa0<span class="together">s<math.*</math>,</span> and', one("30 s$^{-1}$, and"), re.DOTALL)
     assert one("($x$)").startswith('<span class="together">(<math')

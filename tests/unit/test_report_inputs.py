@@ -104,7 +104,7 @@ def test_an_input_without_a_default_is_required(paper: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["nan", "1e999", "abc", "1/0", "", "1 2"])
-def test_a_number_that_is_none_is_refused(paper: Path, text: str) -> None:
+def test_non_numbers_are_refused_as_inputs(paper: Path, text: str) -> None:
     """Neither nan nor a number beyond floats nor a word is a height."""
     with pytest.raises(InputsError, match="input height"):
         evaluated(paper, {"height": text})

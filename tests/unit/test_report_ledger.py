@@ -120,7 +120,7 @@ def test_every_entry_stands_once_with_its_verdict(pages: dict[str, reader.HtmlEl
         assert element.xpath(".//*[local-name()='math']")
 
 
-def test_every_entry_says_what_the_paper_and_the_record_say(pages: dict[str, reader.HtmlElement]) -> None:
+def test_every_entry_repeats_the_paper_and_the_record(pages: dict[str, reader.HtmlElement]) -> None:
     """Claim, quotation, assumptions, method and note of each entry stand in it, each at its place, to the first markup.
 
     So does the verdict of a corrected form, where there is one.
@@ -234,7 +234,7 @@ def test_the_order_of_grades_is_that_of_the_trial() -> None:
     assert trial.GRADES == GRADES
 
 
-def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) -> None:
+def test_totals_agree_with_the_record(pages: dict[str, reader.HtmlElement]) -> None:
     """The last row of the totals counts all verdicts."""
     verdicts = Counter(verdict.verdict for verdict in recorded.load().values())
     (row,) = pages["records.html"].xpath("//figure[@id='tab-2']//tr[td[1]='All']")

@@ -146,7 +146,7 @@ MISTAKES: dict[str, tuple[str, str, int, str]] = {
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_told_by_its_line(mistake: str, tmp_path: Path) -> None:
+def test_a_mistake_is_reported_with_its_line(mistake: str, tmp_path: Path) -> None:
     """In one sentence: file, line of the file from its first on, what is wrong, what was meant."""
     right, wrong, line, said = MISTAKES[mistake]
     assert MARKDOWN.count(right) == 1 or right == "title = "
@@ -166,7 +166,7 @@ def test_a_mistake_is_told_by_its_line(mistake: str, tmp_path: Path) -> None:
         ("@(51)", "@(511)", 18, "page 'index', block 1 (prose): there is no equation"),
     ],
 )
-def test_a_mistake_that_shows_when_it_is_set_is_told_by_the_line_of_its_block(
+def test_a_mistake_found_in_typesetting_is_reported_with_its_block(
     right: str, wrong: str, line: int, said: str, tmp_path: Path
 ) -> None:
     """A recipe that there is not, a citation that leads nowhere."""

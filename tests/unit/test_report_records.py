@@ -82,7 +82,7 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_told_in_one_sentence_with_file_place_and_nearest_key(tmp_path: Path, mistake: str) -> None:
+def test_a_mistake_is_reported_with_file_place_and_nearest_key(tmp_path: Path, mistake: str) -> None:
     """Every mistake names the file, where it is, and what was probably meant."""
     text, *expected = MISTAKES[mistake]
     file = tmp_path / "mine.toml"
@@ -104,7 +104,7 @@ def test_figures_and_tables_have_names_of_their_own(name: str) -> None:
             assert not hasattr(block, "id") or block.id, (page.slug, block)
 
 
-def test_an_unknown_report_is_told_with_the_nearest_name() -> None:
+def test_an_unknown_report_is_answered_with_the_nearest_name() -> None:
     """A misspelt name of a report names the one that was probably meant."""
     with pytest.raises(AtlasError, match="'atlas'"):
         find("atls")

@@ -165,7 +165,7 @@ def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("link", ["https://a.b/c?d=e#f", "http://a.b", "mailto:a@b.c", "index.html#eq-own", "#eq-own"])
-def test_links_that_are_allowed_stay(link: str) -> None:
+def test_links_that_are_allowed_are_kept(link: str) -> None:
     """Links lead to http, https, mailto and pages of the report."""
     made = document(definition(f"[word]({link})"))
     assert f'href="{link}"' in html.pages(made)["index.html"]
@@ -214,7 +214,7 @@ def test_names_that_become_anchors_and_files_are_letters_digits_and_hyphens(name
         convert({"name": "mine", "title": "", "pages": [{"slug": name, "title": "", "blocks": []}]}, Report)
 
 
-def test_the_scripts_of_a_page_are_those_of_its_templates() -> None:
+def test_the_scripts_of_a_page_agree_with_its_templates() -> None:
     """What the pages ask for lies beside them, as it is in the templates whatever the report says."""
     made = html.pages(document(definition(MARKUP[0])))
     for script in SCRIPTS:
@@ -250,7 +250,7 @@ VALUES = [0, 1, 7, 8, -1, 2.5, -0.5, 0.0, 1e308, True, False, "", "1", "one", "t
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=str)
-def test_what_fits_a_key_is_what_the_library_takes(kind: Any) -> None:
+def test_values_of_a_key_agree_with_the_library(kind: Any) -> None:
     """Values of all types against a type: one that is told off is no value for msgspec, and the other way round."""
     for value in VALUES:
         try:
@@ -332,7 +332,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("given", WRONG)
-def test_a_parameter_of_another_type_is_told_by_its_key(given: str, tmp_path: Path) -> None:
+def test_a_parameter_of_another_type_is_reported_with_its_key(given: str, tmp_path: Path) -> None:
     """One line names the block, the key and what would be right."""
     file = tmp_path / "mine.toml"
     more = f"omega2 = 0.5, {given}" if given and "omega_2" not in given else given
@@ -360,7 +360,7 @@ def test_a_parameter_of_another_type_is_told_by_its_key(given: str, tmp_path: Pa
         ("shape = ['ring']", "shape: must be a text, not ['ring']"),
     ],
 )
-def test_a_body_of_another_type_is_told_by_its_key(line: str, words: str, tmp_path: Path) -> None:
+def test_a_body_of_another_type_is_reported_with_its_key(line: str, words: str, tmp_path: Path) -> None:
     """The sentence names file, line where it can, body, key and what would be right."""
     file = tmp_path / "mine.toml"
     file.write_text(

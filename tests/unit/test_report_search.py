@@ -55,7 +55,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     return html.pages(document)
 
 
-def test_what_is_found_is_there(made: dict[str, str]) -> None:
+def test_search_results_lead_to_anchors(made: dict[str, str]) -> None:
     """Each row of the index leads to an anchor of a page, and each heading, figure, table and equation has a row."""
     content = json.loads(made["index.js"].removeprefix("atlasIndex(").removesuffix(");\n"))
     anchors = {(file, anchor) for file, anchor, _, _ in content["sections"]}
@@ -133,7 +133,7 @@ def test_the_front_page_shows_the_report(made: dict[str, str]) -> None:
     assert not reader.fromstring(made["second.html"]).xpath("//header")
 
 
-def test_a_cover_that_is_no_figure_is_an_error(tmp_path: Path) -> None:
+def test_a_cover_must_be_a_figure(tmp_path: Path) -> None:
     """The message names what was asked for."""
     (tmp_path / "mine.toml").write_text(REPORT.replace('cover = "curve"', 'cover = "curves"'))
     report = load(tmp_path / "mine.toml")
@@ -143,7 +143,7 @@ def test_a_cover_that_is_no_figure_is_an_error(tmp_path: Path) -> None:
         html.pages(document)
 
 
-def test_what_a_table_shows_can_be_heard(made: dict[str, str]) -> None:
+def test_tables_are_readable_by_screen_readers(made: dict[str, str]) -> None:
     """A head that is a formula is there in plain letters too, and a table that scrolls has a name."""
     page = reader.fromstring(made["second.html"])
     heads = [head.text_content() for head in page.xpath("//th[.//*[local-name()='math']]/span[@class='spoken']")]

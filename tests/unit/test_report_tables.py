@@ -182,7 +182,7 @@ def test_unknown_tables_and_parameters_are_refused() -> None:
     assert set(TABLES) >= {"quadric", "points", "motion", "particle", "flight"}
 
 
-def test_what_there_is_to_ask_for_is_listed_in_words() -> None:
+def test_available_quantities_are_listed_in_words() -> None:
     """Their lines can be broken, so that no long one makes the type of the whole table small."""
     for name in ("quantities", "targets", "roles"):
         assert all(isinstance(cell, str) for row in table(name).rows for cell in row), name
@@ -219,7 +219,7 @@ def test_scaled_columns_lose_no_digit() -> None:
     assert len(number.digits) >= 60
 
 
-def test_a_line_without_named_points_is_told() -> None:
+def test_a_line_without_named_points_is_reported() -> None:
     """With B2 = 0 omega3 is free on the line omega2 = 0: there is no table of points, and one sentence says so."""
     with pytest.raises(AtlasError, match="B2 = 0"):
         table("points", field=Field(title="axial", prime=(0.0, 2.0)))
@@ -251,7 +251,7 @@ def test_a_number_reads_back_from_each_way_to_print_it(digits: str) -> None:
     assert bool(high) == bool(exponent)
 
 
-def test_fonts_have_what_is_written_anywhere() -> None:
+def test_fonts_have_all_written_characters() -> None:
     """All that a keyboard has, the whole italic alphabet of formulas, and the weight that the font itself says."""
     assert {*string.ascii_letters, *string.digits, *string.punctuation, " "} <= {*ALWAYS}
     assert all(letter.isprintable() or letter.isspace() for letter in ALWAYS)
@@ -337,7 +337,7 @@ def test_the_keys_of_a_block_that_are_called_needed_are(tmp_path: Path) -> None:
                     load(tmp_path / "n.toml")
 
 
-def test_the_roles_of_a_table_are_those_of_the_style() -> None:
+def test_the_roles_of_a_table_agree_with_the_style() -> None:
     """Each role stands in it once, and so does each layer of the scene."""
     roles = [name for row in compute("roles", Request([], {}, 10)).rows for name in re.findall(r"`(\w+)`", str(row[0]))]
     assert sorted(roles) == sorted(STYLES)
@@ -345,7 +345,7 @@ def test_the_roles_of_a_table_are_those_of_the_style() -> None:
     assert {"Scene", "Plane", "Space", "Curve", "Points", "Arrow", "Label", "Surface", "Region", "Image"} == set(names)
 
 
-def test_kinds_of_spins_are_those_of_the_linearized_equations() -> None:
+def test_kinds_of_spins_agree_with_the_linearized_equations() -> None:
     """In the table of critical values a spin is stable, a saddle or a focus as the eigenvalues of its motion say."""
     inertia, momenta = [0.5, 1.0, 1.25], [1.6, 0.7, 0.2]
     data = compute("critical", Request((), {"inertia": inertia, "b": 1.0, "momentum": momenta}, 4))

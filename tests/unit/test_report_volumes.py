@@ -71,7 +71,7 @@ def test_every_equation_of_the_paper_has_its_entry_in_the_trial(volumes: dict[st
         assert any(use.file.startswith("../atlas/") and use.words == "display" for use in trial.uses[label]), label
 
 
-def test_what_stands_elsewhere_is_words_in_print(volumes: dict[str, Document]) -> None:
+def test_references_to_other_volumes_are_words_in_print(volumes: dict[str, Document]) -> None:
     """The PDF of one volume names the other where its pages have a link."""
     assert volumes["atlas"].cite("typst")("page:slips", "") == Link("Slips found in the paper")
     assert volumes["trial"].cite("typst")("fig:lssc", "").words == "Figure 1 of An Atlas of Turning Bodies"
@@ -170,7 +170,7 @@ def test_page_and_print_cite_alike(tmp_path: Path) -> None:
         ("[@euler1765;", "[see @euler1765;", "lost in print"),
     ],
 )
-def test_what_is_wrong_with_a_citation_is_said(tmp_path: Path, old: str, new: str, says: str) -> None:
+def test_faults_of_a_citation_are_reported(tmp_path: Path, old: str, new: str, says: str) -> None:
     """One sentence: the nearest key, the list that is missing, the file that is not there."""
     assert old in REPORT
     with pytest.raises(AtlasError, match=says):

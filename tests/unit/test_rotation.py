@@ -122,7 +122,7 @@ def test_times_of_any_shape_and_kind() -> None:
     assert motion.rotation(np.empty((0, 4))).shape == (0, 4, 3, 3)
 
 
-def test_columns_are_those_of_the_matrix() -> None:
+def test_columns_agree_with_the_matrix() -> None:
     """Columns evaluated alone agree with the matrix to its accuracy."""
     motion, t = ElementaryMotion(*MOTION), np.linspace(-20, 20, 300)
     R = motion.rotation(t)

@@ -80,7 +80,7 @@ def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:
         recipes.load("clever")
 
 
-def test_what_a_recipe_takes_is_what_its_function_takes() -> None:
+def test_parameters_of_a_recipe_agree_with_its_function() -> None:
     """The parameters that are read from the source are those of the function, with the same defaults, in its order."""
     for name in recipes.names():
         found = inspect.signature(recipes._function(recipes.load(name).source)[0]).parameters
@@ -189,7 +189,7 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
         (b"\xff\xfe", r"figures/broken\.py, line 1: SyntaxError"),
     ],
 )
-def test_a_broken_recipe_is_told_with_its_line(folder: Path, text: bytes, tells: str) -> None:
+def test_a_broken_recipe_is_reported_with_its_line(folder: Path, text: bytes, tells: str) -> None:
     """Whatever goes wrong inside a recipe is one sentence that says where."""
     (folder / "broken.py").write_bytes(text)
     with pytest.raises(AtlasError, match=tells):
@@ -197,7 +197,7 @@ def test_a_broken_recipe_is_told_with_its_line(folder: Path, text: bytes, tells:
 
 
 @pytest.mark.parametrize("text", [b'"""Broken."""\ndef scene(:\n', b"\xff\xfe"])
-def test_a_title_that_cannot_be_read_is_told(folder: Path, text: bytes) -> None:
+def test_an_unreadable_title_is_reported(folder: Path, text: bytes) -> None:
     """A recipe that is no Python has no title, and the error names it."""
     (folder / "broken.py").write_bytes(text)
     with pytest.raises(AtlasError, match=r"figures/broken\.py"):
@@ -241,7 +241,7 @@ def test_a_recipe_is_a_file_anywhere_and_is_read_again_when_it_changes(tmp_path:
         recipes.load(str(file))
 
 
-def test_what_a_parameter_takes_is_said_in_words(tmp_path: Path) -> None:
+def test_types_of_parameters_are_described_in_words(tmp_path: Path) -> None:
     """Each kind of annotation has its words, and what is typed after --set reads back."""
     file = tmp_path / "mine.py"
     file.write_text(RECIPE, encoding="utf-8")

@@ -26,7 +26,7 @@ def test_no_chord_leaves_the_curve_by_more_than_the_tolerance(tolerance: float) 
     assert np.linalg.norm(dense[:, None] - foot, axis=2).min(axis=1).max() < 1.1 * tolerance
 
 
-def test_what_lies_outside_the_box_is_not_refined() -> None:
+def test_curves_outside_the_box_are_not_refined() -> None:
     """With a box around the first half only, the points of the second half are those of the first cut."""
     box = (np.array([-1.0, -1.0, -1.0]), np.array([1.0, 1.0, 1.0]))
     whole, part = curve(spiral, 0.0, 8.0, 1e-4), curve(spiral, 0.0, 8.0, 1e-4, box=box)
@@ -59,7 +59,7 @@ def test_a_flat_curve_knows_paper_and_view() -> None:
 
 
 @pytest.mark.parametrize(("size", "turns"), [(1.0, 1e7), (1e300, 1e7), (np.inf, 1.0), (np.nan, 1.0)])
-def test_a_curve_that_needs_too_many_points_is_told(size: float, turns: float) -> None:
+def test_a_curve_that_needs_too_many_points_is_refused(size: float, turns: float) -> None:
     """What turns ten million times, or is no number, is one sentence and no endless cutting."""
     with np.errstate(all="ignore"), pytest.raises(DomainError, match="more than 1000000 points"):
         curve(lambda s: np.stack([s, size * np.sin(turns * s)], axis=1), 0.0, 6.0, 1e-3)

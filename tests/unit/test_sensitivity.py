@@ -165,7 +165,7 @@ def test_arrays_have_the_sensitivity_of_each() -> None:
         assert np.array_equal(found[i], alone)
 
 
-def test_what_has_no_sensitivity_is_refused() -> None:
+def test_motions_without_sensitivity_are_refused() -> None:
     """A separatrix, a name that is no input, a period that is infinite."""
     with pytest.raises(atlas.DomainError, match="separatrix"):
         atlas.TopMotion((1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 2.0).sensitivity(1.0, "linear")
@@ -302,7 +302,7 @@ def test_sensitivity_of_a_free_body_with_three_moments(omega: tuple[float, ...])
         motion.sensitivity(1.0, "B1")
 
 
-def test_rates_among_all_motions_of_a_body_are_those_of_its_class() -> None:
+def test_rates_among_all_motions_of_a_body_agree_with_its_class() -> None:
     """Of a ball they are -|B| and -|B + Omega|, by central differences; a period goes with the rate of precession."""
     names, h = ["omega1", "omega2", "omega3", "B1", "B2", "B3"], 1e-5
     start = np.array([0.2, 0.7, 0.3, 0.0, 1.0, 2.0])

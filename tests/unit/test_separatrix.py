@@ -61,7 +61,7 @@ def test_a_disk_tips_over_and_comes_back() -> None:
         *((2.0, 1.0, -1.0, 1e-2), (0.5, 1.0, -1.0, 0.4), (0.5, 1.0, -1.0, 0.9)),
     ],
 )
-def test_a_pushed_spin_turns_and_returns_as_told(ratio: float, B3: float, omega3: float, push: float) -> None:
+def test_a_pushed_spin_turns_and_returns_as_predicted(ratio: float, B3: float, omega3: float, push: float) -> None:
     """The least cosine of the axis to the field over the period, and its value after it, by DOP853 to 1e-7."""
     motion = atlas.GeneralMotion(ratio, (0.0, B3), (push, 0.0, omega3))
     turning = min((omega3 + B3 - end) / B3 for end in motion.turning_points)

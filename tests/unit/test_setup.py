@@ -119,7 +119,7 @@ def test_settings_of_pip_reach_the_index_and_nothing_else(tmp_path: Path) -> Non
     assert [*(tmp_path / "it's é" / ".venv" / "lib").glob("python3*/site-packages/tiny-1.0.dist-info")], told
 
 
-def test_two_set_ups_take_turns_and_a_full_disk_is_told_first(tmp_path: Path) -> None:
+def test_two_set_ups_wait_for_each_other_and_check_the_disk_first(tmp_path: Path) -> None:
     """One that finds the folder locked says so and waits; before anything is made, the disk is asked."""
     folder = tmp_path / "it's é"
     folder.mkdir()

@@ -47,7 +47,7 @@ def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None
         ("ratio,field\n0.7\n", "line 2: 1 cells under a heading of 2"),
     ],
 )
-def test_a_table_that_is_none_is_refused_in_a_line(
+def test_a_malformed_table_of_bodies_is_refused_in_a_line(
     text: str, fault: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Status 2, nothing built."""
@@ -168,7 +168,9 @@ def test_an_unknown_body_of_the_gallery_is_refused() -> None:
 
 
 @pytest.mark.slow
-def test_another_start_draws_what_it_changes_and_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_another_start_redraws_and_names_the_dependent_figures(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     """Surfaces of the body in its field are taken from the cache; the figures of the motion name omega2."""
     words = ["--ratio", "0.7", "--field", "1", "2", "--explain", "--out", str(tmp_path / "build" / "report")]
     run(capsys, *words, "--omega2", "0.7")

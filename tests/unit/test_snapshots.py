@@ -47,7 +47,7 @@ def drawn(name: str) -> Scene:
 
 
 @pytest.mark.parametrize("name", [name for name in recipes.names() if name not in MEASURED])
-def test_a_scene_is_what_it_was(snapshot: SnapshotAssertion, name: str) -> None:
+def test_a_scene_agrees_with_its_snapshot(snapshot: SnapshotAssertion, name: str) -> None:
     """The axes, and the layers with their roles, names, ends, extent and course."""
     noisy, recipe = tuple(NOISE.get(name, ())), recipes.load(name)
     found = lines.scene(drawn(name), noisy, words=not recipe.records and not noisy)
@@ -91,7 +91,7 @@ def benchmark() -> results.Results:
 
 
 @pytest.mark.parametrize("name", MEASURED)
-def test_a_figure_of_measurements_is_what_it_was(
+def test_a_figure_of_measurements_agrees_with_its_snapshot(
     snapshot: SnapshotAssertion, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str
 ) -> None:
     """The same of figures drawn from a record."""

@@ -83,7 +83,7 @@ def test_lines_of_an_elementary_motion() -> None:
     assert np.sqrt(lines.power) == pytest.approx([0.6 / np.sqrt(2), 0.8, 0.6 / np.sqrt(2)])
 
 
-def test_what_has_no_lines_is_refused() -> None:
+def test_motions_without_spectral_lines_are_refused() -> None:
     """A separatrix, arrays, and what no motion has."""
     motion = MOTIONS["general"]()
     with pytest.raises(atlas.DomainError, match="separatrix"):

@@ -40,7 +40,7 @@ def run(words: str) -> tuple[int, str]:
         (f"{SPHERE} 1e7", 0, ""),
     ],
 )
-def test_the_shell_says_in_one_line_what_is_too_fast(words: str, status: int, says: str) -> None:
+def test_speeds_near_light_are_reported_in_one_line(words: str, status: int, says: str) -> None:
     """In natural units nothing is known; above a tenth of c there is a line, and a superluminal drift has no answer."""
     found, errors = run(words)
     assert found == status

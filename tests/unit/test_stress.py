@@ -138,7 +138,7 @@ def test_an_error_is_counted_in_units_of_the_last_place(x: float, steps: int) ->
     assert measured <= abs(steps) * (1 + 1e-9)
 
 
-def test_what_is_not_a_number_is_infinitely_wrong() -> None:
+def test_nan_is_infinitely_wrong() -> None:
     """NaN never passes; an infinity passes only where the number is beyond the doubles."""
     assert error(math.nan, arb(1), 1.0) == math.inf
     assert error(math.inf, arb(1), 1.0) == math.inf

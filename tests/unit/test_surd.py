@@ -22,7 +22,7 @@ def drawn(random: Random, degree: int) -> Polynomial:
 
 
 @pytest.mark.parametrize("degree", [2, 3, 4])
-def test_roots_are_those_of_an_isolation_real_ones_first_and_ascending(degree: int) -> None:
+def test_roots_agree_with_an_isolation_real_ones_first_and_ascending(degree: int) -> None:
     """Sixty random polynomials of each degree, with any number of real roots."""
     random = Random(degree)  # noqa: S311  reproducible, not secret
     for _ in range(60):

@@ -41,7 +41,7 @@ def test_a_grid_has_every_combination_once_and_its_quantities() -> None:
         assert np.array_equal(table[name], getattr(motion, name))
 
 
-def test_what_has_entries_is_asked_for_as_a_whole() -> None:
+def test_matrices_and_vectors_are_requested_by_one_name() -> None:
     """R is its nine entries, and Omega its three, in their order."""
     table = atlas.sweep(
         "elementary", {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": 0.7, "t": [0.0, 2.0]}, ["Omega", "R"]
@@ -275,7 +275,7 @@ REASONS = ["", "no period", "no period, triple root", "", "no period"]
 
 
 @pytest.mark.parametrize("digits", [None, 20])
-def test_a_row_without_a_number_says_why_and_the_table_goes_on(tmp_path: Path, digits: int | None) -> None:
+def test_a_row_without_a_number_gives_a_reason_and_the_table_continues(tmp_path: Path, digits: int | None) -> None:
     """On a separatrix the angle a period is an empty cell of CSV, NaN in NPZ, null in Parquet, with a reason."""
     pytest.importorskip("pyarrow")
     from pyarrow import parquet

@@ -41,7 +41,7 @@ def test_a_data_set_is_read_as_one_table(tmp_path: Path) -> None:
     assert [path.read_bytes() for path in parts[0]] == [path.read_bytes() for path in parts[1]]
 
 
-def test_a_new_data_set_takes_the_place_of_an_old_one_and_of_nothing_else(tmp_path: Path) -> None:
+def test_a_new_data_set_replaces_only_an_old_one(tmp_path: Path) -> None:
     """Of an old table no file is left; a folder with other files is refused."""
     pandas = pytest.importorskip("pandas")
     out = tmp_path / "t.parquet"

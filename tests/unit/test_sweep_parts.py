@@ -69,9 +69,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return out.read_bytes()
 
 
-def test_a_sweep_that_was_stopped_goes_on_from_there(
-    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_stopped_sweep_resumes(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     """Parts that were kept are not computed again, no row is lost or doubled, and nothing is left beside the table."""
     stopped(tmp_path / "t.csv", monkeypatch)
     starts = made(monkeypatch)
@@ -81,7 +79,7 @@ def test_a_sweep_that_was_stopped_goes_on_from_there(
     assert names(tmp_path) == ["t.csv"]
 
 
-def test_any_rows_are_those_of_the_table() -> None:
+def test_any_rows_agree_with_the_table() -> None:
     """A part that is sent gives the rows of the whole."""
     for listed in (False, True):
         given = GRID if not listed else {name: np.resize(x, 154) for name, x in GRID.items()}
@@ -214,9 +212,7 @@ def test_files_of_no_sweep_are_refused_and_kept(tmp_path: Path, foreign: Any) ->
     assert {path: path.read_bytes() if path.is_file() else b"" for path in tmp_path.rglob("*")} == before
 
 
-def test_a_file_of_the_users_own_among_the_parts_stays(
-    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_user_file_among_the_parts_is_kept(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     """It is named before the sweep goes on; one that is put there meanwhile is left where it is."""
     parts = stopped(tmp_path / "t.csv", monkeypatch)
     (parts / "notes.txt").write_text("mine")
@@ -278,7 +274,7 @@ class Lost(ThreadPoolExecutor):
 
 
 @pytest.mark.parametrize("reason", [CancelledError(""), BrokenProcessPool("A process was terminated abruptly.")])
-def test_workers_that_are_lost_are_told_and_a_second_call_goes_on(
+def test_lost_workers_are_reported_and_a_second_call_resumes(
     tmp_path: Path, whole: bytes, reason: BaseException, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """In one sentence; what was made by then is not made again."""
@@ -327,7 +323,7 @@ def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_f
 
 
 @pytest.mark.slow
-def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
+def test_a_killed_sweep_resumes(tmp_path: Path) -> None:
     """After SIGKILL the same command ends with the table of a sweep that nobody disturbed."""
     arguments = [
         "sweep", "elementary", "--set", "ratio=0.1:2:40", "--set", "B2=1", "--set", "B3=0.2", "--set",
@@ -365,7 +361,7 @@ def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float,
         assert len(rows) <= 1600
 
 
-def test_a_sweep_goes_on_in_other_steps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_sweep_resumes_with_other_part_sizes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Another measure of the time of a row, on a busier machine, does not begin it anew: what is missing is made."""
     kept = set[str]()
     for seconds in (1e-3, 5e-3, 1e-9):

@@ -179,7 +179,7 @@ def test_standard_errors_stand_in_a_column_or_have_a_unit(tmp_path: Path) -> Non
     assert outcome[0] == outcome[1]
 
 
-def test_what_is_not_used_is_named(tmp_path: Path) -> None:
+def test_unused_columns_are_named(tmp_path: Path) -> None:
     """Other columns are left out with one line, and a name that is nearly right is asked about."""
     rows = [",".join([*row, "x", "7"]) for row in rates()]
     notes = graded(tmp_path / "t.csv", "t,Omega1,Omega2,Omega3,label,Quat_q0", rows).notes

@@ -97,7 +97,7 @@ def test_capitals_are_two_millimetres_high() -> None:
 
 
 @pytest.mark.parametrize("name", WIDE)
-def test_what_needs_the_page_says_so(name: str) -> None:
+def test_figures_too_wide_for_a_column_are_refused(name: str) -> None:
     """A recipe that can't be read in a column is refused there with the targets that will do, and made for those."""
     recipe = recipes.load(name)
     with pytest.raises(
@@ -116,7 +116,7 @@ def test_a_figure_of_many_panels_finds_a_layout(name: str, target: str) -> None:
     assert faults(to_figure(made(name), target=find(target)), find(target)) == []
 
 
-def test_what_is_too_high_for_a_slide_says_so() -> None:
+def test_figures_too_high_for_a_slide_are_refused() -> None:
     """A picture of an upright sheet would be too small in the height of a slide."""
     with pytest.raises(AtlasError, match=r"can't be read at a height of 68 mm; its panels would have only 0\.29"):
         arranged(recipes.load("flight_poster").scene(), find("beamer"))
@@ -182,7 +182,7 @@ def test_a_figure_of_a_report_gets_the_place_that_suits_it(name: str, target: st
 
 
 @pytest.mark.parametrize("name", WIDE)
-def test_what_needs_the_page_gets_it(name: str) -> None:
+def test_figures_too_wide_for_a_column_get_the_page(name: str) -> None:
     """Where there is a choice, a recipe that can't be read in a column is not put into one."""
     assert suited(recipes.load(name).scene(), [find("aps"), find("aps-double")]).width == 178.0
 
@@ -204,7 +204,7 @@ def test_files_have_the_size_the_fonts_and_the_resolution(tmp_path: Path) -> Non
         assert picture.info["Title"] == recipes.title("hyperbola")
 
 
-def test_savefig_keeps_what_the_target_asks(tmp_path: Path) -> None:
+def test_savefig_keeps_the_settings_of_the_target(tmp_path: Path) -> None:
     """A user's own savefig writes TrueType fonts and 600 dots an inch, whatever Matplotlib's settings are."""
     figure = atlas.figure("cone", target="iop")
     figure.savefig(tmp_path / "a.pdf")
@@ -254,7 +254,7 @@ def test_a_scene_without_a_name_is_laid_out_too() -> None:
     assert arranged(scene, find("aps")).size[0] == 86.0
 
 
-def test_the_guide_has_what_each_target_asks() -> None:
+def test_the_guide_lists_the_sizes_of_each_target() -> None:
     """Its table names every target with its sizes, what is asked, and every source, which is an address or a class."""
     data = compute("targets", Request((), {}, 3))
     assert [row[0] for row in data.rows] == [f"`{name}`" for name in TARGETS]

@@ -39,7 +39,7 @@ def of_form(form: str, *, oblique: bool) -> Lattice:
 @pytest.mark.parametrize(("name", "oblique"), [*((name, False) for name in SUMS), *((name, True) for name in OBLIQUE)])
 @pytest.mark.parametrize("form", ["trigonometric", "hyperbolic"])
 @pytest.mark.parametrize("precision", [24, 53, 64, 106, 150])
-def test_what_a_sum_leaves_out_is_within_its_bound(name: str, oblique: bool, form: str, precision: int) -> None:
+def test_the_remainder_of_a_sum_is_within_its_bound(name: str, oblique: bool, form: str, precision: int) -> None:
     """The terms that forty times the bits have more, where they are largest, and those of the derivative."""
     lattice = of_form(form, oblique=oblique)
     with workprec(precision):

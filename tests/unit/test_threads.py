@@ -96,7 +96,7 @@ def _restless() -> Iterator[None]:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FRESH)
 @pytest.mark.usefixtures("_restless")
-def test_threads_that_share_a_new_object_get_what_it_gives_alone(name: str) -> None:
+def test_threads_that_share_a_new_object_get_the_serial_results(name: str) -> None:
     """Six threads, each with other first calls, and all calls afterwards, bit for bit."""
     made, expected, random = calls(FRESH[name](), slow=name == SLOW), alone(name), Random(53)  # noqa: S311  no secret
     for _ in range(2 if name == SLOW else 12):

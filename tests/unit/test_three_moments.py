@@ -76,7 +76,7 @@ def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, t
     assert re.search(r"\n\nwith real|\n\\emph\{with real", paper).group() == "\n\\emph{with real"  # type: ignore[union-attr]
 
 
-def test_the_rows_of_the_family_are_those_of_the_formulas_of_the_letter() -> None:
+def test_the_rows_of_the_family_agree_with_the_formulas_of_the_letter() -> None:
     """v, omega, C/D^2 as the sum of squares, and T = 4 K(k)/lambda, 1e-9; who is stable."""
     (I, B, _), D = DATA, 0.625
     places = [[1.0, 1], [-0.25, -1], [-0.75, 1]]

@@ -51,7 +51,7 @@ CASES = {
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (k % 4 > 0)) for k, name in enumerate(CASES)]
 )
-def test_balls_hold_what_taylor_series_of_the_equations_give(name: str) -> None:
+def test_balls_hold_the_taylor_integration(name: str) -> None:
     """R(t) and Omega(t) as balls hold the values of an integration to 30 digits, at two times."""
     times = [0.5, 1.75]
     with ctx.workprec(200):
@@ -270,7 +270,7 @@ def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:
         (((1, 1.5), (0, 1), (1, 0), (1, 0, -0.0), 0, -2.0 / 3.0), None),
     ],
 )
-def test_what_is_no_top_is_refused_in_one_line(case: tuple[object, ...], words: str | None) -> None:
+def test_impossible_tops_are_refused_in_one_line(case: tuple[object, ...], words: str | None) -> None:
     """Errors say what is wrong and what would be right."""
     if words is None:
         atlas.TopMotion(*case)
@@ -339,7 +339,7 @@ def test_a_coat_of_charge_is_no_ball_and_point_charges_are_summed() -> None:
         (lambda: atlas.ChargeMoments.shape("ring", 1.0, radius=1.0, held=True), "ring take radius, not radius, held"),
     ],
 )
-def test_what_cannot_be_reduced_to_a_top_is_refused(make: Callable[[], object], words: str) -> None:
+def test_motions_that_are_no_tops_are_refused(make: Callable[[], object], words: str) -> None:
     """Errors say why."""
     with pytest.raises(atlas.AtlasError, match=words):
         make()

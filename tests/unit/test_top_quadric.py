@@ -44,7 +44,7 @@ def test_at_the_values_of_the_papers_body_it_is_the_papers_quadric(ratio: int, m
     assert found.stability(w2) == curve.stability(w2)
 
 
-def test_the_unstable_bands_are_those_of_the_papers_body() -> None:
+def test_the_unstable_bands_agree_with_the_papers_body() -> None:
     """Both intervals of omega2, from ((omega2 + B2)/B2)^2 between y- and y+, theorem-band, within 4 ulp of B2."""
     B, I = (4.0, 3.0 / 8), 0.25
     b = float(np.hypot(*B))

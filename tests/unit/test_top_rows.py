@@ -50,7 +50,7 @@ def evaluated(motion: atlas.TopMotion, times: Any, what: str) -> tuple[Any, Any]
 
 
 @pytest.mark.parametrize("name", TOPS)
-def test_rows_are_within_16_ulp_of_tops_made_alone(name: str) -> None:
+def test_rows_are_within_16_ulp_of_single_tops(name: str) -> None:
     """R and b to 16 ulp of 1, Omega to 16 ulp of the largest rate, where a row is not left to be made alone."""
     tops = drawn(name, 16)
     motion, rates = arrayed(tops), np.array([rate_of(top) for top in tops])
@@ -75,7 +75,7 @@ def test_most_ordinary_tops_are_made_in_arrays(couplings: tuple[float, float] | 
 
 
 @pytest.mark.slow
-def test_a_row_does_not_depend_on_those_beside_it() -> None:
+def test_a_row_does_not_depend_on_other_rows() -> None:
     """The bits of R and Omega in the whole array, in its halves and in reverse are the same."""
     tops = [top for name in ("top, ordinary", "top, near the cubic", "top, sleeping") for top in drawn(name, 12)]
     times = np.linspace(0.5, 9.0, len(tops))
@@ -97,7 +97,7 @@ def test_rows_move_as_the_equations_say() -> None:
         assert found == pytest.approx(integrated(case, [t])[0], abs=1e-11)
 
 
-def test_tops_that_rows_do_not_hold_are_made_alone_but_once() -> None:
+def test_tops_beyond_the_rows_are_evaluated_singly_and_once() -> None:
     """A top next to a separatrix beside an ordinary one: the bits of the top by itself."""
     near = Top((1.0, 0.5), (0.0, 0.0), (0.0, 1.0), (1e-9, 0.0, 1.0), 3.0, 0.0)
     motion = arrayed([near, drawn("top, ordinary", 1)[0]])
@@ -124,7 +124,7 @@ def test_the_turn_about_the_axis_joins_where_the_quartic_becomes_a_cubic() -> No
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["top, ordinary", "top, near the cubic", "top, near the quadratic", "top, sleeping"])
-def test_scalars_in_arrays_are_those_of_single_tops_to_the_bit(name: str) -> None:
+def test_scalars_in_arrays_agree_with_single_tops_to_the_bit(name: str) -> None:
     """Kind, period, modulus and turning points of tops with any kappa, and of two that start at a turning point."""
     random = Random(11)  # noqa: S311  reproducible, not secret
     tops = [TOPS[name](random) for _ in range(6)]

@@ -60,7 +60,7 @@ def test_some_steady_precessions_are_unstable() -> None:
     assert signs == {True, False}
 
 
-def test_the_rates_of_a_heavy_top_are_those_of_the_textbook() -> None:
+def test_the_rates_of_a_heavy_top_agree_with_the_textbook() -> None:
     """I2 cos(theta) w^2 - I3 omega3 w + m g l = 0, the slow one first, none below M3^2 = 4 I2 m g l cos(theta)."""
     slow, fast = (one.rate for one in made("heavy").steady_precessions)
     roots = np.sort(np.roots([0.8, -0.5 * 8.0, 3.0]))
@@ -121,7 +121,7 @@ def test_the_border_of_sleep_is_decided_by_the_next_derivative(
         assert (pushed.turning_points[0] > 0.99) == stable
 
 
-def test_what_is_not_steady_or_not_one_says_why() -> None:
+def test_motions_that_are_not_steady_are_refused_with_a_reason() -> None:
     """One line for each."""
     assert made("heavy").stable is None
     many = atlas.TopMotion((1.0, 0.5), (0, 0), (0.6, 0.8), (0, 0, np.array([1.0, 2.0])), 3.0)

@@ -144,7 +144,7 @@ def test_the_riemann_matrix_is_that_of_the_motion(found: dict[str, Any]) -> None
         pytest.param((0.79, 0.86, 1.28), (-0.12, 2.1, -1.1), (-0.76, 4.1, 1.3), marks=pytest.mark.slow),
     ],
 )
-def test_actions_and_riemann_matrix_are_those_of_the_motion(inertia: Any, field: Any, omega: Any) -> None:
+def test_actions_and_riemann_matrix_agree_with_the_motion(inertia: Any, field: Any, omega: Any) -> None:
     """In any units, also where paths are long: means over the torus, and the matrix that the kernel sums with."""
     motion = atlas.AsymmetricMotion(inertia, field, omega)
     record = motion.curve.record(16)
@@ -170,7 +170,7 @@ def test_more_digits_begin_with_fewer(found: dict[str, Any]) -> None:
             assert float(one) == pytest.approx(float(more), rel=2e-13)
 
 
-def test_what_has_no_torus_has_no_curve() -> None:
+def test_motions_without_a_torus_have_no_curve() -> None:
     """A symmetric body, a motion at rest, an array: each is told."""
     for inertia, omega in (((1.0, 1.0, 1.3), OMEGA), (BODY, (0.0, 0.0, 0.0))):
         with pytest.raises(DomainError, match="no torus with a spectral curve"):

@@ -85,7 +85,7 @@ ALL = {
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_what_is_handed_out_changes_nothing(name: str) -> None:
+def test_returned_arrays_change_no_object(name: str) -> None:
     """An array that an object keeps can't be written into; where one can, the object has made it for the asker."""
     made = ALL[name]()
     for attribute, handed in held(made).items():
@@ -98,7 +98,7 @@ def test_what_is_handed_out_changes_nothing(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", pairs())
-def test_what_was_given_may_be_changed_later(name: str) -> None:
+def test_later_changes_of_given_arrays_have_no_effect(name: str) -> None:
     """The numbers of an object are those of the arrays when it was made."""
     inputs = given(FAMILIES[name])
     made = FAMILIES[name].kernels()(*inputs)

@@ -23,7 +23,7 @@ def codata(name: str) -> float:
     return float(constants.physical_constants[name][0])
 
 
-def test_the_constants_are_those_of_codata() -> None:
+def test_the_constants_agree_with_codata() -> None:
     """The speed of light, e and Boltzmann's are exact, the masses and vacuum's constants those of CODATA 2022."""
     assert codata("speed of light in vacuum") == units.SPEED_OF_LIGHT
     assert codata("elementary charge") == units.ELEMENTARY_CHARGE
@@ -86,7 +86,7 @@ def test_fields_keep_their_shape() -> None:
         lambda: Field([0, 0, np.nan]),
     ],
 )
-def test_what_is_no_unit_is_one_sentence(make: Callable[[], object]) -> None:
+def test_unknown_units_are_refused_in_one_sentence(make: Callable[[], object]) -> None:
     """Unknown systems and fields beyond a float raise one sentence."""
     with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
         make()

@@ -69,7 +69,7 @@ def one_line(done: subprocess.CompletedProcess[str], status: int, *words: str) -
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), [marked(*case) for case in WRITERS.items()])
-def test_what_is_in_the_way_stays(tmp_path: Path, words: str, name: str) -> None:
+def test_existing_files_are_kept(tmp_path: Path, words: str, name: str) -> None:
     """A link to nothing, a folder in the place of a file, a disk without room: one line that names the place."""
     (tmp_path / "out").symlink_to("nowhere")
     one_line(run(tmp_path, words), 2, "'out' is a link to nothing")
@@ -97,9 +97,7 @@ LONE = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), LONE.items(), ids=[words.split()[0] for words in LONE])
-def test_a_file_that_was_edited_or_is_foreign_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, name: str
-) -> None:
+def test_an_edited_or_user_file_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, name: str) -> None:
     """What a command wrote it replaces; what somebody else put there stays, the new one is beside it, status 2."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ATLAS_CACHE", str(tmp_path / "cache"))
@@ -137,7 +135,7 @@ def test_a_file_that_was_edited_or_is_foreign_stays(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [marked(words) for words in WRITERS if not words.startswith("figure")])
-def test_a_disk_without_room_leaves_what_was_there(tmp_path: Path, words: str) -> None:
+def test_a_full_disk_keeps_existing_files(tmp_path: Path, words: str) -> None:
     """One line names the file or the folder; a figure is in the cache by then, and the system copies it from there."""
     assert run(tmp_path, words).returncode == 0
     before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
@@ -158,7 +156,7 @@ def test_an_ffmpeg_that_fails_is_one_line(tmp_path: Path, reads: str) -> None:
     assert not list((tmp_path / "out").iterdir())
 
 
-def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
+def test_leftovers_of_a_killed_process_are_removed(tmp_path: Path) -> None:
     """The next one that writes the same file removes it, but nothing of one that lives or of another file."""
     program = (
         "import sys, time; from pathlib import Path; from atlas import files\n"

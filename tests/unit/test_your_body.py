@@ -45,7 +45,7 @@ def request_of(words: str | list[str]) -> Asked:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_cards_numbers_stay(name: str, snapshot: SnapshotAssertion) -> None:
+def test_the_cards_numbers_are_kept(name: str, snapshot: SnapshotAssertion) -> None:
     """Digits, proven digits, units and reasons of each case, and its title."""
     request = request_of(CASES[name])
     made = card(request)
@@ -54,7 +54,7 @@ def test_the_cards_numbers_stay(name: str, snapshot: SnapshotAssertion) -> None:
     assert {"title": title} | {key: [one[k] for k in keys] for key, one in made.items()} == snapshot
 
 
-def test_numbers_of_the_card_are_those_of_plain_formulas() -> None:
+def test_numbers_of_the_card_agree_with_plain_formulas() -> None:
     """I of a shell and its field in SI; k = omega2 |B'|/B2, eq. (79); the needle's cone of a free body, eq. (87)."""
     shell = card(request_of(SHELL))
     assert shell["ratio"]["value"] == pytest.approx(1 / (1 / 2 + 0.9**2 / 12))
@@ -68,7 +68,7 @@ def test_numbers_of_the_card_are_those_of_plain_formulas() -> None:
 
 
 @pytest.mark.parametrize("scale", ["1e-300", "1e300"])
-def test_cards_of_tiny_and_huge_rates_are_those_of_one(scale: str) -> None:
+def test_cards_of_tiny_and_huge_rates_agree_with_one(scale: str) -> None:
     """Rates are proportional to their unit, also where their squares are no doubles."""
     of_one, scaled = (card(request_of(f"--ratio 0.7 --field {x} {x} --omega2 {x}")) for x in ("1", scale))
     powers = {"ratio": 0, "tilt": 0, "larmor": 1, "spin": 1, "turn": -1, "nutation": -1}
@@ -86,7 +86,7 @@ def test_a_negative_charge_turns_the_arrow_of_the_field() -> None:
         assert sign_of(request_of(CASES[name])) == ""
 
 
-def test_an_error_without_a_deviation_is_said() -> None:
+def test_an_error_without_a_deviation_is_reported() -> None:
     """Where errors of the inputs leave the domain, no number is called proven, and the last page says why."""
     request = replace(request_of(SHELL), sigma={"ratio": inf, "larmor": 0.1})
     made = card(request)
@@ -237,7 +237,7 @@ def test_a_spin_is_stable_where_no_eigenvalue_grows() -> None:
     assert {*verdicts} == {True, False}
 
 
-def test_magnetism_from_the_value_told_is_as_large_as_the_charge() -> None:
+def test_magnetism_at_the_stated_susceptibility_equals_the_charge() -> None:
     """The susceptibility told makes the energy of a spheroid that of its charge, to first order in chi."""
     body = Spinning("spheroid", {"equatorial": 1e-6, "polar": 2e-6}, 1e-14, 0.1, (2e-26, 8e-27), 0.5, 0.0, 0.01)
     chi = next(disturbances(body)).value
