@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 else:
 
     def __getattr__(name: str) -> Any:
-        """Return a class of layers, which begins with a capital letter as no module does."""
+        """Return the class `name` of `atlas.pictures.layers`. Raises AttributeError for a name in small letters."""
         if not name[0].isupper():
             raise AttributeError(f"module 'atlas.pictures' has no attribute {name!r}")
         import atlas.pictures.layers as classes

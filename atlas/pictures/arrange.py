@@ -13,13 +13,13 @@ from atlas.pictures.layers import FloatArray, Image, Layer, Panel, Plane, Scene,
 from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.35
-"""A figure is at most so many times as high as it is wide, and so much larger must panels be for each time."""
+"""Largest height over width of a figure; loss in the logarithm of the panels' scale per unit of height over width."""
 _LOW, _LARGER, _LEAST = 0.9, 1.1, 0.01
-"""Curves made narrower keep this ratio of height to width if they have room; all else grows so much at most."""
+"""Least height over width of narrowed curves; largest growth of other panels' height; least scale of a panel."""
 _SMALLEST = 0.4
-"""Panels of a smaller part of their size can't be read."""
+"""Least readable scale of a panel relative to its own size."""
 _FITS = 0.7
-"""A figure is given a column if that is as wide as this part of it."""
+"""Least width of a target relative to a figure's own for which the figure is given this target."""
 _AXES, _NAMES = (16.0, 12.0), (10.0, 14.0)
 """Millimetres beside and below two axes for their labels, and about a drawing in space for its names."""
 _BAR = 16.0
@@ -28,7 +28,10 @@ _BAR = 16.0
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Panels in columns of a width, rows of these heights, in millimetres of a journal, and how large beside before."""
+    """Panels in `columns` columns, with the heights of the `rows` in millimetres.
+
+    `scale` is the size of the smallest panel relative to its own size before.
+    """
 
     panels: tuple[Panel, ...]
     columns: int
@@ -71,7 +74,10 @@ def _reduced(scene: Scene) -> Scene:
 
 
 def _arranged(scene: Scene, target: Target) -> Scene:
-    """Return a scene with all its panels, in the arrangement that makes them largest."""
+    """Return a scene with all its panels, in the arrangement that makes them largest on the least paper.
+
+    Raises AtlasError for a scene that cannot be read at the target's width and height.
+    """
     width = target.width / target.zoom
     if width < scene.narrowest:
         wide = [name for name, option in TARGETS.items() if option.width / option.zoom >= scene.narrowest]
@@ -96,7 +102,7 @@ def _arranged(scene: Scene, target: Target) -> Scene:
 
 
 def suited(scene: Scene, targets: Sequence[Target]) -> Target:
-    """Return the first target, narrowest first, at which a scene is not much smaller than its own size."""
+    """Return the first target with at least 0.7 of a scene's width, and not below its `narrowest`; else the last."""
     for target in targets[:-1]:
         if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):
             return target
@@ -104,7 +110,7 @@ def suited(scene: Scene, targets: Sequence[Target]) -> Target:
 
 
 def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrangement]:
-    """Yield the arrangements of a scene in a width and height; with panels for a narrow screen, those too."""
+    """Yield the arrangements of a scene in a width and height, mm: by numbers of columns, then its `narrow` panels."""
     count = len(scene.panels)
     before = scene.size[0] / scene.columns, scene.size[1] / -(-count // scene.columns)
     for columns in range(1, count + 1):
@@ -188,10 +194,10 @@ WIDTH = 90.0
 
 
 def narrowed(scene: Scene) -> Scene | None:
-    """Return a scene in as few columns as leave its panels no smaller; None if that is its own arrangement.
+    """Return a scene laid out for a phone, 90 mm wide; None if its own arrangement serves.
 
-    A column of wide panels of curves is only made narrower: words stay readable. A scene with `narrow` panels is drawn
-    with these.
+    The number of columns is the largest whose panels are no smaller than before. A single column of panels with two
+    axes is only made narrower. A scene with `narrow` panels gets these, in one column.
     """
     panels, (width, height) = len(scene.panels), scene.size
     rows = -(-panels // scene.columns)

@@ -22,10 +22,11 @@ def sphere(
     elevation: float,
     role: str = "field",
 ) -> Space:
-    """Return a panel with the unit sphere and the trace of the axis, the vector `upright` upwards.
+    """Return a panel with the unit sphere and the path of the body's axis, rotated so that `upright` points upwards.
 
-    `upright` has components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
-    to `length`, first in `pieces` pieces.
+    `upright` has components along e2 and e3, or all three. `third_axis` maps times (N,) to the axis R e3 (N, 3); the
+    path is drawn from t = 0 to `length`, sampled from `pieces` equal parts on. `name` is the panel's title, `label`
+    that of the upward arrow, `elevation` the height of view in degrees.
     """
     sag = tolerance(1.4)
     trace = curve(lambda t: erected(third_axis(t), upright), 0.0, length, sag, pieces=pieces)
@@ -40,7 +41,7 @@ def erected(points: FloatArray, upright: Sequence[float]) -> FloatArray:
 def traced_sphere(
     name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float, role: str = "field"
 ) -> Space:
-    """Return the sphere with a trace (N, 3) that is turned already."""
+    """Return a panel with the unit sphere, an upward arrow and a path `trace` (N, 3), which is not rotated further."""
     sag = tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [
@@ -54,7 +55,7 @@ def traced_sphere(
 
 
 def _turn(x: float, y: float, z: float) -> FloatArray:
-    """Return the rotation that takes a vector to e3: about e3 into the plane of e2 and e3, then about e1."""
+    """Return the matrix (3, 3) that takes a vector to e3: about e3 into the plane (e2, e3), then about e1."""
     level = float(np.hypot(x, y))
     cos, sin = (y / level, x / level) if level and x else (1.0, 0.0)
     tilt_sine, tilt_cosine = np.array((level if x else y, z)) / np.hypot(level, z)

@@ -49,13 +49,13 @@ def listed(items: Sequence[str], conjunction: str = "and") -> str:
 
 
 def quotient(ratio: Any) -> float:
-    """Return I = I3/I2, (33), of a number or a body, for a sentence and for nothing finer."""
+    """Return I = I3/I2, (33), of a number or a body, rounded to a float for use in a sentence."""
     I2, I3 = moments(ratio)
     return float(I3 / I2)
 
 
 def body_name(ratio: Any) -> str:
-    """Return the paper's name for a body with this I = I3/I2, (33); decided on I3 against I2 as given."""
+    """Return the paper's name for a body: loop, ball, short or long solenoid, by an exact comparison of I3 and I2."""
     I2, I3 = moments(ratio)
     if I3 == 2 * I2:
         return "loop"
@@ -65,14 +65,14 @@ def body_name(ratio: Any) -> str:
 
 
 def body_role(ratio: Any) -> str:
-    """Return the role of a body's layers where several bodies are compared: each kind has its colour."""
+    """Return the role, such as "loop_body", of a body's layers where several bodies are compared."""
     return f"{body_name(ratio).partition(' ')[0]}_body"
 
 
 def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> str:
-    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3), free where it is zero.
+    """Return TeX such as 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption, from field = (B2, B3).
 
-    ``article`` is its first word: 'A' where a sentence begins with it.
+    Without a field the text is 'a free loop with I = 2'. ``article`` is the first word, 'A' at a sentence's beginning.
     """
     body = f"{body_name(ratio)} with $I={tex(quotient(ratio))}$"
     if not any(field):

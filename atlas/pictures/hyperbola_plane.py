@@ -20,7 +20,7 @@ NAMES = ("B2", "B3")
 
 @dataclass(frozen=True)
 class Window:
-    """A rectangle of the plane (omega2, omega3), or (omega2, something else), by its limits."""
+    """A rectangle of the plane with omega2 as abscissa, by its limits (lowest, highest) along x and y."""
 
     x: tuple[float, float]
     y: tuple[float, float]
@@ -63,7 +63,8 @@ def components(field: Any) -> tuple[float, float]:
 def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
     """Return the window that reaches ``reach`` times each component of the field from the centre.
 
-    If ``square``, it reaches as far in both directions, so many times the larger component.
+    For a component that is zero the larger one is taken; if ``square``, the larger one in both directions. Raises
+    DomainError without a field.
     """
     B2, B3 = components(field)
     largest = max(abs(B2), abs(B3))
@@ -72,10 +73,10 @@ def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
 
 
 def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, float]) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2) of the curve (67) that the window shows, drawn ``millimetres`` wide and high.
+    """Return the pieces (N, 2) of the curve (67) in the window, which is drawn ``millimetres`` wide and high.
 
-    With x = (omega2 + B2)/B2 each branch (71) runs in log |x| from the edge of the window to where it has left the
-    window at the pole. For I = 1, B3 = 0 or B2 = 0 it is straight lines.
+    With x = (omega2 + B2)/B2 each branch (71) is sampled in log |x| from the edge of the window to the pole. For
+    B2 = 0 the curve is the line omega2 = 0, for I = 1 or B3 = 0 a sloping or level line and the pole.
     """
     B2, B3 = components(field)
     I, one_less, _ = shape_factors(ratio)
@@ -98,10 +99,10 @@ def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, flo
 def graph(
     function: Callable[[FloatArray], Any], B2: float, view: Window, inner: float, millimetres: tuple[float, float]
 ) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2) that the window shows of a graph over omega2 with the pole -B2.
+    """Return the pieces (N, 2), in the window, of a graph over omega2 with a pole at -B2.
 
-    ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``inner``, where the graph has left the
-    window at the pole.
+    ``function`` maps x = (omega2 + B2)/B2 (N,) to ordinates (N,). It is sampled in log |x| from |x| = ``inner``, where
+    the graph has left the window near the pole.
     """
     outer = max(abs(edge + B2) for edge in view.x) / abs(B2)
     inner = min(inner, outer / 2)
@@ -128,7 +129,7 @@ def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
 
 
 def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
-    """Return the intervals of omega2 with motions unstable against nutation: none, one, or one for each branch."""
+    """Return the intervals (low, high) of omega2 with motions unstable against nutation: none, one or two."""
     B2, _ = components(field)
     band = Hyperbola(ratio, field).unstable_band if B2 else None
     if band is None:
@@ -153,7 +154,7 @@ def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
 
 @dataclass(frozen=True)
 class Place:
-    """A named point of the family: its name in a figure and in a sentence, position and role."""
+    """A named point of the hyperbola: name in a figure, name in a sentence, (omega2, omega3), and role."""
 
     text: str
     words: str
@@ -162,10 +163,10 @@ class Place:
 
 
 def places(ratio: Any, field: Any) -> tuple[Place, ...]:
-    """Return the named points of the hyperbola (67): at rest, -2 B', and -(2-I) B2, where omega3 = 0 again.
+    """Return the named points of the hyperbola (67): rest, -2 B', and omega2 = -(2-I) B2, where omega3 = 0 again.
 
-    The last is the state of rest for I = 2 and lies at the pole for I = 1. It is left out in these cases, and for B2 =
-    0 or B3 = 0, where it is not distinguished.
+    The third is left out for I = 2, where it is the state of rest, for I = 1, where it is the pole, and for B2 = 0 or
+    B3 = 0.
     """
     B2, B3 = components(field)
     special = Hyperbola(ratio, field).special
@@ -180,7 +181,7 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
 
 
 def marked(named: Sequence[Place], field: Any) -> list[Layer]:
-    """Return layers that mark and name the centre -B' and some named points."""
+    """Return layers that mark and name the centre -B' and the named points, the first three of these with a label."""
     centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
     return [
         Points(centre[None], "centre"),

@@ -43,7 +43,7 @@ class Points:
 class Arrow:
     """A vector drawn from ``tail`` to ``tip``, with its name ``offset`` printer's points away from the tip.
 
-    Without an offset the name stands just beyond the tip. It is moved a little where it would cover something.
+    Without an offset the name stands just beyond the tip. The name is moved a little where it would cover something.
     """
 
     tail: FloatArray
@@ -56,10 +56,10 @@ class Arrow:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text at a position, ``offset`` printer's points away; with offset (0, 0) it is centred there and fixed.
+    """Text at a position, ``offset`` printer's points away; with offset (0, 0) the text is centred there and fixed.
 
-    ``at`` may hold several positions (N, 2) or (N, 3), the best first. In a panel with two axes it is also the legend's
-    label of the last preceding unlabelled curve or points of its role.
+    ``at`` may hold several positions (N, 2) or (N, 3), the best first. In a panel with two axes the text is also the
+    legend's label of the last preceding unlabelled curve or points of the same role.
     """
 
     at: FloatArray
@@ -141,8 +141,8 @@ class Plane:
 class Space:
     """A panel in three dimensions, seen in parallel projection from ``azimuth`` and ``elevation`` (degrees).
 
-    With azimuth 0 the eye looks along -e1: e2 points right and e3 up, as in the paper's figures. Panels of one ``span``
-    (how much is shown at least, to the right and upwards) have one scale.
+    With azimuth 0 the eye looks along -e1: e2 points right and e3 up, as in the paper's figures. ``span`` is the least
+    width and height shown, in units of the coordinates; panels of the same span have the same scale.
     """
 
     layers: tuple[Layer, ...]
@@ -160,14 +160,13 @@ class Scene:
     """One figure: its panels row by row, its size in millimetres, and its words.
 
     ``title`` is by default the recipe's, the first line of its docstring. ``caption`` and ``alt`` are complete
-    sentences, ``alt`` without TeX; each figure with panels has both. ``parameters`` are those that the figure was made
-    with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in {"dashed":
-    "asymptote"}: a line that a caption names must be visible. ``commands`` make tables of the numbers that are drawn.
-    ``narrow`` holds the panels for a narrow screen, one below the other, each as high as a row of the figure, where the
-    figure's own would only become smaller. ``paths`` are functions of time, by name, that move the layers with this
-    name in ``rides``, for a time ``lasts``. ``narrowest`` is the width in millimetres below which it can't be read, as
-    its recipe declares it; ``rows`` are the heights of the rows, equal ones if it is empty. ``spare`` holds the indices
-    of panels that are left out of a slide or a column in which all would be too small.
+    sentences, ``alt`` without TeX; each figure with panels has both. ``parameters`` are the values used, in the order
+    of the recipe. ``named`` maps words of the caption to roles, as in {"dashed": "asymptote"}: a line that a caption
+    names must be visible. ``commands`` are command lines that make tables of the numbers drawn. ``narrow`` has the
+    panels for a narrow screen, one below the other, each as high as a row of the figure. ``paths`` are motions (`Path`)
+    by name; a path moves the layers with its name in ``rides``, from t = 0 to ``lasts``. ``narrowest`` is the width in
+    millimetres below which the figure is unreadable. ``rows`` are relative heights of the rows; empty for equal ones.
+    ``spare`` has the indices of panels left out of a slide or column in which all would be too small.
     """
 
     title: str = ""
@@ -197,12 +196,12 @@ def frame(space: Space) -> FloatArray:
 
 
 def cloud(space: Space) -> FloatArray:
-    """Return all the points (N, 3) of a panel that must be seen. Raises AtlasError for a layer without a depth."""
+    """Return all points (N, 3) of a panel's layers. Raises AtlasError for a `Region` or an `Image`."""
     return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in points_of(layer)])
 
 
 def points_of(layer: Layer) -> Iterator[FloatArray]:
-    """Yield the points of a layer in space, or of curves and points in a plane; AtlasError for areas of a plane."""
+    """Yield arrays (..., 2) or (..., 3) of the points of a layer. Raises AtlasError for a `Region` or an `Image`."""
     if isinstance(layer, Curve | Points):
         yield layer.points
     elif isinstance(layer, Arrow):

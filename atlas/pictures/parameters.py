@@ -17,7 +17,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "horizon": (1e-3, 1e9),
     "columns": (1, 6),
 }
-"""Ends of parameters that have one meaning in all recipes; a recipe may set others by a RANGES of its own."""
+"""Least and largest values of parameters common to all recipes; a recipe may set others by a RANGES of its own."""
 
 MEANINGS: Mapping[str, str] = {
     "ratio": "I = I3/I2, above 0 and at most 2",
@@ -44,10 +44,10 @@ MEANINGS: Mapping[str, str] = {
 """Meaning of parameters that are common to all recipes."""
 
 MAX_VALUES = 40
-"""Values in a list: each is a curve or a panel."""
+"""Largest number of values in a list: each is a curve or a panel."""
 
 DRAWABLE_SIZES = 1e-60, 1e60
-"""Numbers that can be drawn, zero apart: their fourth powers are floats."""
+"""Least and largest magnitude, besides zero, of a number that can be drawn: fourth powers are floats."""
 
 COUNTS = {2: "two", 3: "three", 4: "four"}
 
@@ -56,7 +56,8 @@ def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tu
     """Return the value of a parameter converted to its annotation, or to the type of its default.
 
     A list becomes a tuple, an integer a float, one number a tuple of one where any length is allowed, and a flat list
-    is divided into tuples of the annotated length. Raises AtlasError, which names the parameter and the expected value.
+    is divided into tuples of the annotated length. `hint` is the annotation or None, `ends` are limits by name. Raises
+    AtlasError, which names the parameter and the expected value, for another type and beyond the limits.
     """
     kind = _kind(default) if hint is None else hint
     try:
@@ -97,11 +98,11 @@ def typed(value: Any) -> str:
 
 
 class _Unfit(Exception):  # noqa: N818  it carries the remedy, and never leaves this file
-    """A value does not fit; the message is the expected kind, in words."""
+    """A value does not fit its annotation; the message is the expected type, in words."""
 
 
 def _kind(default: Any) -> Any:
-    """Return the annotation inferred from a default."""
+    """Return the annotation inferred from a default value: its type, for a tuple the types of its items, else Any."""
     if isinstance(default, tuple) and default:
         return GenericAlias(tuple, tuple(map(_kind, default)))
     return Any if default is None or default == () else type(default)
@@ -132,7 +133,7 @@ def _fit(value: Any, kind: Any) -> Any:
 
 
 def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return a list of a fixed or of any length."""
+    """Return a list as a tuple with items of the annotated types `inner`. Raises _Unfit for another length or type."""
     is_open = inner[-1] is Ellipsis
     kinds = set(inner) - {Ellipsis}
     plural = _PLURAL.get(inner[0], "values") if len(kinds) == 1 else "values"

@@ -9,14 +9,14 @@ from atlas.pictures.layers import FloatArray
 
 _ROUNDS = 40
 MAX_POINTS = 1_000_000
-"""Points of a curve, beyond which it cannot be drawn."""
+"""Largest number of points of a curve."""
 _INCH, _DPI = 25.4, 300.0
 _LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
-"""Where a piece is looked at: each plain bend, turned over or not, shows 93 of 100 parts of its sag at one of them."""
+"""Fractions of a piece at which its distance from the chord is measured: one of them shows 93 % of a simple bend's."""
 _LEAVE, _AIM = 0.9, 0.8
-"""A piece is left at so much of the tolerance, and cut for so much of it."""
+"""Fraction of the tolerance below which a piece is not divided, and at which a division aims."""
 _ARC, _EVEN, _FEW = 0.2, 1.5, 3
-"""A chord that sags less than a fifth of its length, like one parabola at all samples, is cut at once to the end."""
+"""Limits for dividing a piece at once: distance over chord, spread of bends; else the largest number of cuts."""
 
 
 def quarter_pixel(extent: float, millimetres: float) -> float:
@@ -34,12 +34,12 @@ def curve(
     box: tuple[FloatArray, FloatArray] | None = None,
     scale: FloatArray | float = 1.0,
 ) -> FloatArray:
-    """Sample ``function`` from ``start`` to ``stop`` so that no chord is further than ``tolerance`` from the curve.
+    """Return points (N, D) of ``function`` from ``start`` to ``stop``, with chords within ``tolerance`` of the curve.
 
-    ``function`` takes parameters (N,) and returns points (N, D); it is first cut into ``pieces`` equal parts, each of
-    which is cut again until three inner points of it, placed so that no symmetry deceives, lie on the chord. Parts that
-    lie wholly on one outer side of ``box`` = (lowest, highest corner) are left as they are. Distances are those of the
-    points times ``scale`` (D,).
+    ``function`` takes parameters (N,) and returns points (N, D). Its range is first cut into ``pieces`` equal parts,
+    each of which is cut again until three inner points, placed without symmetry, lie on the chord. Parts that lie
+    wholly on one outer side of ``box`` = (lowest, highest corner) are not cut. Distances are those of the points times
+    ``scale`` (D,). Raises DomainError for more than a million points and for points that are not finite.
     """
     return _cut(function, start, stop, tolerance, pieces, box, scale)[1]
 
@@ -60,9 +60,10 @@ def flat(
     *,
     pieces: int = 8,
 ) -> FloatArray:
-    """Sample a curve (N, 2) of a panel with these ``limits`` of x and y to a quarter of a pixel, and only inside it.
+    """Return points (N, 2) of a curve in a panel with the ``limits`` of x and y, sampled to a quarter of a pixel.
 
-    ``millimetres`` are the panel's width and height on paper.
+    Outside the limits the curve is not refined. ``millimetres`` are the panel's width and height on paper. Raises
+    DomainError as `curve` does.
     """
     low, high = np.array(limits).T
     scale = np.array(millimetres) / (high - low)
@@ -85,7 +86,7 @@ def _cut(
     box: tuple[FloatArray, FloatArray] | None,
     scale: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return parameters and points of an adaptively divided curve; the sag falls with the square of the division."""
+    """Return parameters (N,) and points (N, D) of a curve divided adaptively, see `curve`."""
     if pieces > MAX_POINTS:
         raise DomainError(
             f"A curve over that many turns needs more than {MAX_POINTS} points: ask for a shorter part of it."
@@ -132,7 +133,7 @@ def _cut(
 
 
 def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Distance of the points ``y`` from the segments ``a b``, row by row."""
+    """Distances (N,) of the points ``y`` (N, D) from the segments from ``a`` to ``b``, row by row."""
     chord = b - a
     length = np.einsum("ij,ij->i", chord, chord)
     shares = np.einsum("ij,ij->i", y - a, chord) / np.where(length > 0.0, length, 1.0)
@@ -154,8 +155,8 @@ def cuts(
 ) -> FloatArray:
     """Return parameters (N,), common to several ``lines`` on a quadric, at which its mesh is divided.
 
-    Between two of them no chord of these lines leaves the quadric by more than ``tolerance``, and the unit normal is
-    linear to `SHADE`: turning by an angle d it departs by d^2/8, so that the light on a face is right to its last bit.
+    Between two neighbours no chord of the lines is further than ``tolerance`` from the quadric, and the unit normal is
+    linear up to `SHADE`, so that the shade of a face is right to its last bit.
     """
 
     def of_line(line: Callable[[FloatArray], FloatArray]) -> Callable[[FloatArray], FloatArray]:

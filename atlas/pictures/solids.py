@@ -28,19 +28,19 @@ def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float
 def arc(
     centre: FloatArray, east: FloatArray, north: FloatArray, start: float, stop: float, tolerance: float
 ) -> FloatArray:
-    """Return centre + first cos s + second sin s for s from start to stop, shape (N, 3), sampled to a tolerance."""
+    """Return points (N, 3) of centre + east cos s + north sin s for s from start to stop, sampled to a tolerance."""
     return sample.curve(ellipse(centre, east, north), start, stop, tolerance)
 
 
 def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable[[FloatArray], FloatArray]:
-    """Return the function centre + first cos s + second sin s of s (N,), with values (N, 3)."""
+    """Return the function centre + east cos s + north sin s of s (N,), with values (N, 3)."""
     return lambda s: centre + np.cos(s)[:, None] * east + np.sin(s)[:, None] * north
 
 
 def around(
     quadric: FloatArray, centre: FloatArray, east: FloatArray, north: FloatArray, tolerance: float
 ) -> FloatArray:
-    """Return the angles (N,) of the meridians of a round surface; the ellipse given is its widest section."""
+    """Return the angles s (N,) of the meridians of a round surface with the widest section `ellipse(centre, ...)`."""
     return sample.cuts(quadric, [ellipse(centre, east, north)], 0.0, TURN, tolerance)
 
 
@@ -72,9 +72,9 @@ def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sph
 
 
 def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolerance: float) -> Surface:
-    """Return the cone of half-angle ``angle`` around the unit vector ``axis``, its side ``length`` long.
+    """Return the cone of half-angle ``angle`` in rad around the unit vector ``axis``, its side ``length`` long.
 
-    With a right angle it is a disk: the form of the cone is then a square, which has no normal where it is zero.
+    At a right angle a disk is returned, for the quadratic form of the cone is then a square and has no normal.
     """
     c, s = float(np.cos(angle)), float(np.sin(angle))
     if abs(c) < _FLAT:
@@ -93,7 +93,7 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
 
 
 def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
-    """Return a disk whose outer side is the one that ``axis`` points to."""
+    """Return a disk across the unit vector ``axis``, which points to its outer side."""
     east, north = transverse_axes(axis)
     ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
@@ -106,7 +106,7 @@ def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, 
 def cylinder(
     centre: FloatArray, axis: FloatArray, radius: float, height: float, tolerance: float, role: str = "body"
 ) -> Surface:
-    """Return the side of a cylinder around the unit vector ``axis``."""
+    """Return the side wall of a cylinder around the unit vector ``axis``, without its lids."""
     east, north = transverse_axes(axis)
     form = np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)
@@ -119,7 +119,7 @@ def cylinder(
 
 
 def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str = "plane", label: str = "") -> Surface:
-    """Return the rectangle centre + a first + b second with a, b in [-1, 1]; first and second are orthogonal."""
+    """Return the rectangle centre + a east + b north with a, b in [-1, 1]; east and north are orthogonal."""
     units = [v / np.linalg.norm(v) for v in (east, north)]
     normal = np.cross(units[0], units[1])
     sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])

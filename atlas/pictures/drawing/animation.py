@@ -1,4 +1,4 @@
-"""A figure that moves: one scene after the other in one figure, all frames in one view and at one scale."""
+"""Animations: one scene after the other in one figure, all frames in one view and at one scale."""
 
 from base64 import b64encode
 from collections.abc import Callable, Iterator, Sequence
@@ -22,20 +22,21 @@ from atlas.pictures.drawing.view import Placement, hold, named
 from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, cloud, frame
 
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
-"""Kinds of files, and how many frames a second each can have."""
+"""Largest number of frames per second, by kind of file."""
 FPS, FRAMES, MAX_FRAMES = 20.0, 60, 2000
 MAX_PERIODS = 8
-"""Periods of a motion after which its animation ends at the latest, back at its start or not."""
+"""Largest number of periods of a motion in its animation, whether the motion is closed or not."""
 _SCREEN = 96
 Progress: TypeAlias = Callable[[int, int, str], None]
 Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
-"""Data of a panel that decide its view: extreme points and names of one in space, the limits of one with two axes."""
+"""Data that decide a panel's view: in space a panel of extreme points and names, else the limits of both axes."""
 
 
 class Frames:
     """Frames of an animation in one figure; `make(k)` returns the scene of frame k, 0 <= k < `count`.
 
-    Each scene is made twice, first for a view that holds all, so that none stays in memory.
+    Each scene is made twice, first to find a view that contains all scenes, so that no scene stays in memory. Raises
+    AtlasError for scenes with different panels.
     """
 
     def __init__(self, make: Callable[[int], Scene], count: int, style: Any, progress: Progress) -> None:
@@ -52,7 +53,7 @@ class Frames:
         self._placements: dict[tuple[int, tuple[float, float]], Placement] = {}
 
     def draw(self, k: int) -> None:
-        """Draw a frame."""
+        """Draw frame k into the figure, in the place of the one before."""
         self.figure.clear()
         to_figure(self._scene(k), self.style, figure=self.figure, hold=self._hold)
         self.progress(self.count + k + 1, 2 * self.count, "frames")
@@ -70,16 +71,16 @@ class Frames:
         return replace(panel, x_limits=x, y_limits=y)
 
     def _hold(self, i: int, window: tuple[float, float]) -> Placement:
-        """Return the view of a panel in space that all frames have."""
+        """Return the `Placement` of panel i in space, common to all frames, in a window (width, height) in points."""
         if (i, window) not in self._placements:
             self._placements[i, window] = hold([extent[i] for extent in self.extents], window)
         return self._placements[i, window]
 
 
 class Moving(FuncAnimation):
-    """An animation that shows itself in a notebook, as a GIF: Matplotlib's own player asks a foreign host for icons.
+    """A Matplotlib animation that a notebook shows as a GIF, since Matplotlib's player loads icons from another host.
 
-    `jumps` tells whether it is known that the last frame does not lead back to the first.
+    `jumps` is True where the last frame certainly does not lead back to the first.
     """
 
     fps = FPS
@@ -123,7 +124,10 @@ def animation(
     style: StyleLike = None,
     progress: Progress | None = None,
 ) -> Moving:
-    """Return `count` scenes as a Matplotlib animation. Raises AtlasError for fewer than two, or too many."""
+    """Return the scenes `make(k)`, 0 <= k < count, as a Matplotlib animation.
+
+    Raises AtlasError unless 2 <= count <= 2000, for `fps` that is not positive, and for scenes with different panels.
+    """
     if not 2 <= count <= MAX_FRAMES:
         raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
     fps = positive(fps, "fps")
@@ -199,10 +203,11 @@ def animate(
 
 
 def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> Moving:
-    """Return a motion at these times as an animation; `options` as for `animation`.
+    """Return the animation of a motion, a frame for each of the times; `options` as for `animation`.
 
-    Without times it lasts as many periods, up to `MAX_PERIODS`, as bring the body back; where none do, it lasts one,
-    and its loop jumps. In a loop that closes every frame has the whole trace.
+    Without times the animation lasts the least number of periods, up to `MAX_PERIODS`, that brings the body back to its
+    attitude; if no number does, one period, and `jumps` is True. If the body comes back, every frame has the whole path
+    of the axis.
     """
     length, count, closed = any_motion.period(motion), 1, False
     if times is None:
@@ -233,9 +238,9 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
 
 
 def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -> None:
-    """Write an animation as an mp4, gif or apng, whole or not at all.
+    """Write an animation as an mp4, gif or apng; the file at `path` is replaced only by a complete one.
 
-    Raises AtlasError where `check` does, and where the new file stands beside one that was edited, see
+    Raises AtlasError where `check` does, and where the new file was written beside an edited one, see
     `atlas.files.keeping`; OSError where the file can't be written.
     """
     check(kind, fps)

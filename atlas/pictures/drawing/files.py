@@ -1,4 +1,4 @@
-"""A scene into files: each whole or not at all, the same bytes each time."""
+"""Scenes written to files, each complete or not at all; equal scenes give equal bytes."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -68,7 +68,10 @@ def save(
 
 
 def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
-    """Return (renderer that will be used, reason if it differs from the requested one or "")."""
+    """Return (renderer that will be used, reason why it is not the requested one or "").
+
+    For a scene without a panel in space the renderer is "vector", without a reason. Raises AtlasError for another name.
+    """
     if renderer not in {"vector", "shaded"}:
         raise AtlasError(f"no renderer {renderer!r}; known: vector, shaded")
     if renderer == "vector" or not any(isinstance(panel, Space) for panel in scene.panels):
@@ -79,7 +82,7 @@ def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
 
 
 def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
-    """Write a figure without a date; the scene's title and description travel inside."""
+    """Write a figure to a file without a date; title and description of the scene are metadata of svg, pdf and png."""
     metadata = {
         "svg": {"Date": None, "Title": scene.title, "Description": scene.alt},
         "pdf": {"CreationDate": None, "Title": scene.title, "Subject": scene.alt},
@@ -106,9 +109,9 @@ def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
 
 
 def _short(svg: str) -> str:
-    """Return an SVG whose paths are to a hundredth of a point, each point from the one before, none twice in a row.
+    """Return an SVG a third as long: relative paths in hundredths of a point, without repeated points.
 
-    It is a third as long; places are rounded, not steps, so that roundings don't add up.
+    Positions are rounded, not steps, so that roundings don't add up.
     """
 
     def path(matched: re.Match[str]) -> str:
@@ -150,7 +153,7 @@ def _opaque(path: Path) -> None:
 def _write_pgf(figure: "Figure", path: Path) -> None:
     r"""Write a figure as PGF commands, for ``\input`` in a LaTeX document; primes are TeX again.
 
-    Matplotlib would ask LaTeX for the size of each text; here it measures them itself, so that none need be installed.
+    Texts are measured by Matplotlib, which would otherwise ask LaTeX: no LaTeX needs to be installed.
     """
     from matplotlib.backend_bases import RendererBase
     from matplotlib.backends.backend_pgf import RendererPgf
@@ -185,7 +188,7 @@ def _formulas_parsed_once() -> Iterator[None]:
 
 @contextmanager
 def _replaced(owner: Any, name: str, value: Any) -> Iterator[None]:
-    """Give an attribute of Matplotlib's or fontTools' another value for a while."""
+    """Context in which an attribute of `owner` has another value."""
     before = getattr(owner, name)
     setattr(owner, name, value)
     try:

@@ -30,7 +30,7 @@ Field = Callable[[FloatArray], FloatArray]
 
 _ON = 1e-9
 _ALL = np.ones(3)
-"""With it the corners of triangles are added up; a sum along so short an axis takes twenty times as long."""
+"""Vector whose product adds up a triangle's three corners: `sum` along so short an axis takes twenty times as long."""
 
 
 def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
@@ -108,7 +108,7 @@ Triangles: TypeAlias = tuple[FloatArray, FloatArray, NDArray[np.uint8]]
 """Corners (3 T, 3), unit normals (3 T, 3), and red, green, blue and opacity (3 T, 4) from 0 to 255."""
 
 AMBIENT = 0.66
-"""How much of its own colour glass shows where no light shines on it."""
+"""Ambient light: fraction of its own colour that an unlit surface shows."""
 UNLIT = np.array([0.0, -0.6, -0.8])
 """A direction, to the right, up and to the eye, from which no light comes."""
 
@@ -135,7 +135,7 @@ def glass(view: View, pixel: float) -> Triangles:
 
 
 def lattice(rows: int, columns: int) -> NDArray[np.int64]:
-    """Return the triangles (T, 3) of a mesh of rows x columns corners, anticlockwise from where that product points."""
+    """Return the triangles (T, 3) of a mesh of rows x columns corners, as indices of corners numbered row by row."""
     corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
     lower, neighbour, diagonal = corner + columns, corner + 1, corner + columns + 1
     return np.stack([corner, lower, diagonal, corner, diagonal, neighbour], axis=1).reshape(-1, 3)
@@ -147,7 +147,7 @@ def distinct(points: FloatArray) -> FloatArray:
 
 
 def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
-    """Return a line without every second point that lies within the tolerance of the chord, in three passes."""
+    """Return a polyline thinned in three passes: every second point within `tolerance` of the chord is dropped."""
     for _ in range(3):
         before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
         chord = after - before
@@ -160,7 +160,10 @@ def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
 
 
 def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatArray, bool]]:
-    """Yield (triangles (T, 3, 7), whether of a wire): point of the surface, offset from there, opacity."""
+    """Yield (triangles (T, 3, 7), whether of a wire) for the meshes and wires of a surface.
+
+    The seven numbers of a corner are a point of the surface, an offset from there, and an opacity.
+    """
     for grid in surface.grids:
         mesh = _refined(grid)
         points = mesh.reshape(-1, 3)
@@ -173,7 +176,7 @@ def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatA
 
 
 def _refined(grid: FloatArray) -> FloatArray:
-    """Return a mesh with its long cells divided: curves across stay smooth, and needles are drawn badly."""
+    """Return a mesh (M, N, 3) with its long cells divided in both directions: thin triangles are drawn badly."""
     for _ in range(2):
         longest = np.linalg.norm(np.diff(grid, axis=0), axis=2).max(axis=1)
         counts = np.maximum(1, np.ceil(longest / _CELL)).astype(int)
@@ -209,9 +212,9 @@ def _ribbon(line: FloatArray, width: float, view: View, pixel: float) -> FloatAr
 def _painted(
     corners: FloatArray, surface: Surface, view: View, *, wire: bool
 ) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
-    """Return points, normals and colours at the corners (T, 3, ...).
+    """Return points (T, 3, 3), normals (T, 3, 3) and colours (T, 3, 4) at the corners of triangles.
 
-    Each side of a surface has its colour, denser where the line of sight grazes it.
+    Each side of a surface has its colour, more opaque where the line of sight grazes the surface. A wire is not lit.
     """
     on = corners[..., :3]
     outer = facing(surface.quadric, on, view.towards) @ _ALL > 0.0

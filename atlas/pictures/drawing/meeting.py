@@ -1,4 +1,4 @@
-"""Texts of a figure that stand on one another or leave the page: such a figure is not made for a target."""
+"""Texts of a figure that overlap or leave the page: such a figure is not made for a target."""
 
 from itertools import combinations
 from typing import Any
@@ -8,12 +8,11 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 _ACROSS, _UP = 0.1, 0.35
-"""Shares of the size of letters by which boxes of texts that are told apart overlap at most: a box is as high as a
-line, of which letters fill two thirds."""
+"""Largest readable overlap of two texts' boxes, across and upwards, in font sizes: letters fill two thirds of a box."""
 
 
 class Texts(RendererBase):
-    """A renderer that draws nothing and notes each text with its box, in pixels."""
+    """A renderer that draws nothing and keeps each text with its box, in pixels."""
 
     def __init__(self, figure: Figure) -> None:
         super().__init__()
@@ -26,17 +25,17 @@ class Texts(RendererBase):
         return self.figure.bbox.width, self.figure.bbox.height
 
     def points_to_pixels(self, points: float) -> float:
-        """Return a length in pixels."""
+        """Return a length in pixels, from printer's points."""
         return points * self.figure.dpi / 72.0
 
     def draw_path(self, *_: Any) -> None:
-        """Pass over a line."""
+        """Draw no line."""
 
     def draw_image(self, *_: Any) -> None:
-        """Pass over a picture."""
+        """Draw no image."""
 
     def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
-        """Note a text."""
+        """Keep a text that is not blank, with its box."""
         if mtext is not None and s.strip():
             self.texts.append((mtext, mtext.get_window_extent(self)))
 

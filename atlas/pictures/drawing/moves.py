@@ -1,7 +1,7 @@
-"""How a scene moves, as data for the pages: for each path a table of turns and shifts over the time that it lasts.
+"""Motions of a scene as data for the pages: for each path a table of rotations and shifts from t = 0 to `lasts`.
 
-A turn is a quaternion, a shift stands in units of the largest of its path; both are 16-bit numbers, at equal moments.
-Marks of panels with two axes are places in the figure, from its upper left corner, as parts of its size.
+A rotation is a quaternion, a shift is relative to the largest shift of its path; both are 16-bit numbers, at equally
+spaced times. Marks of panels with two axes are positions from the figure's upper left corner, relative to its size.
 """
 
 import json
@@ -27,20 +27,21 @@ from atlas.pictures.layers import FloatArray, Layer, Path, Plane, Points, Scene,
 TABLE_STEPS = 32767
 _PLAIN, _MOST, _LOOKS = 96, 240, 2400
 _TURN = np.radians(12.0)
-"""Between two moments no path turns farther, unless there would be too many of them."""
+"""Largest rotation between two entries of a table, in rad, unless more than `_MOST` would be needed."""
 
 
 def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
-    """Return the script that tells how a scene moves; nothing for one that does not."""
+    """Return the JavaScript call with a scene's motions; "" for a scene without paths."""
     if not scene.paths:
         return ""
     return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
-    """Return the tables of a scene's paths, and the layers that ride on them, for figure and narrow screen.
+    """Return a dict of a scene's motions for JSON: "lasts", "paths" (tables by name), "wide" and "narrow".
 
-    `figures` are as for `atlas.pictures.drawing.viewer.data`.
+    "wide" and "narrow" have the layers that ride on paths in the figure and on a narrow screen; "narrow" is None where
+    the figure serves. `figures` are as for `atlas.pictures.drawing.viewer.data`.
     """
     small = narrowed(scene)
     deep = {layer.rides for panel in scene.panels if isinstance(panel, Space) for layer in _riders(panel)}
@@ -68,7 +69,7 @@ def _steps(path: Path, lasts: float) -> int:
 
 
 def _table(path: Path, times: FloatArray) -> list[Any]:
-    """Return the size of a path's shifts, and quaternions (w, x, y, z) and shifts in base 64."""
+    """Return [largest shift of a path, its quaternions (w, x, y, z) and relative shifts at the times in base 64]."""
     R, s = path(times)
     size = float(np.abs(s).max()) or 1.0
     return [float(f"{size:.7g}"), _packed(np.concatenate([_quaternions(R), s / size], axis=1))]
@@ -79,7 +80,7 @@ def _packed(numbers: FloatArray) -> str:
 
 
 def _quaternions(R: FloatArray) -> FloatArray:
-    """Return unit quaternions (N, 4) of matrices (N, 3, 3), each on the side of the one before."""
+    """Return unit quaternions (N, 4), scalar first, of matrices (N, 3, 3), with signs that make them continuous."""
     quaternions = np.roll(of_matrix(R), 1, axis=-1)
     signs = np.sign(np.einsum("ni,ni->n", quaternions[1:], quaternions[:-1]))
     quaternions[1:] *= np.cumprod(np.where(signs == 0.0, 1.0, signs))[:, None]
@@ -87,7 +88,7 @@ def _quaternions(R: FloatArray) -> FloatArray:
 
 
 def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
-    """Return centre, size and moving layers of each panel in space, and the marks of the other panels."""
+    """Return a dict: "size" of the figure in points, "spaces" as `_riding` gives them, "marks" of panels with axes."""
     figure = next(iter(figures), None) or laid_out(scene)[0]
     panels = list(zip(figure.axes, scene.panels, strict=True))
     times = np.linspace(0.0, scene.lasts, _MOST + 1)
@@ -102,7 +103,11 @@ def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
 
 
 def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
-    """Return centre and size of a panel, and (kind, from, to, path) of the viewer's lines for each layer that rides."""
+    """Return [[centre and size of a panel's view], [[kind, start, stop, path], ...]].
+
+    For each layer that rides on a path, start and stop are the half-open range of its items among the viewer's of a
+    kind.
+    """
     view = fit(panel, room)
     counts: Counter[str] = Counter()
     riding = []
@@ -115,7 +120,7 @@ def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
 
 
 def _kinds(layer: Layer, view: View) -> Iterator[str]:
-    """Yield the kind of all that the viewer has of a layer."""
+    """Yield the kind, such as "surfaces" or "names", of each of the viewer's items for a layer."""
     yield from (kind for kind, _ in viewer.solids(layer, view))
     if isinstance(layer, Surface):
         yield "surfaces"

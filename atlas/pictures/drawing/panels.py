@@ -1,4 +1,4 @@
-"""A scene as a Matplotlib figure: one axes a panel, row by row, with names beside the things that they belong to."""
+"""A scene as a Matplotlib figure: an axes for each panel, row by row, with names beside their layers."""
 
 import reprlib
 from collections.abc import Callable, Iterator, Mapping
@@ -44,7 +44,7 @@ from atlas.targets import Target
 _INCH, _SCREEN = 25.4, 96
 _KEPT = ("pdf.fonttype", "ps.fonttype")
 _WIDER = (1.15, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0)
-"""Widths, over that of a target, at which a figure that can't be read there is tried."""
+"""Widths, relative to a target's, at which a figure that is unreadable at the target is tried."""
 Hold: TypeAlias = Callable[[int, tuple[float, float]], Placement]
 
 
@@ -58,7 +58,7 @@ class SceneFigure(Figure):
     kept: Mapping[str, Any] = MappingProxyType({})
 
     def savefig(self, *args: Any, **options: Any) -> None:
-        """Save as any figure is saved."""
+        """Write the figure as `Figure.savefig` does, with the settings in `kept`."""
         with mpl.rc_context(dict(self.kept)):
             super().savefig(*args, **options)
 
@@ -149,7 +149,7 @@ def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
 
 
 def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
-    """Draw the parts that may move the axes: a plane panel without its names, of a panel in space the title."""
+    """Draw the parts of a panel that may move the axes: all but the names for two axes, the title for one in space."""
     if isinstance(panel, Plane):
         draw_plane(axes, panel, number)
     else:
@@ -214,10 +214,10 @@ _OVER = 10.0
 _BACK, _EVERY = 150, 15
 _FAR, _EDGE = 1e6, 1e-6
 _FEW = 200
-"""Of so few marks the rims are ink too; among the rims of more, names would find no room."""
+"""Largest number of marks whose rims, too, are kept free of names: the rims of more would leave no room."""
 _RIM = np.array([(np.cos(a), np.sin(a)) for a in np.arange(8) * np.pi / 4])
 _FRAME = 1.5
-"""Names keep so far off the frame, clear of its ticks."""
+"""Least distance of names from the frame, in points."""
 
 
 def write_names(axes: Axes, panel: Plane) -> None:
@@ -248,7 +248,7 @@ def write_names(axes: Axes, panel: Plane) -> None:
 def _requests(
     size: tuple[float, float], layer: Layer, places: Places, keyed: bool
 ) -> Iterator[tuple[str, FloatArray, tuple[float, float], str]]:
-    """Yield (text, places, offset, role) for each name that a layer wants written in the panel."""
+    """Yield (text, positions (N, 2), offset, role) for each name of a layer to be written; `keyed` names are not."""
     if isinstance(layer, Label):
         yield layer.text, places(layer.at), layer.offset, layer.role
     elif isinstance(layer, Arrow) and layer.label:
@@ -274,9 +274,9 @@ def _requests(
 
 
 def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[Ink]:
-    """Yield the points of all lines and marks inside the panel, with the index of their layer.
+    """Yield (points (N, 2), cost of covering one, index of the layer) of all lines and marks inside the panel.
 
-    Guides are pale lines without a name, and no other line is taken for one: their points belong to no layer.
+    Points of guides, which are pale lines without a name, belong to no layer.
     """
     for owner, layer in enumerate(panel.layers):
         if isinstance(layer, Curve):

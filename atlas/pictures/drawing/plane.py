@@ -17,18 +17,19 @@ from atlas.pictures.style import INK, WHITE
 
 _AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
 _DECADES = 6
-"""An axis with more powers of ten has no ticks between them: a reader could not tell them apart."""
+"""Largest number of powers of ten on an axis with ticks between them."""
 _NEAR, _TOUCH = 0.47, 1e-9
-"""How far from the middle a mark meets the frame, and how far beyond it still is on it, in sizes of the panel."""
+"""Distance from the middle, in sizes of the panel, above which a mark meets the frame; tolerance of being on it."""
 _CASING = 0.7
 """Dark edge of a white line on a map, both sides together, in printer's points."""
 _BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
 
 
 def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
-    """Draw the layers of the panel of that number, its scales, title, labels, legend and colorbar, but for the names.
+    """Draw into `axes` the layers of a panel, its scales, title, labels, legend and colorbar.
 
-    Raises AtlasError for a layer that belongs into a panel in space.
+    Names of layers (`Label`, and labels without a legend) are not drawn. `number` is the panel's number in the figure,
+    from 1, for the ids of the artists. Raises AtlasError for a layer that belongs into a panel in space.
     """
     _scale(axes, panel)
     axes.spines[:].set_in_layout(False)  # they are where the axes are
@@ -63,7 +64,7 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
 
 
 def _unclip_marks(axes: Axes) -> None:
-    """Draw marks on the frame whole, where none is outside."""
+    """Draw marks that touch the frame in full; a line of marks with one outside the frame stays clipped."""
     for line in axes.lines:
         away = np.abs((axes.transData - axes.transAxes).transform(line.get_xydata()) - 0.5)
         if line.get_marker() != "None" and _NEAR < np.max(away, initial=0.0) <= 0.5 + _TOUCH:
@@ -145,7 +146,7 @@ def _map(axes: Axes, image: Image) -> Any:
 
 
 class _Formatter(ScalarFormatter):
-    """Numbers as plain text, which is drawn four times faster than a formula; their factor as a power of ten."""
+    """Formatter of ticks: numbers as plain text, drawn four times faster than a formula, their factor as TeX."""
 
     def get_offset(self) -> str:
         self.set_useMathText(True)
@@ -156,7 +157,7 @@ class _Formatter(ScalarFormatter):
 
 
 def _factor(axis: Axis) -> str:
-    """Return the power of ten that stands above the numbers of an axis, if any."""
+    """Return, as TeX, the power of ten that stands above the numbers of an axis; "" if there is none."""
     formatter = axis.get_major_formatter()
     formatter.format_ticks(axis.get_majorticklocs())
     return formatter.get_offset()

@@ -31,11 +31,11 @@ _LIGHTS = (
 _SOLID = {"ambient": 0.30, "diffuse": 0.72, "specular": 0.35, "specular_power": 30.0}
 _GLASS = {"ambient": AMBIENT, "diffuse": 0.46, "specular": 0.28, "specular_power": 40.0}
 _MATT = _GLASS | {"specular": 0.0, "ambient": 0.72, "diffuse": 0.34}
-"""Of surfaces whose colours are classes of a value, which a glare would falsify."""
+"""Lighting of surfaces whose colours are classes of a value: a highlight would falsify the colour."""
 _SHINE = (1.0, 1.0, 1.0)
 _SAMPLES = 4
 _OFF = 0.1
-"""How far a tube may be from round, and its middle from the line, in pixels."""
+"""Largest deviation of a tube from a circle, and of its middle from the line, in pixels."""
 _SHARP = float(np.cos(np.radians(25.0)))
 
 
@@ -61,7 +61,7 @@ def still_picture(view: View, width: int, height: int) -> NDArray[np.uint8]:
 
 
 def _add(plotter: pv.Plotter, mesh: pv.PolyData, view: View, **options: Any) -> pv.Actor:
-    """Add a mesh in the coordinates of the view, shaded smoothly by the normals that it has."""
+    """Add a mesh, given in the coordinates of the view, to the plotter and return its actor, shaded by its normals."""
     mesh.points = mesh.points * view.size + view.centre
     actor = plotter.add_mesh(mesh, show_scalar_bar=False, reset_camera=False, render=False, **options)
     actor.prop.interpolation = "Phong"
@@ -115,7 +115,7 @@ def _sides(radius: float) -> int:
 
 
 def _arrow(arrow: Arrow, look: Style, view: View, pixel: float) -> Iterator[pv.PolyData]:
-    """Yield a round shaft and a cone."""
+    """Yield the meshes of an arrow, shaft and cone; nothing for an arrow without a head."""
     tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
     base = head_base(tail, tip, look, view.scale)
     head = float(np.linalg.norm(tip - base))
@@ -132,7 +132,7 @@ def _arrow(arrow: Arrow, look: Style, view: View, pixel: float) -> Iterator[pv.P
 
 
 def _ball(centre: FloatArray, look: Style, view: View, pixel: float) -> pv.PolyData:
-    """Return a marked point."""
+    """Return the mesh of a marked point, a ball."""
     radius = 0.5 * look.tube / view.scale
     sides = _sides(radius / pixel)
     return pv.Sphere(radius=radius, center=centre, theta_resolution=sides, phi_resolution=sides // 2)

@@ -26,17 +26,17 @@ _INSIDE, _TINT, _WIRE, _HIDDEN, _VISIBLE, _HEAD, _MARK = 0.5, 1.0, 1.5, 2.0, 3.0
 _DASH = (2.6, 1.9)
 _TOLERANCE = 0.06
 _SPECK = 0.01
-"""Points of paper: where surfaces touch, rounding leaves pieces of lines that are shorter, and would be dots."""
+"""Length in printer's points below which a piece of a line is not drawn: rounding leaves these where surfaces touch."""
 _LIGHT = np.array([-0.45, 0.62, 0.64])
 _LEVELS = np.linspace(0.02, 0.92, 14)
 _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
-"""Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
+"""Alternating colours of the layers of shade, and their opacity, a multiple of 1/255 as browsers round."""
 
 
 def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement | None = None) -> None:
     """Draw panel `number` with hidden lines, and its names; the axes must be in position.
 
-    The scale is the largest at which it fits, or that of a given placement.
+    The scale is the largest at which the panel fits, or that of a given placement.
     """
     view = fit(panel, window(axes), placement)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
@@ -69,7 +69,7 @@ def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]])
 
 
 class _Drawing:
-    """The artists of a panel in space, and the ink that they are."""
+    """The artists of a panel in space; `ink` has pairs (points (N, 2) of lines and marks, cost of covering one)."""
 
     def __init__(self, axes: Axes, view: View) -> None:
         self.axes, self.view = axes, view
@@ -80,7 +80,7 @@ class _Drawing:
         self._lines: defaultdict[tuple[Any, ...], list[FloatArray]] = defaultdict(list)
 
     def begin(self, layer: Layer, panel: int, place: int) -> None:
-        """Start the next layer: later artists get its group id."""
+        """Start a layer of number `place` in panel number `panel`: later artists get the layer's group id."""
         self._names = (gid(layer, panel, place, piece) for piece in count(1))
 
     def finish(self) -> None:
@@ -92,10 +92,9 @@ class _Drawing:
             self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
 
     def surface(self, surface: Surface) -> None:
-        """Fill both sides, the far parts below the near ones, then draw silhouette, edges and wires.
+        """Fill both sides of a surface, the far parts below the near ones, then draw silhouette, edges and wires.
 
-        Of an opaque surface, a piece of a convex body, only the near part is drawn, its inner side below everything
-        else.
+        For an opaque surface, a piece of a convex body, only the near part is filled; its inner side lies below all.
         """
         look, view = style_of(surface.role), self.view
         opaque = look.fill == 1.0
@@ -130,7 +129,7 @@ class _Drawing:
             self.ink.append((ink_points(flat), weight if visible else 0.4 * weight))
 
     def arrow(self, arrow: Arrow) -> None:
-        """Draw shaft and head; a hidden head is a pale one."""
+        """Draw the shaft and the head of an arrow; a head whose tip is hidden is white."""
         look, view = style_of(arrow.role), self.view
         tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
         base = head_base(tail, tip, look, view.scale)

@@ -1,4 +1,4 @@
-"""How large a text is, before it is drawn."""
+"""Width and height of texts before they are drawn."""
 
 import re
 from functools import cache
@@ -13,7 +13,7 @@ _SET = re.compile(r"\$[^$]*\$|'")
 
 
 def typeset(text: str) -> str:
-    """Return text with primes and apostrophes as characters; mathtext sets its own primes too far off."""
+    """Return text with primes and apostrophes as Unicode characters; Matplotlib's own primes stand too far off."""
 
     def character(matched: re.Match[str]) -> str:
         math = matched[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′")

@@ -1,4 +1,4 @@
-"""The projection of a panel in space: the direction of view, the scale at which all fits, and the names to write."""
+"""The projection of a panel in space: direction of view, the scale at which all layers fit, and the names to write."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -109,7 +109,7 @@ def fit(panel: Space, window: tuple[float, float], placement: Placement | None =
 
 
 def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
-    """Yield the names that a layer wants written; their anchors are on paper at scale 1."""
+    """Yield the name of a layer as a `Tag` anchored on paper at scale 1; nothing without a name."""
     request = named(layer, eye)
     if request is not None:
         text, place, offset, role = request
@@ -151,7 +151,7 @@ def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
 
 
 def _boxes(tags: list[Tag]) -> FloatArray:
-    """Return anchor at scale 1, middle from there, and half the extent of each name, (3, N, 2)."""
+    """Return, for N names, anchor at scale 1, position of the middle from there, and half the extent: (3, N, 2)."""
     boxes = [(tag.anchor, spot(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
     return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
 
@@ -166,7 +166,7 @@ def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArra
 
 
 def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
-    """Return the polyline (N, 3) itself, or the dashes of it, measured in points of the paper along the line."""
+    """Return a list of the dashes (M, 3) of a polyline (N, 3), with lengths in points; [points] for a solid line."""
     if not look.dash:
         return [points]
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])

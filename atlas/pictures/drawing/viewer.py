@@ -28,14 +28,14 @@ from atlas.pictures.layers import Arrow, Curve, FloatArray, Points, Scene, Space
 from atlas.pictures.style import Style, readable
 
 STEPS, GRID = 16000, 16
-"""To the unit of a panel, and to the point of letters."""
+"""Integer steps per unit of a panel, and per printer's point of letters."""
 _FLAT, _NEAR, _POINT = 1e-6, 0.16, 72.0 / 25.4
 _UPPER = np.triu_indices(4)
 _WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"}
 
 
 def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
-    """Return the script that hands a scene to the viewer; nothing for one that is flat, with nothing to turn."""
+    """Return the JavaScript call with a scene for the viewer; "" for a scene without a panel that can be rotated."""
     if not deep(scene):
         return ""
     return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
@@ -47,7 +47,7 @@ def deep(scene: Scene) -> bool:
 
 
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
-    """Return a scene for the viewer: panels in space in the wide and the narrow figure, and all texts.
+    """Return a dict of a scene for the viewer: "wide" and "narrow", the panels in space, and all "texts".
 
     `figures` are the wide and the narrow figure if they are already drawn.
     """
@@ -77,7 +77,7 @@ def _laid_out(
 
 
 def _deep(panel: Space) -> bool:
-    """Tell whether a panel is more than a drawing across the direction of view."""
+    """Return whether the points of a panel differ in depth along the direction of view."""
     depth = cloud(panel) @ frame(panel)[2]
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 
@@ -110,7 +110,7 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
 
 
 def _surface(surface: Surface) -> list[Any]:
-    """Return quadric, half spaces, bounding quadrics, both colours, opacity, and the corners of a box."""
+    """Return a list: quadric, half spaces, bounding quadrics, outer and inner colour, opacity, two corners of a box."""
     look = style_of(surface.role)
     points = cloud(Space((surface,)))
     box = points.min(axis=0) - 1e-3, points.max(axis=0) + 1e-3

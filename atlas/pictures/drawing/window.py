@@ -26,7 +26,7 @@ from atlas.places import folder
 
 _DOTS, _LABEL, _PEELS = 150.0 / 25.4, 20, 10
 _CLOSER = 4.0
-"""How much closer a reader may come before lines show that they have sides."""
+"""Magnification up to which tubes look round."""
 
 
 class ScenePlotter(pv.Plotter):
@@ -45,8 +45,8 @@ class ScenePlotter(pv.Plotter):
 def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
     """Return the panels in space of a scene as a plotter, side by side, in the coordinates of the scene.
 
-    It may be turned: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a scene without
-    a panel in space, and where no GL library can draw.
+    The plotter may be rotated: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a
+    scene without a panel in space, and where no GL library can draw.
     """
     panels = [panel for panel in scene.panels if isinstance(panel, Space)]
     if not panels:
@@ -83,7 +83,7 @@ def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
 
 
 def _add_names(plotter: pv.Plotter, view: View) -> None:
-    """Add the names as labels that keep their size and stay in front; formulas are set by Matplotlib."""
+    """Add the names of layers as labels of constant size in front of all; Matplotlib typesets formulas."""
     import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
 
     requests = [named(layer, view.frame) for layer in view.panel.layers]
@@ -121,7 +121,7 @@ still.complete ? start() : still.addEventListener("load", start);
 
 
 def mimebundle(scene: Scene) -> dict[str, str]:
-    """Return a scene for a notebook: HTML with the viewer in a frame, and plain words."""
+    """Return a scene by MIME type for a notebook: "text/html" with the viewer in a frame, "text/plain" in words."""
     width, height = (round(_SCREEN * length / _INCH) for length in scene.size)
     frame = (
         f'<iframe width="{width}" height="{height}" style="border:0;max-width:100%" sandbox="allow-scripts" '
