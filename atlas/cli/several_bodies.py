@@ -3,6 +3,7 @@
 import shlex
 from collections.abc import Iterator
 from pathlib import Path
+from signal import SIGINT
 from typing import TYPE_CHECKING
 
 import click
@@ -28,20 +29,27 @@ PASSED = {"ignore_unknown_options": True}
 @jobs_option
 @click.argument("words", nargs=-1, type=click.UNPROCESSED)
 def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> int:
-    """Build a report for each row of a table, and an index of their cards; return 1 if a row failed."""
-    from atlas.book.several_bodies import index_of
+    """Build a report for each row of a table, and an index of their cards; return 1 if a row failed.
+
+    After an interruption the index has the rows that were built, and lists the others.
+    """
+    from atlas.book.several_bodies import Row, index_of
 
     context, shared = click.get_current_context(), [word for word in words if word != NAME]
     if context.get_parameter_source("out") is not click.core.ParameterSource.COMMANDLINE:
         out /= table.stem
     rows, status = [*rows_of(table)], 0
-    made = list["Row"]()
+    made = list[Row]()
     with bar(table.name) as tell:
-        for count, (line, own) in enumerate(rows):
-            tell(count, len(rows), f"line {line}")
-            row, ok = _built(line, [*shared, *own], out, jobs)
-            made.append(row)
-            status = status if ok else 1
+        try:
+            for count, (line, own) in enumerate(rows):
+                tell(count, len(rows), f"line {line}")
+                row, ok = _built(line, [*shared, *own], out, jobs)
+                made.append(row)
+                status = status if ok else 1
+        except KeyboardInterrupt:
+            made += [Row(line, own, fault="interrupted") for line, own in rows[len(made) :]]
+            status = 128 + SIGINT
         tell(len(rows), len(rows), "index")
     command = shlex.join(["atlas", "report", NAME, *shared, "--each", str(table)])
     sources = index_of(made, table.name, command)
