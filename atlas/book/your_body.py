@@ -204,7 +204,7 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
 
 def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]:
     """Return the figures of each part that the report has, in their fences; add to `left_out` why some are missing."""
-    wanted = {key: dict[str, Any]() for key in request.family.figures} | maps_of(request)
+    wanted = maps_of(request) | {name: dict[str, Any]() for name in request.family.figures}
     asked_for = {name: values for name, values in wanted.items() if PART.get(name, "motion") in request.parts}
     figures: dict[str, list[str]] = {"card": [], "body": [], "motion": [], "maps": []}
     for block in figures_of(request, asked_for, left_out):
