@@ -6,13 +6,15 @@ from typing import Any
 import numpy as np
 from flint import arb, fmpq
 
+from atlas.arithmetic.given import Given
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import BITS, Number, nearest, rational, workprec
 
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return each double as an exact rational number, rational numbers unchanged, in a tuple."""
-    return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in numbers)
+    """Return each double or single `Given` as an exact rational number, rational numbers unchanged, in a tuple."""
+    singles = (x.at(()) if isinstance(x, Given) else x for x in numbers)
+    return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in singles)
 
 
 def floats(numbers: Iterable[Number]) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 from flint import fmpq
 
 from atlas.arithmetic.dimensions import INERTIA, RATE
-from atlas.arithmetic.given import Given, element
+from atlas.arithmetic.given import Given
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, frozen, plain, real, vectors
 from atlas.arithmetic.numbers import as_rational, length, nearest, workprec
 from atlas.arithmetic.words import exact
@@ -213,17 +213,17 @@ def of_moments(moments: Any, axes: FloatArray) -> Body:
     principal_moments = [real(x, "A moment of inertia") for x in moments]
     common_shape(*(x.shape for x in principal_moments))
     rows = joined_columns(principal_moments)
-    exact: Any = None
+    unrounded: Any = None
     if rows.ndim == 1 and any(isinstance(x, Given) for x in moments):
-        rational = exactly(*moments)
+        rational = exact(*moments)
         for third in [i for i in range(3) if rational[i - 2] == rational[i - 1]][:1]:
             order = [third - 2, third - 1, third]
-            exact, rows, axes = SymmetricBody(moments[third - 1], moments[third]), rows[order], axes[order]
-        exact = exact or tuple(moments)
+            unrounded, rows, axes = SymmetricBody(moments[third - 1], moments[third]), rows[order], axes[order]
+        unrounded = unrounded or tuple(moments)
     for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
         inertia_tensor(row)
     tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
-    return Body(rows, axes, tensor, exact)
+    return Body(rows, axes, tensor, unrounded)
 
 
 def parts(v: FloatArray) -> tuple[Any, Any, Any]:
@@ -248,11 +248,6 @@ def joined_columns(v: list[Any]) -> FloatArray:
 def argument(value: Any, parts: list[Any]) -> Any:
     """Return vectors for storage: one array, or the value as given where floats do not hold the components."""
     return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
-
-
-def exactly(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return the inputs of one motion as exact rational numbers."""
-    return exact(*(element(x, ()) for x in numbers))
 
 
 def attitude_of(attitude: Any) -> FloatArray:

@@ -5,11 +5,9 @@ runs only when its scene is wanted. A name stands for a file in figures/, a path
 """
 
 import ast
-import re
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -25,10 +23,6 @@ from atlas.sources import syntax_tree
 if TYPE_CHECKING:
     from atlas.pictures.layers import Scene
 
-HEAD = re.compile(rb"\A.*?^def scene\(.*?:[ \t]*$", re.DOTALL | re.MULTILINE)
-"""Source of a recipe to the end of the head of its function."""
-DECLARED = re.compile(rb"^(RECORDS|RANGES|NARROWEST|SEEN|ROW)\b", re.MULTILINE)
-"""Line that declares a constant of a recipe."""
 ROWS = ("a body", "its axis", "its map", "tops", "three moments")
 """Rows of the gallery, in their order."""
 
@@ -156,17 +150,9 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
 
 
 def _tree(source: Path) -> ast.Module:
-    """Return the syntax tree of a recipe, without the function's body if all constants precede it, to save time.
-
-    Raises AtlasError for a file that is no Python.
-    """
-    content = source.read_bytes().replace(b"\r\n", b"\n")
-    head = HEAD.match(content)
-    if head is not None and not DECLARED.search(content, head.end()):
-        with suppress(SyntaxError, ValueError):
-            return syntax_tree(head[0] + b"\n    ...\n", str(source))
+    """Return the syntax tree of a recipe. Raises AtlasError for a file that is no Python."""
     try:
-        return syntax_tree(content, str(source))
+        return syntax_tree(source.read_bytes(), str(source))
     except (SyntaxError, ValueError) as error:
         raise _broken(source, error) from error
 

@@ -36,7 +36,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
 from atlas.motions.base import DoubleTurn
 from atlas.motions.elementary.formula import conserved, constants, free, quotient, scalars, turning
-from atlas.motions.start import Start, across, exactly
+from atlas.motions.start import Start, across
 
 
 class Elementary(DoubleRotation):
@@ -249,12 +249,12 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             return None
         body, axes, K, w = start.symmetric
         if omega2 is not None:
-            K1, K2, K3 = exactly(*K)
+            K1, K2, K3 = exact(*K)
             size, turn = across(K1, K2)
             return cls(body, (exact_number(size), exact_number(K3)), omega2, omega3), turn @ axes
         if start.shape or not start.has_field:
             return None
-        K1, K2, K3, w1, w2, w3 = exactly(*K, *w)
+        K1, K2, K3, w1, w2, w3 = exact(*K, *w)
         if w1 * K2 != w2 * K1 or not standing(*exact_moments(body), K1, K2, K3, w1, w2, w3).exact.is_steady:
             return None
         size, turn = across(K1, K2)

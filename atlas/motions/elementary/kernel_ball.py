@@ -27,7 +27,7 @@ from atlas.arithmetic.words import ONE, ZERO, exact
 from atlas.bodies.formula_domain import check_ball
 from atlas.motions.base import DoubleTurn
 from atlas.motions.elementary.formula_ball import rates, turning
-from atlas.motions.start import Start, exactly
+from atlas.motions.start import Start
 
 
 class Ball(DoubleRotation):
@@ -182,7 +182,7 @@ class BallMotion(DoubleTurn[Ball]):
         if start.shape or not start.has_field or not I[0] == I[1] == I[2]:
             return None
         _, axes, field, omega = start.symmetric
-        K, w = exactly(*field), exactly(*omega)
+        K, w = exact(*field), exact(*omega)
         square, projection, size = dot(K, K), dot(w, K), rational(float(I[2]))
         aside = [square * x - projection * y for x, y in zip(w, K, strict=True)]
         with workprec():

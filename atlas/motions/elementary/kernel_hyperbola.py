@@ -11,6 +11,7 @@ from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, as_given, components, plain, positive, real, whole
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
+from atlas.arithmetic.words import exact
 from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
 from atlas.display import Shown
@@ -19,7 +20,6 @@ from atlas.lazy import cached_property
 from atlas.motions.elementary.closed import ClosedMotion
 from atlas.motions.elementary.formula_hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.motions.nutation.top_hyperbola import Branch, halves
-from atlas.motions.start import exactly
 
 if TYPE_CHECKING:
     from atlas.motions.nutation.kernel_general import GeneralMotion
@@ -122,7 +122,7 @@ class Hyperbola(Shown):
         """Exact (I2, I3, B2, B3) of one curve. Raises AtlasError for arrays."""
         if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
             raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
-        return exactly(*self._inputs)
+        return exact(*self._inputs)
 
     @property
     def pole(self) -> FloatOrArray:
