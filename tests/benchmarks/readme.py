@@ -36,9 +36,9 @@ TEXT = """
 {table}
 
 1e-14 is the tightest tolerance on heyoka's list; of SciPy's integrators the rows with the smallest errors on record.
-The formula in C, `tests/benchmarks/compiled.c`, has the accuracy of `rotation` in {compiled:.2f} of its time. For that
-each machine would need a compiler or a wheel of its own, and each kernel a second bound on its errors: so there is one
-way, in NumPy. {processors}
+The formula in C, `tests/benchmarks/compiled.c`, has the accuracy of `rotation` in {compiled:.2f} of its time. It would
+need a compiler or a wheel for each machine, and a second error bound for each kernel; so the package has NumPy only.
+{processors}
 
 Of the {count} limits of speed that `make bench` checks, the record misses {missed}:
 
