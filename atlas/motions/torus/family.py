@@ -19,8 +19,9 @@ FAMILY = Family(
             "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
             slow=True,
             lines=(
-                ("f1", "of M and K; the basis is a convention"), ("f2", "of M and K; the basis is a convention"),
-                ("f3", "about B, or m of a free body, but for whole f1, f2"),
+                ("f1", "first frequency of M and K, in a chosen basis"),
+                ("f2", "second frequency of M and K, in a chosen basis"),
+                ("f3", "frequency about B (of a free body about m), modulo f1 and f2"),
             ),
         ),
         Quantity("mode", "axis that the momentum goes round", tabled=False, missing="in a field"),
