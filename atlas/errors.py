@@ -47,13 +47,13 @@ def tell_nearest(fault: str, taken: str) -> None:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Say which known word was probably meant, or nothing."""
+    """Return " (did you mean 'points'?)" with the known word nearest to `word`; "" if none is near."""
     close = get_close_matches(word, list(known), 1)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 
 def unknown(what: str, name: object, known: Iterable[str], where: str = "") -> AtlasError:
-    """Return the error for a name that there is not: there is no table 'point' (did you mean 'points'?); known: ....
+    """Return the error for an unknown name: there is no table 'point' (did you mean 'points'?); known: ....
 
     `what` is the kind of the name, `known` are the names that there are, `where` says of what, such as "of the figure
     'hyperbola'". All known names are listed if they are few.

@@ -32,7 +32,7 @@ HERE, EXCHANGE = -100, 2
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Give a name to write to, see `unfinished`. The file takes the place of ``path`` at the end."""
+    """Yield a path to write to, see `unfinished`; at the end the file written there replaces ``path``."""
     with unfinished(path) as part:
         yield part
         part.replace(path)
@@ -40,7 +40,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def keeping(path: Path) -> Iterator[Path]:
-    """Give a name to write to. The file takes the place of ``path`` unless what is there is not as it was written here.
+    """Yield a path to write to; at the end that file replaces ``path``, unless the user wrote or edited ``path``.
 
     Then the new one is beside it, and AtlasError says so.
     """
@@ -53,7 +53,7 @@ def keeping(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def unfinished(path: Path) -> Iterator[Path]:
-    """Give a name beside ``path`` to write to, until it has another; what still has it at the end is removed.
+    """Yield a path beside ``path`` to write to; a file that is still there at the end of the context is removed.
 
     Missing folders are made; what a process on this machine has left that was killed while it wrote is removed. The
     other name ends in the same suffix. An OSError names ``path``, not the other name.
@@ -106,7 +106,7 @@ def exchange(new: Path, old: Path) -> bool:
 
 @contextmanager
 def named(path: Path, part: Path | None = None) -> Iterator[None]:
-    """Give an OSError the file's name that has none, one of writing, as on a full disk, or that of a part of it."""
+    """Context in which an OSError without a file name, or with that of `part`, is raised with the name ``path``."""
     try:
         yield
     except OSError as error:

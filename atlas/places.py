@@ -18,7 +18,7 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def folder(kind: Literal["figures", "templates", "reports"]) -> Path:
-    """Return the folder of that kind that belongs to the code that runs."""
+    """Return the path of a folder such as "figures": of the checkout if the code runs there, else of the package."""
     checkout = _PACKAGE.parent
     if (checkout / "pyproject.toml").is_file() and (checkout / kind).is_dir():
         return checkout / kind

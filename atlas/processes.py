@@ -88,9 +88,9 @@ class _Pool(ProcessPoolExecutor):
         super().shutdown(wait, cancel_futures=cancel_futures)
 
     def __exit__(self, *_: object) -> None:
-        """Wait for the calls under way, without those that have not begun.
+        """Cancel the calls that have not begun, and wait for the others.
 
-        The executor's own thread cancels those. `Future.cancel` called from here while a worker dies would stop that
+        The executor's thread cancels these calls. `Future.cancel` called from here while a worker dies would stop that
         thread by an InvalidStateError, and nothing would end the waiting.
         """
         self.shutdown(cancel_futures=True)

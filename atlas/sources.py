@@ -126,7 +126,7 @@ def _facts_of(tree: ast.AST) -> tuple[str, set[str]]:
 
 
 def _names(node: ast.Import | ast.ImportFrom) -> Iterator[str]:
-    """Go through the dotted names of ours that a statement imports."""
+    """Yield the dotted names of the package's modules that a statement imports."""
     if isinstance(node, ast.Import):
         yield from (name for alias in node.names for name in _bound(alias) if name.split(".")[0] in OURS)
     elif (node.module or "").split(".")[0] in OURS:
@@ -134,7 +134,7 @@ def _names(node: ast.Import | ast.ImportFrom) -> Iterator[str]:
 
 
 def _bound(alias: ast.alias) -> Iterator[str]:
-    """Go through the modules that a name of an import statement makes known."""
+    """Yield the modules that a name of an import statement makes known."""
     yield alias.name
     if alias.asname is None:
         yield alias.name.split(".")[0]

@@ -38,7 +38,7 @@ def right() -> None:
     use(moving.plot(style="default").get_axes(), atlas.figure("hyperbola", ["default", {"font.size": 9}], ratio=1.5))
 
 
-def wrong(motion: atlas.GeneralMotion) -> None:
+def wrong(motion: atlas.GeneralMotion) -> None:  # noqa: PLR0915  a list of calls
     """Text, None, other objects, names that there are not, and results taken for what they are not."""
     atlas.ElementaryMotion("oops", (1.0, 2.0), omega2=0.7)
     atlas.ElementaryMotion(1.5, None, omega2=0.7)
@@ -81,5 +81,14 @@ def wrong(motion: atlas.GeneralMotion) -> None:
     atlas.simulate((1.0, 1.0, 1.5), (0.0, 1.0, 2.0), (0.3, 0.7, 0.2), [0.0], method="Euler")
     atlas.clebsch((1.0, 2.0, 3.0), "Omega", (0.0, 1.0, 2.0))
     atlas.sweep("elementary", {"ratio": 1.5}, 5)
+    atlas.fit([0.0, 1.0], "general", rotation=np.eye(3), params=[1.5])
+    atlas.fit([0.0, 1.0], "general", signal=np.eye(3))
+    use(atlas.fit([0.0, 1.0], rotation=np.eye(3)).doubts)
+    atlas.check([0.0, 1.0], np.eye(3), motion=motion, threshold="six")
+    atlas.sweep("elementary", {"ratio": "1.5"}, ["k"])
+    atlas.sweep("elementary", {"ratio": 1.5}, ["k"], out=3)
+    atlas.report("atlas", out=3)
+    motion.euler_angles(0.0, 3)
+    atlas.Hyperbola(1.5, (1.0, 2.0)).closed(1.5, 2)
     atlas.figure("hyperbola", target=5)
     atlas.plotter(3)

@@ -86,7 +86,7 @@ def printed(value: Real, digits: int, layout: Layout) -> Printed:
 
 
 def numbers(value: Any) -> Iterator[Real]:
-    """Go through the certified numbers of a nested structure."""
+    """Yield the certified numbers of a nested structure of dicts, lists and tuples."""
     if isinstance(value, arb | fmpq):
         yield value
     elif isinstance(value, dict):
@@ -164,7 +164,7 @@ def _rounded(x: fmpq, count: int) -> tuple[int, int]:
 
 
 def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
-    """Return the text with ``decimals`` decimals, or with as many as are proven."""
+    """Return a number between two bounds with ``decimals`` decimals, or with the proven ones alone and a mark."""
     for count in range(decimals, -1, -1):
         low, high = round(lower * 10**count), round(upper * 10**count)
         if low == high:
@@ -175,7 +175,7 @@ def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
 
 
 def _decimal_text(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
-    """Write m 10^(e+1-count), m of ``count`` digits."""
+    """Return the text of m 10^(e+1-count), where the integer m has ``count`` digits, with `mark` behind the digits."""
     sign, text = "-" * (m < 0), str(abs(m))
     if layout != "scientific" and -5 <= e < count:
         text = "0" * -e + text

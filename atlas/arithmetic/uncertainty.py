@@ -189,7 +189,7 @@ def _is_lost(values: list[float], size: int) -> bool:
 
 
 def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, set[Place]]:
-    """Return the numbers that are sampled, and those that too many of `size` draws lack, by the sentence on them."""
+    """Return the places of numbers that are sampled, and of those that too many of `size` draws lack, by sentence."""
     lost = {key for key, values in draws.items() if _is_lost(values, size)}
     sentences = {}
     for keys, text in ((draws.keys() - lost, BY_SAMPLING), (lost, BY_NEITHER)):
@@ -432,7 +432,7 @@ def _carrying(constructor: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def concise(value: float, sigma: float, error: float = 0.0) -> str:
-    """Write a number with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
+    """Return a number as text with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
 
     In one digit, 12.6(3), where the second is less than the error of the deviation.
     """

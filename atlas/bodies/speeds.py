@@ -49,7 +49,7 @@ def check_drift(E: Any, B: Any, units: System) -> None:
 
 
 def warn_of(speed: str, part: float) -> None:
-    """Warn of a speed, in units of the speed of light, if it exceeds a tenth."""
+    """Issue a RelativisticWarning that names `speed` if `part`, its value over the speed of light, exceeds a tenth."""
     if part > MAX_SLOW_SPEED:
         warnings.warn(
             f"non-relativistic: {speed} is {part:.3g} times the speed of light, above {MAX_SLOW_SPEED:g}: formulas are "

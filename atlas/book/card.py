@@ -142,7 +142,7 @@ class Balls:
         return arb(fmpq(x.numerator, x.denominator)) if isinstance(x, Fraction | int) else arb(x)
 
     def sqrt(self, x: Any) -> Any:
-        """Return the square root."""
+        """Return the square root of a ball or an exact fraction."""
         return self.ball(x).sqrt()
 
     def atan2(self, y: Any, x: Any) -> Any:

@@ -153,7 +153,7 @@ def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str])
 
 
 def _csv(resource: Resource) -> bytes:
-    """Write a table as CSV, with all digits as they are printed."""
+    """Return a table as CSV, encoded, with all digits as printed."""
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([field["name"] for field in resource.fields])
@@ -162,7 +162,7 @@ def _csv(resource: Resource) -> bytes:
 
 
 def _parquet(resource: Resource) -> bytes:
-    """Write a table as Parquet, numbers as the doubles nearest to the printed digits."""
+    """Return a table as Parquet's bytes, numbers as the doubles nearest to the printed digits."""
     pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     kinds: dict[str, tuple[Callable[[str], Any], Any]] = {
         "number": (float, pa.float64()),

@@ -66,7 +66,7 @@ def plain(value: float) -> str:
 
 
 def shown(value: Any) -> str:
-    """Write an input for a line of small print, in Markdown: with a true minus sign, and a power of ten as such."""
+    """Return an input as Markdown for small print: with a minus sign, powers of ten, and vectors in brackets."""
     if isinstance(value, tuple | list):
         return f"({', '.join(shown(component) for component in value)})"
     if isinstance(value, bool) or not isinstance(value, float | int):

@@ -19,7 +19,7 @@ def files() -> dict[str, Path]:
 
 
 def names() -> list[str]:
-    """List the names of the reports of the folder ``reports/``."""
+    """Return the names of the reports in the folder ``reports/``."""
     return list(files())
 
 

@@ -240,5 +240,5 @@ def _line(node: ET.Element) -> str:
 
 
 def _joined(text: str) -> str:
-    """Take out the space around signs of a relation: I = 3/2 is I=3/2."""
+    """Return a text without spaces around signs of a relation: I = 3/2 becomes I=3/2."""
     return _RELATION.sub(r"\1", text)

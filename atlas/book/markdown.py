@@ -163,7 +163,7 @@ def written(report: Mapping[str, Any]) -> str:
 
 
 def fenced(block: Mapping[str, Any]) -> str:
-    """Write a block of values in its fence."""
+    """Return the Markdown of a block: its values as TOML in a fence."""
     keys = {key: value for key, value in block.items() if key != "kind" and value is not None}
     lines = "".join(f"{key} = {toml.written(value)}\n" for key, value in keys.items())
     return f"```{{{block['kind']}}}\n{lines}```\n"

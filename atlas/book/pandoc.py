@@ -137,7 +137,7 @@ PARAGRAPHS = {"Para", "Plain"}
 
 
 def with_leading(blocks: list[Any]) -> list[Any]:
-    """Return the blocks of a text, pandoc's, with Typst's `leading` about each paragraph that leads in to something."""
+    """Return pandoc's blocks of a text with Typst's `leading` about each paragraph that ends with a colon."""
     leading: list[Any] = []
     for before, block in zip([None, *blocks], blocks, strict=False):
         if leads(block):
@@ -149,7 +149,7 @@ def with_leading(blocks: list[Any]) -> list[Any]:
 
 
 def leads(block: Any) -> bool:
-    """Tell whether a block is a paragraph that ends with a colon."""
+    """Return whether a block of pandoc is a paragraph that ends with a colon."""
     if block["t"] != "Para":
         return False
     previous = block["c"][-1]

@@ -220,7 +220,7 @@ def figures_of(
 
 
 def case_of(request: Asked) -> Any:
-    """Return the request's `BodyAndField`."""
+    """Return the `BodyAndField` of a request, its body and field with their units."""
     body = convert(request.body, Body) if request.body else None
     return body_and_field(body, convert(request.field, Field) if request.field else None)
 

@@ -14,7 +14,7 @@ MATH_FONT = "STIX Two Math"
 
 
 def source(document: Document) -> str:
-    """Write the Typst source of a document whose texts are set."""
+    """Return the Typst source of a document whose texts are already typeset."""
     environment = templates(
         "typst",
         string=_string,
@@ -33,7 +33,7 @@ def source(document: Document) -> str:
 
 
 def _string(text: str) -> str:
-    """Write a Typst string."""
+    """Return a text as a string literal of Typst, in quotes."""
     return json.dumps(str(text), ensure_ascii=False)
 
 

@@ -79,7 +79,7 @@ class Texts:
     _trees: list[Tree] = field(default_factory=list)
 
     def add(self, markdown: str, place: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
-        """Take in a text and return its number."""
+        """Add a Markdown text and return its index among the texts."""
         self.texts.append(Text(markdown, place, inline, anchors or {}))
         return len(self.texts) - 1
 
@@ -170,7 +170,7 @@ def citations(markdown: str) -> list[str]:
 
 
 def _braced(markdown: str) -> str:
-    """Write ``@(72)`` as pandoc reads it, with braces about a name that is no word."""
+    """Return Markdown with ``@(72)`` as pandoc reads citations: braces about a name that is no word."""
     return _CITED.sub(
         lambda matched: f"@{{{matched[1]}}}" if (matched[1] or "").startswith("(") else matched[0], markdown
     )
@@ -332,7 +332,7 @@ def _mark(text: Text) -> str:
 
 
 def _finished(piece: str, target: Target, text: Text) -> str:
-    """Mend the formulas of a text that pandoc wrote, in Typst those between marks, and nothing else."""
+    """Return a text written by pandoc with corrected formulas, in Typst the parts between marks."""
     if target != "typst":
         return mend_all(piece) if target == "html" else piece
     pieces = piece.split(_mark(text))

@@ -28,7 +28,7 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
 
 
 def written(value: Any) -> str:
-    """Write a value; strings of JSON are strings of TOML."""
+    """Return a value as TOML; a string of JSON is one of TOML."""
     if isinstance(value, dict):
         return f"{{ {', '.join(f'{key} = {written(item)}' for key, item in value.items() if item is not None)} }}"
     if isinstance(value, list | tuple):

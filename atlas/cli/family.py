@@ -88,7 +88,7 @@ charge_options = stack(
 
 
 def command(name: str) -> click.Command:
-    """Make the command of this name."""
+    """Return the click command of this name, of one family or of several."""
     commands_by_key = {
         key: _command_of(family, family.command)
         for key, family in FAMILIES.items()

@@ -96,7 +96,7 @@ def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
 
 
 def printout(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> Printout:
-    """Lay the certified texts out, a row a point."""
+    """Return the `Printout` of certified texts, with a row for each point."""
     band, rate = texts["unstable_band"], units_of(options).get("1/time", "1/time")
     lines = [
         Line("-B2", "pole of omega3(omega2)", texts["pole"], rate, "(71)"),

@@ -220,7 +220,7 @@ def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
 
 
 def _parameter_word(name: str, record: dict[str, Any]) -> str:
-    """Write a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
+    """Return a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
     from atlas.pictures.parameters import typed
 
     word = name if record["default"] is None else f"{name}={typed(record['default'])}"

@@ -82,7 +82,7 @@ ELLIPTIC = tuple(
 
 
 def in_brackets(parts: Any) -> str:
-    """Write a vector."""
+    """Return the components of a vector, texts, in brackets: "(B2, B3)"."""
     return f"({', '.join(parts)})"
 
 

@@ -61,7 +61,7 @@ def fit(
     angular_velocity: RealArrayLike | None = None,
     field_in_body: RealArrayLike | None = None,
     signal: tuple[RealArrayLike, Callable[[FloatArray], RealArrayLike]] | None = None,
-    params: "Mapping[str, float | Mapping[str, Any]] | lmfit.Parameters | None" = None,
+    params: "Mapping[str, float | Mapping[str, Any] | lmfit.Parameter] | None" = None,
     fix: Mapping[str, float] | None = None,
     loss: Loss = "linear",
     epoch: float = 0.0,

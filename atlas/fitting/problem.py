@@ -32,7 +32,7 @@ class Rotations(NamedTuple):
     R: FloatArray
 
     def rotation(self, _: FloatArray) -> FloatArray:
-        """Return R."""
+        """Return R (M, N, 3, 3), whatever the times."""
         return self.R
 
 

@@ -163,10 +163,12 @@ class Fit:
             _free=view.null * view.units[:, None], _units=view.units, _whole=view.whole, notes=data.notes,
         )  # fmt: skip
 
-    def __getattr__(self, name: str) -> Any:
-        """Raise AttributeError, which tells the new name of an attribute that was renamed."""
-        new = RENAMED.get(name)
-        raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
+    if not TYPE_CHECKING:  # else mypy would take any name for an attribute
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise AttributeError, which tells the new name of an attribute that was renamed."""
+            new = RENAMED.get(name)
+            raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the attributes for pickle, without lmfit's objects, which are made again on loading."""

@@ -85,5 +85,5 @@ def _torque(inertia: Any, K: Any, Omega: Any) -> FloatArray:
 
 
 def _solve(inertia: Any, M: Any) -> FloatArray:
-    """Return I^-1 M."""
+    """Return the solution I^-1 M of I Omega = M, for tensors (..., 3, 3) and M (..., 3)."""
     return np.asarray(np.linalg.solve(inertia, np.asarray(M)[..., None])[..., 0])

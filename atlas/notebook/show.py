@@ -103,7 +103,7 @@ def _cells(row: Row) -> list[str]:
 
 
 def _html(markdown: str) -> str:
-    """Set the Markdown of the register's tables; formulas are letters, as no notebook is sure to set TeX."""
+    """Return the register's Markdown as HTML; formulas become plain letters, since a notebook may lack TeX."""
     text = escape(markdown.replace(SPACE, "\N{NO-BREAK SPACE}"), quote=False)
     text = re.sub(r"\$([^$]+)\$", lambda formula: _letters(formula[1]), text)
     for pattern, replacement in ((r"`([^`]+)`", r"<code>\1</code>"), (r"\^([^^$]+)\^", r"<sup>\1</sup>"), (r"@", "")):

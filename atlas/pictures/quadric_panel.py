@@ -92,7 +92,7 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str =
 
 
 def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
-    """Tell whether the origin lies upwards from -B' along the axis of the sheets."""
+    """Return whether the origin lies upwards from -B' along the axis of the sheets."""
     return not float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
 
 

@@ -175,7 +175,7 @@ def _luminance(colour: str) -> float:
 
 @cache
 def is_dark(ground: str) -> bool:
-    """Tell whether white is read better on a colour than black."""
+    """Return whether white is more readable on a colour than black."""
     return contrast(WHITE, ground) > contrast("#000000", ground)
 
 

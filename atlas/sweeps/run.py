@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast, overl
 import numpy as np
 
 from atlas import files
+from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.machine import processors
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
@@ -59,19 +60,23 @@ class _Options(TypedDict, total=False):
 
 @overload
 def sweep(
-    family: str, parameters: Mapping[str, Any], quantities: Sequence[str], out: None = None, **how: Unpack[_Options]
+    family: str,
+    parameters: Mapping[str, RealArrayLike],
+    quantities: Sequence[str],
+    out: None = None,
+    **how: Unpack[_Options],
 ) -> Columns: ...
 @overload
 def sweep(
     family: str,
-    parameters: Mapping[str, Any],
+    parameters: Mapping[str, RealArrayLike],
     quantities: Sequence[str],
     out: str | os.PathLike[str],
     **how: Unpack[_Options],
 ) -> Path | str: ...
 def sweep(
     family: str,
-    parameters: Mapping[str, Any],
+    parameters: Mapping[str, RealArrayLike],
     quantities: Sequence[str],
     out: str | os.PathLike[str] | None = None,
     *,
@@ -292,7 +297,7 @@ def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, worke
 
 @contextmanager
 def _workers_lost() -> Iterator[None]:
-    """Turn a sudden end of workers, or of the scheduler of a client, into an AtlasError with the remedy."""
+    """Context in which a sudden end of workers, or of a client's scheduler, is raised as an AtlasError."""
     try:
         yield
     except (BrokenExecutor, CancelledError) as error:

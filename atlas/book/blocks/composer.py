@@ -45,11 +45,11 @@ class Composer:
         self.said: set[str] = set()
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
-        """Take in a text and return its number."""
+        """Add a Markdown text to the document and return its index among the texts."""
         return int(self.document.texts.add(markdown, self.place, inline=inline))
 
     def paragraphs(self, markdown: str) -> int:
-        """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
+        """Add paragraphs and return their index; the first citation of an equation on a page becomes an anchor."""
         anchors = {}
         for name in citations(markdown):
             if name in EQUATIONS and name not in self.cited and self.ledger.get(name) != self.slug:

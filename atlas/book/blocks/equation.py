@@ -35,12 +35,12 @@ class EquationView:
 
     @property
     def slug(self) -> str:
-        """The name in links."""
+        """Name of the equation as it stands in links."""
         return slug(self.name)
 
 
 def view(block: Equation, composer: Composer) -> EquationView:
-    """Take an equation from the ledger, or number one of the report's own."""
+    """Return the view of an equation of the ledger, or of one of the report's own, which gets a number."""
     name, tex = (block.name, block.tex) if block.tex is not None else _entry(block.name)
     number = composer.document.numbered(name)
     is_first = composer.target(name, f"eq-{slug(name)}", number)

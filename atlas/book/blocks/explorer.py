@@ -85,7 +85,7 @@ class ExplorerView:
 
 
 def view(block: Explorer, composer: Composer) -> ExplorerView:
-    """Take in the text; ranges and starts of the sliders are those of the register where the block sets none.
+    """Return the view of an explorer; sliders have the register's ranges and starts where the block sets none.
 
     Raises AtlasError for a slider that there is not.
     """

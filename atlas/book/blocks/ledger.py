@@ -40,17 +40,17 @@ class EntryView:
 
     @property
     def name(self) -> str:
-        """Name of the entry."""
+        """Name of the entry in the ledger."""
         return self.equation.name
 
     @property
     def number(self) -> str:
-        """Its number in print, or nothing."""
+        """Name of an entry that has a number in print, else ""."""
         return self.name if self.equation.number is not None else ""
 
     @property
     def slug(self) -> str:
-        """The name in links."""
+        """Name of the entry as it stands in links."""
         return slug(self.name)
 
     @property
@@ -137,7 +137,7 @@ class ErrataView:
 
 
 def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
-    """Set out the entries of one section, each theorem with a number."""
+    """Return the view of the ledger's entries of one section; its theorems are numbered."""
     for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
             composer.document.numbered(name)
@@ -145,7 +145,7 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
 
 
 def view_errata(_block: Errata, composer: Composer) -> ErrataView:
-    """Set out the entries with a slip, the grave ones first; a note that several share is said once."""
+    """Return the view of the entries with a slip, the grave ones first; a note that several share stands once."""
     composer.document.errata = composer.slug
     ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))
     is_first = {entry.finding.note: entry.name for entry in reversed(ordered)}

@@ -48,7 +48,7 @@ def view_prose(block: Prose, composer: Composer) -> ProseView:
 
 
 def view_notebook(block: Notebook, composer: Composer) -> ProseView:
-    """Take in the text. Raises AtlasError for a file that is not there."""
+    """Return the view of a notebook's text. Raises AtlasError for a notebook that does not exist."""
     path = folder("reports") / PurePath(block.file).name
     if not path.is_file():
         raise AtlasError(f"{block.file}: there is no such notebook in {folder('reports')}.")
@@ -57,5 +57,5 @@ def view_notebook(block: Notebook, composer: Composer) -> ProseView:
 
 
 def view_note(block: Note, composer: Composer) -> ProseView:
-    """Take in the heading and the text."""
+    """Return the view of a note: its heading and its text."""
     return ProseView(title=composer.text(block.title, inline=True), text=composer.paragraphs(block.text))

@@ -57,7 +57,7 @@ class ReferenceView:
 
 
 def view_reference(block: Reference, composer: Composer) -> ReferenceView:
-    """Take in the docstrings of the names that a block lists."""
+    """Return the view of the docstrings of the public names that a block lists."""
     records = composer.recorded.reference
 
     def described(name: str, member: Described) -> DescribedView:

@@ -133,7 +133,7 @@ def view_computed(block: Table, composer: Composer) -> TableView:
 
 
 def view_listing(block: Listing, composer: Composer) -> TableView:
-    """Set out a table of words."""
+    """Return the view of a table of words. Raises AtlasError for a row of another length than the heading."""
     for row in block.rows:
         if len(row) != len(block.columns):
             raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
@@ -142,7 +142,7 @@ def view_listing(block: Listing, composer: Composer) -> TableView:
 
 
 def view_recorded(block: Recorded, composer: Composer) -> TableView:
-    """Set out a table of recorded results."""
+    """Return the view of a table of recorded results. Raises AtlasError for an unknown table."""
     tables, name = composer.recorded.tables, f"{block.source}: {block.table}"
     if name not in tables:
         raise unknown("recorded table", name, tables)
@@ -158,7 +158,7 @@ def outline(block: Table | Recorded, composer: Composer) -> None:
 def _view(
     block: Table | Listing | Recorded, composer: Composer, data: Data, *, name: str = "", command: str = ""
 ) -> TableView:
-    """Set a table out in columns, aligned on the decimal point."""
+    """Return the view of a table, numbered, with columns aligned on the decimal point."""
     composer.tables += 1
     words = f"Table {composer.tables}"
     anchor = composer.anchor("tab", block.id, "Table", composer.tables)

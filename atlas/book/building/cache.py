@@ -45,7 +45,7 @@ class Cache:
         return content if _hash(key, content) == expected else None
 
     def put(self, key: str, content: bytes) -> bytes:
-        """Write the entry of a key, and return it."""
+        """Store bytes under a key, and return the bytes."""
         files.write(self._path(key), _hash(key, content) + b"\n" + content)
         return content
 
@@ -66,7 +66,7 @@ class Cache:
 
     @contextmanager
     def temporary(self) -> Iterator[Path]:
-        """Give an empty folder, which is removed afterwards."""
+        """Yield an empty folder of the cache, which is removed at the end of the context."""
         (self.folder / "tmp").mkdir(parents=True, exist_ok=True)
         if not (self.folder / ".gitignore").exists():
             files.write(self.folder / ".gitignore", "*\n")
@@ -77,7 +77,7 @@ class Cache:
             shutil.rmtree(folder, ignore_errors=True)
 
     def prune(self) -> None:
-        """Remove entries that have not been used for long."""
+        """Remove entries unused for longer than `UNUSED`, and unfinished files older than a day."""
         now = time.time()
         for path in (*self.folder.glob("??/*"), *self.folder.glob("??/.*"), *self.folder.glob("tmp/*")):
             with suppress(FileNotFoundError):  # another build has removed it

@@ -81,7 +81,7 @@ def build_data(
     style: str | None = None,
     inputs: Mapping[str, str] = NO_INPUTS,
 ) -> Path:
-    """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
+    """Write tables and drawn data of a report into `out`/NAME; return the path of the file that describes them.
 
     They are CSV, and Parquet if that is wanted.
 
@@ -117,7 +117,7 @@ def build_tex(
     style: str | None = None,
     inputs: Mapping[str, str] = NO_INPUTS,
 ) -> Path:
-    """Write a report as LaTeX into `out`/NAME, and return the place of the paper.
+    """Write a report as LaTeX into `out`/NAME; return the path of the .tex file.
 
     The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
     figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be

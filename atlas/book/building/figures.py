@@ -153,7 +153,7 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 
 
 def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
-    """Draw figures, and yield each as it is finished, with the reason if it failed.
+    """Draw figures; yield pairs (figure, reason of its failure or "") as each is finished.
 
     If a worker dies, unfinished figures are drawn again one by one in a fresh process, so that the figure that kills
     its process is identified; the others are drawn.
@@ -232,7 +232,7 @@ def build_figures(
     jobs: int | None = None,
     progress: Progress = lambda _done, _total, _name: None,
 ) -> list[Files]:
-    """Write each recipe's figure to out/NAME.FORMAT for each format, each file whole or not at all.
+    """Write each recipe's figure to out/NAME.FORMAT for each format; return the `Files` of each figure.
 
     With a target, see `atlas.targets`, each is laid out anew for it and written to out/NAME-TARGET.FORMAT.
 

@@ -223,7 +223,7 @@ def _three(value: float | None) -> str | Number:
 
 
 def _words(text: str) -> str:
-    """Write out abbreviations of the terminal."""
+    """Return a text of the terminal with its abbreviations in full."""
     text = re.sub(r"\(us\b", "(µs", text)
     return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)
 

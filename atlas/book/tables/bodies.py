@@ -39,7 +39,7 @@ class SizeParameters(StrictStruct, frozen=True):
 
 
 def sizes(setup: SizeParameters) -> Data:
-    """Return charge, charge-to-mass ratio and Larmor frequency of balls with the largest charge their surface holds."""
+    """Return the table of balls with the largest charge: a row per ball with charge, charge/mass, Larmor frequency."""
     _check(setup)
     rows = []
     for r in setup.radii:
@@ -127,7 +127,7 @@ def two(value: float) -> Number:
 
 
 def charges(request: Request) -> Data:
-    """Mass m0, radius r, charge e = mu m0 and the field e/(4 pi eps0 r^2) of several bodies with mass and radius."""
+    """Return the table of bodies with mass and radius: m0, r, charge e = mu m0, and the field e/(4 pi eps0 r^2)."""
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
         body = case.body_record
@@ -168,7 +168,7 @@ def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, 
 
 
 def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
-    """Return the coefficients of nu^2 in the energy of bodies: from the charge, and from the induced moment."""
+    """Return the table of coefficients of nu^2 in the energy of bodies: by the charge, and by the induced moment."""
     if setup.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []
@@ -207,7 +207,7 @@ class CoatParameters(StrictStruct, frozen=True):
 
 
 def coats(setup: CoatParameters) -> Data:
-    """Return the gyromagnetic factors of bodies whose charge is not spread like the mass, in units of e/m."""
+    """Return the table of gyromagnetic factors, in units of e/m, of bodies whose charge is not spread like the mass."""
     rows: list[tuple[str | Number, ...]] = []
     for coat in setup.coats:
         body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
@@ -230,7 +230,7 @@ def coats(setup: CoatParameters) -> Data:
 
 
 def swings(request: Request, setup: DiamagnetismParameters) -> Data:
-    """Return the swings of bodies released at rest in Larmor's frame: by charge alone, and with induced moment."""
+    """Return the table of swings of bodies released at rest in Larmor's frame: by charge, and with induced moment."""
     from atlas.motions.nutation.kernel_top import TopMotion
 
     rows: list[tuple[str | Number, ...]] = []

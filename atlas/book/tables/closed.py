@@ -16,7 +16,7 @@ PRINTED_DIGITS = 12
 
 
 def closed(request: Request, item: Thing) -> Data:
-    """Give the best fractions p/q of phi/k and the closed motion of each, or of the turns in one nutation.
+    """Return the table of best fractions p/q of phi/k, or of the turns in one nutation, with the closed motion of each.
 
     Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
     """
@@ -52,7 +52,7 @@ def closed(request: Request, item: Thing) -> Data:
 
 
 def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
-    """Give the closed motion of each fraction that has one."""
+    """Return the table of the closed elementary motions, a row for each fraction that has one."""
     from atlas.motions.elementary.closed import ClosedMotion
 
     ratio, field, omega2, *_ = item.floats

@@ -52,7 +52,7 @@ def titled(request: Request) -> str:
 
 
 def quadric(request: Request) -> Data:
-    """Ratio I, kind, angle beta, coefficients a2, a3, semi-axes and centre of the quadric, (51) to (57)."""
+    """Return the table of the quadric (51) to (57): ratio I, kind, angle beta, a2, a3, semi-axes and centre."""
     columns, rows = side_by_side(request, [of_quadric(case, request.digits) for case in request.cases])
     return Data(columns, rows, f"The quadric of initial data of {titled(request)}, @(51), in canonical form.")
 
@@ -91,7 +91,7 @@ class PointsParameters(StrictStruct, frozen=True):
 
 
 def points(request: Request, setup: PointsParameters) -> Data:
-    """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
+    """Return the table of points (omega2, omega3) of (67), with k, phi of (72) and the nutation frequency squared."""
     from atlas.arithmetic.certified_inputs import rational
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
@@ -164,7 +164,7 @@ class Samples(StrictStruct, frozen=True):
 
 
 def motion(request: Request, setup: Motion) -> Data:
-    """List initial data, frequencies, stability and integrals of the motion that starts with `omega2`."""
+    """Return the table of a motion that starts with `omega2`: initial data, frequencies, stability and integrals."""
     columns, rows = side_by_side(request, [of_motion(case, setup, request.digits) for case in request.cases])
     return Data(
         columns,
@@ -202,7 +202,7 @@ def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
 
 
 def samples(request: Request, setup: Samples) -> Data:
-    """Omega(t), (73), and the third axis of the body R_3(t), (84), at some `times`."""
+    """Return the table, a row for each of the `times`, of Omega(t), (73), and the third axis R_3(t), (84)."""
     from atlas.motions.elementary.certified import ElementaryMotion
 
     motion = ElementaryMotion(request.case.exact, request.case.components, setup.omega2, setup.omega3)
@@ -221,7 +221,7 @@ def samples(request: Request, setup: Samples) -> Data:
 
 
 def sheet(request: Request, setup: Motion) -> Data:
-    """List the rows of the tables `quadric` and `motion` for the motion that starts with `omega2`."""
+    """Return the table with the rows of `quadric` and `motion` for the motion that starts with `omega2`."""
     columns, rows = side_by_side(
         request,
         [[*of_quadric(case, request.digits), *of_motion(case, setup, request.digits)] for case in request.cases],

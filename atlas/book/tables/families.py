@@ -12,7 +12,7 @@ Row = tuple[str, str, str, str, str]
 
 
 def quantities() -> Data:
-    """List parameters and quantities of all families, with their units, equations and promised errors."""
+    """Return the table of the parameters and quantities of all families, with unit, equation and promised error."""
     rows = []
     for family in FAMILIES.values():
         for place, row in enumerate(_rows(family)):
@@ -51,7 +51,7 @@ def _promise(family: Family, checked: str) -> str:
 
 
 def targets() -> Data:
-    """List the targets of figures with width, height, type, lines, resolution, the publisher's rules and source."""
+    """Return the table of the targets of figures: width, height, type, lines, resolution, publisher's rules, source."""
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),

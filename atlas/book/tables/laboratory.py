@@ -51,7 +51,7 @@ class Dipole(StrictStruct, frozen=True):
 
 
 def levitated(setup: Dipole) -> Data:
-    """Return nutation and precession of a ball with a dipole, beside the limits of small and of fast rotations."""
+    """Return the table of nutation and precession of a ball with a dipole, with limits for slow and fast spin."""
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
         motion = setup.motion(spin)
@@ -133,7 +133,10 @@ class Watch(Dipole, frozen=True):
 
 
 def inferred(setup: Watch) -> Data:
-    """Return standard deviations of the parameters from the axis alone, by the derivatives of the motion."""
+    """Return the table of standard deviations of parameters fitted to the axis alone, a column for each spin.
+
+    They are of first order, from the derivatives of the motion by its parameters at random times.
+    """
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []
     for spin in setup.spins:

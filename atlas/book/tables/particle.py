@@ -32,7 +32,7 @@ class ParticleParameters(StrictStruct, frozen=True):
 
 
 def particle(request: Request, setup: ParticleParameters) -> Data:
-    """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
+    """Return the table of positions, at the `times`, of a particle with `position`, `velocity` at t = 0, (93), (98)."""
     case = request.case
     motion = exact_particle(case, setup.position, setup.velocity)
     unit = speed = case.units.length_unit if case.units else ""
@@ -63,7 +63,7 @@ class BallParameters(StrictStruct, frozen=True):
 
 
 def ball(request: Request, setup: BallParameters) -> Data:
-    """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
+    """Return the table of alpha, gamma, k_hat of a ball that starts with (0, omega2, omega3) in a field along e3."""
     from atlas.motions.elementary.certified_ball import BallMotion
 
     if setup.larmor == 0:
@@ -96,7 +96,7 @@ class FlightParameters(StrictStruct, frozen=True):
 
 
 def flight(request: Request, setup: FlightParameters) -> Data:
-    """Positions y_0(t) and y_N(t) = y_0(t) + R(t) x_N(0) at some `times`, in the laboratory frame of figure Lssc."""
+    """Return the table of positions y_0(t), y_N(t) = y_0(t) + R(t) x_N(0) at the `times`, in figure Lssc's frame."""
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.particle.certified import Flight
 

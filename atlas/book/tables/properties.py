@@ -118,7 +118,7 @@ def _units(name: Any) -> dict[str, str]:
 
 
 def properties(request: Request, item: Thing) -> Data:
-    """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
+    """Return the table of parameters and quantities of one object of a `family`; `time` is its unit of time.
 
     With ``given = false`` the inputs are left out. Why a quantity has no value stands below the table.
     """
@@ -223,7 +223,7 @@ def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int
 
 
 def lettered(words: str) -> str:
-    """Set the letters of the register's plain words as formulas: omega'_3, B2, beta."""
+    """Return plain words of the register with letters such as omega'_3, B2, beta as formulas."""
     return re.sub(rf"\^({MINUS}?\d)", r"^\1^", _LETTERS.sub(_letter, words))
 
 
@@ -238,12 +238,12 @@ def _letter(matched: re.Match[str]) -> str:
 
 
 def cited(equations: str) -> str:
-    """Return equations as citations, those of the ledger."""
+    """Return the equations that the ledger has as citations in Markdown, separated by commas."""
     return ", ".join(f"@{name}" for name in equations.split(", ") if name in EQUATIONS)
 
 
 def body_and_field(request: Request) -> Data:
-    """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', (32) and (33)."""
+    """Return the table of a body: dimensions, mass, charge, fields; I, moments, mu and B' from these, (32), (33)."""
     case = request.case
     body, field = case.body_record, case.field_record
     if body is None or field is None:

@@ -53,7 +53,7 @@ class MonodromyParameters(StrictStruct, frozen=True):
 
 
 def tops(request: Request, setup: TopsParameters) -> Data:
-    """Return the period of nutation and the angles in it of several tops."""
+    """Return the table of several tops: period of nutation, and the angles of precession and spin in one period."""
     from atlas.motions.nutation.certified_top import TopMotion
 
     motions = [
@@ -169,7 +169,7 @@ class Momenta(StrictStruct, frozen=True):
 
 
 def critical(request: Request, setup: Momenta) -> Data:
-    """List all critical values of H and F at each momentum along the field, theorem-critical, a piece in each row."""
+    """Return the table of critical values of H and F, a row per momentum and piece of curve, theorem-critical."""
     from atlas.maps.bifurcation import Bifurcation
 
     del request  # doubles of four digits
@@ -201,7 +201,7 @@ def critical(request: Request, setup: Momenta) -> Data:
 
 
 def identified(request: Request, setup: Observed) -> Data:
-    """Count the combinations of moments and field that a motion leaves open, a motion in each row.
+    """Return the table, a row per motion, of the number of combinations of moments and field that a motion leaves open.
 
     In the equations of theorem-identifiable and in the derivatives of a fit to its attitudes at the same times.
     """
@@ -280,7 +280,7 @@ def elliptic(request: Request, setup: Family) -> Data:
 
 
 def periods(request: Request, setup: Motion) -> Data:
-    """List two pairs of times after which M and K are back, and the turn about the field, with proven digits."""
+    """Return the table of two pairs of times after which M and K return, with the angle about the field, certified."""
     from flint import fmpq
 
     from atlas.book.tables.table import bits

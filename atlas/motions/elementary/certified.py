@@ -42,7 +42,7 @@ class DoubleTurn:
 
     @property
     def precession_rate(self) -> Real:
-        """Rate of precession, k."""
+        """Rate of precession k in rad/time, (79)."""
         return self.k
 
     @property

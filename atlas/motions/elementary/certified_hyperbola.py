@@ -58,7 +58,7 @@ class Hyperbola:
         return square
 
     def stable(self, omega2: Any) -> bool:
-        """Say whether the motion is stable against nutation, theorem-band, theorem-band-ends.
+        """Return whether the motion at omega2 is stable against nutation, theorem-band, theorem-band-ends.
 
         At the ends of the band, where -p'(omega3) = 0, it is not; for B3 = 0 it is, theorem-equatorial-stability.
         """

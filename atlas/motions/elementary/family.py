@@ -33,7 +33,7 @@ def _ratio_and_field(motion: Any) -> tuple[Any, Any]:
 
 
 def _verdict(motion: Any) -> str:
-    """Say whether the motion, one alone, is stable against nutation: decided without rounding."""
+    """Return, decided exactly, in a word whether a single motion is stable against nutation."""
     return "stable" if _curve(motion).stable(motion.omega2) else "unstable"
 
 

@@ -158,7 +158,7 @@ def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb
 
 
 def _hyperbolic_weights(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
-    """Yield weights (odd, even) of a hyperbolic sum with a zero at i zeta, or half a period from there if doubled."""
+    """Yield by term the weights (odd, even) of a hyperbolic sum with a zero at i zeta, half a period on if doubled."""
     s, c = zeta.sin_cos()
     turn = multiplied(s, c, s, c, True)
     s, c = (arb(0), arb(1)) if doubled else (s, c)

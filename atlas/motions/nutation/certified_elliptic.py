@@ -94,7 +94,7 @@ class EllipticMotion(Nutating):
 
     @property
     def splitting(self) -> fmpq:
-        """C/D^2, whose sign decides on stability: see `atlas.motions.nutation.formula_elliptic`."""
+        """C/D^2, the squared frequency of small departures, theorem-splitting: negative for an unstable motion."""
         square: fmpq = splitting(self.inertia, self.field, self.z)
         return square
 

@@ -101,7 +101,7 @@ class Quartic:
 
     @property
     def is_constant(self) -> bool:
-        """Whether u is constant."""
+        """Whether u = cos theta, the variable of the quartic, is constant in time."""
         return self.rate.is_zero and self.slope.is_zero
 
     def sign_beside(self, pole: int) -> int:
@@ -126,7 +126,7 @@ class Quartic:
         return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:
-        """Isolate the roots."""
+        """Return the roots of the quartic, each isolated in a ball."""
         isolated = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
         real = [root for root in isolated if root.is_real]
         real.sort(key=lambda root: root.value.real.mid())

@@ -50,7 +50,7 @@ class Swing:
 
     @property
     def steepest(self) -> arb:
-        """Largest change of half of that part by a radian of the phase rate s."""
+        """Largest change of half of the part of `at` that is not linear in time, per radian of the phase rate s."""
         return abs(self.kappa) * self.width / (2 * self.lattice.rate)
 
     @property

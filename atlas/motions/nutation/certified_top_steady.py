@@ -83,7 +83,7 @@ def _value(x: Surd, y: Surd, d: Surd) -> Real:
 
 
 def stable(q: TopQuartic) -> bool:
-    """Say whether a motion with constant theta is stable against nutation."""
+    """Return whether a motion with constant theta is stable against nutation."""
     second = derivative(derivative(q.polynomial))
     sign = evaluated(second, -q.nu).sign
     if sign:

@@ -76,7 +76,7 @@ class CayleyKlein:
             precision = _doubled(precision)
 
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
-        """Set the constants at one precision; return whether the precision suffices."""
+        """Compute and store the constants at one precision; return whether the precision suffices."""
         with workprec(precision):
             constants = solution()
             lattice, pair = constants.lattice, (constants.alpha, constants.beta)

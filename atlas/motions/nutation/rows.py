@@ -59,7 +59,7 @@ def _velocity(block: Block) -> tuple[Constants, Third]:
 
 
 class Rows:
-    """Motions in arrays, ready to be evaluated as `motions`."""
+    """Constants of many motions as arrays in double-double, evaluated at times by the class `motions`."""
 
     def __init__(self, blocks: Blocks, motions: "type[MotionsAtTimes]") -> None:
         self.blocks, self.indices, self._motions = blocks, np.arange(blocks.count), motions

@@ -170,7 +170,7 @@ class Blocks:
         return iter(self._kept)
 
     def each(self) -> Iterator[Block]:
-        """Yield the blocks."""
+        """Yield the blocks of motions, in order."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
             is_similar = _alike([abs(np.asarray(x).reshape(-1)[rows]) for x in columns[self._unit]])

@@ -62,7 +62,7 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True)
 class SpherePair:
-    """alpha and beta of a sphere."""
+    """Cayley-Klein parameters alpha and beta of m motions whose axis moves on a sphere, see `Sphere`."""
 
     means: Means
     sphere: Sphere
@@ -121,7 +121,7 @@ class SpherePair:
 
     @cached_property
     def sums(self) -> Sums:
-        """The sums, of exp(i k y) times the depth's exponential to the power k, and of its inverse."""
+        """Weights of cos k y and i sin k y in the theta series of alpha and beta, as `Sums`."""
         zeros, square = self.zeros, self.means.nome * self.means.nome
         up, sign = zeros.growth, np.where(zeros.is_at_low, -1.0, 1.0)
         down, weight, power = ONE / up, constant(1.0, self.means.nome), constant(1.0, self.means.nome)

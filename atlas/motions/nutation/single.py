@@ -119,7 +119,7 @@ class SingleMotion:
         out: FloatArray | None,
         pair: CayleyKlein | None = None,
     ) -> FloatArray:
-        """Return linear combinations of the products of alpha and beta, or of another pair."""
+        """Return linear combinations (*t.shape, *shape) of the products of alpha and beta, or of `pair`, at times t."""
         times, pair = real(t, "The time"), pair or self.pair
         if times.size == 1 and pair.at_one_time:
             out = target(out, times.shape + shape)

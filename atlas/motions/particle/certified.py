@@ -84,7 +84,7 @@ class ParticleMotion:
 
     @property
     def _pull(self) -> Vector:
-        """The acceleration mu E."""
+        """Acceleration mu E by the electric field, shape (3,)."""
         return tuple(self.mu * e for e in self.E)
 
     def _vectors(self) -> tuple[Vector, Vector, Vector, Vector]:

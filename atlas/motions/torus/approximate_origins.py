@@ -24,7 +24,7 @@ Vector = list[acb]
 
 @dataclass(frozen=True)
 class State:
-    """Point of the complex torus: vectors M and K, and N, empty unless needed."""
+    """Point of the complex torus: M, K and, or [], N, the components in the body of e_x + i e_y across the field."""
 
     M: Vector
     K: Vector

@@ -62,7 +62,7 @@ class OnTorus:
 
     @property
     def b(self) -> arb:
-        """Length of the field."""
+        """Length |B'| of the field, in 1/time."""
         return arb(dot(self.field, self.field)).sqrt()
 
     @property
@@ -122,7 +122,7 @@ class OnTorus:
                 continue
 
     def _turn(self, t: fmpq) -> arb:
-        """Return the angle about the field that comes before S."""
+        """Return the angle -|B'| t of Larmor's frame, a rotation about the field applied before the others, in rad."""
         with workprec(ctx.prec + GUARD_BITS + _digits_before_point(t)):
             return -t * self.b
 
@@ -389,7 +389,7 @@ class AsymmetricMotion:
 
     @property
     def MK(self) -> fmpq:
-        """The Casimir (M, K)."""
+        """Casimir (M, K), the product of momentum and field in the body, exact and constant."""
         return self.invariants.c
 
     @property

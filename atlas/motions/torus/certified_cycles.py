@@ -57,9 +57,9 @@ ELLIPSE_BALLS, MIN_TURN_PART = 64, 2.0**-12
 
 
 def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
-    """Return (T_H, T_F, T_c, S) of a1, a2, b1 and b2, at the precision of the moment.
+    """Return, for each of the cycles a1, a2, b1, b2, the integrals [T_H, T_F, T_c, S] as balls.
 
-    NotCertifiedError where an integral is not proved.
+    S is the action and dS = T_H dH + T_F d(F/2) + T_c dc. Raises NotCertifiedError where an integral is not proved.
     """
     with workprec(int(ctx.prec) + GUARD_BITS):
         curve, rough = Curve(motion, proven=True), Curve(motion)

@@ -361,9 +361,10 @@ def _sizes(theta: ThetaMotion) -> Floats:
 
 
 def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
-    """Return bounds (3, 3) on the growth of errors of M, K and N by one another, over the times H and F.
+    """Return the matrix (3, 3) of bounds: row i, column j bounds the growth of the error of vector i by that of j.
 
-    A multiple of 1 may be taken from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K.
+    The vectors are M, K and N, with lengths `sizes`; H and F are the times along both flows. A multiple of 1 may be
+    subtracted from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K.
     """
     I = np.array([float(arb(x).mid()) for x in theta.motion.moments])
     M, K, N = sizes

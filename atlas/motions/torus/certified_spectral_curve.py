@@ -57,7 +57,7 @@ class SpectralCurve:
 
     @property
     def winding_numbers(self) -> list[Any]:
-        """List [f2/f1, f3/f1] of the frequencies' ratios."""
+        """Ratios [f2/f1, f3/f1] of the frequencies."""
         f1, f2, f3 = self.motion.frequencies
         return [f2 / f1, f3 / f1]
 

@@ -199,7 +199,7 @@ class Torus:
         return max(combinations(range(6), 2), key=lambda p: abs(X[p[0]] * Y[p[1]] - X[p[1]] * Y[p[0]]))
 
     def _newton(self, arrival: Arrival, W: Vector, K: Vector, chosen: tuple[int, int]) -> tuple[arb, arb]:
-        """Return -(X_H, X_F)^-1 (y - x), the fields at (W, K)."""
+        """Return the Newton step (times along H and F) from an arrival y to the start x: -(X_H, X_F)^-1 (y - x)."""
         X, Y = self.fields(W, K)
         i, j = chosen
         state, start = [*arrival.W, *arrival.K], [*self.W, *self.K]

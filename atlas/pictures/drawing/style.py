@@ -52,7 +52,7 @@ _LENGTHS = (
 
 @contextmanager
 def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
-    """Draw with Matplotlib's defaults, the package's sheet and ``style`` on top; at exit the settings are as before.
+    """Context with Matplotlib's defaults, the package's style sheet and ``style`` on top, restored at exit.
 
     The rules of a ``target`` come last: size of type, width of lines, kind of fonts, resolution.
 
