@@ -39,6 +39,9 @@ MAX_NEWTON, MAX_EVENING, UNEVEN = 12, 4, 1e-5
 TOLERANCE, BRACKET = 1e-7, 1e-3
 """Relative error of the steps in time, and relative change of the integrals within which a torus is lost."""
 
+FIRST_CHANGE = 0.05
+"""Change of the integrals, in sizes of H, over the first step; SciPy's own is tiny, for the phases are fast."""
+
 SMOOTH = 0.4
 """Waves per node that are kept in a grid."""
 
@@ -300,7 +303,11 @@ def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatA
     torus.follow(start[:count])
     spread = abs(torus.rates(start[:count])[0]).max() * end + 1.0
     least = TOLERANCE * np.array([abs(start[0])] * count + [spread] * 3)
-    solver, dense = DOP853(slopes, 0.0, start, end, rtol=TOLERANCE, atol=least) if end else None, None
+    pace = abs(slopes(0.0, start)[:count]).max()
+    first_step = float(min(end, FIRST_CHANGE * abs(start[0]) / pace)) if pace else end
+    solver, dense = None, None
+    if end:
+        solver = DOP853(slopes, 0.0, start, end, rtol=TOLERANCE, atol=least, first_step=first_step)
     for time in (t * rate).tolist():
         while solver and solver.t < time:
             message, dense = solver.step(), None
