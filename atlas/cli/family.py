@@ -219,22 +219,134 @@ class Question:
 
     def show(self) -> None:
         """Print the answers."""
-        family, described, options, times = self.family, self.described, self.options, self.times
+        family, options, times = self.family, self.options, self.times
         parameters = _parameters(family, options)
-        if _shown_otherwise(family, described, options, parameters, times):
+        if self.shown_otherwise(parameters):
             return
-        first_times, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
+        first_times = times if options["as_json"] else times[:AT_ONCE]
+        spare = SPARE if self.described.undecided else 1 << 16
         texts = answer(options, parameters, self.floats, partial(self.balls, first_times, family), spare)
         if texts is None:
             return
-        later = _later(self.balls, family, times[len(first_times) :], options, spare)
-        texts["samples"] = chain(texts.get("samples", []), later)
-        says, rounding = _in_hertz(family, texts, options), _of_rounding(family, options, times)
-        printout = _printout(family, described, texts, options, certificate(options), says)
+        texts["samples"] = chain(texts.get("samples", []), self.later(times[len(first_times) :], spare))
+        self.finish(self.printout(texts, certificate(options), _in_hertz(family, texts, options)))
+
+    def finish(self, printout: Printout, motion: Any = None) -> None:
+        """Print a printout with a note on rounded inputs, then the spectrum if one is asked for."""
+        family, options = self.family, self.options
+        rounding = _of_rounding(family, options, self.times, motion)
         show(replace(printout, notes=chain(printout.notes, rounding)))
         if options.get("spectrum"):
-            unit = _units(family, options).get(RATE, RATE)
-            show_lines(spectrum_of(_kernel(family, options), options), unit)
+            motion = _kernel(family, options) if motion is None else motion
+            show_lines(spectrum_of(motion, options), _units(family, options).get(RATE, RATE))
+
+    def later(self, times: Sequence[float], spare: int) -> Iterator[dict[str, Any]]:
+        """Yield the certified records of further times by blocks: a table prints while the next block is computed."""
+        from atlas.arithmetic.certified_digits import certified
+
+        for start in range(0, len(times), AT_ONCE):
+            block = partial(self.balls, times[start : start + AT_ONCE], replace(self.family, quantities=()))
+            yield from certified(block, self.options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
+
+    def shown_otherwise(self, parameters: dict[str, Any]) -> bool:
+        """Show a file, a curve, uncertain results or a motion in given axes; return whether the options ask for one.
+
+        These are not in the list of quantities, or have no certified counterpart.
+        """
+        family, options = self.family, self.options
+        if options.get("out") is not None:
+            _write_table(family, options, self.times)
+            return True
+        if options.get("curve"):
+            _show_curve(family, options, parameters)
+            return True
+        if uncertain(options):
+            self.with_sigma(parameters)
+            return True
+        if not family.in_given_axes or options["digits"] is not None or options["decimal"]:
+            return False
+        motion = motion_in_given_axes(options)
+        if motion is not None:
+            self.in_doubles(motion, parameters)
+        return motion is not None
+
+    def with_sigma(self, parameters: dict[str, Any]) -> None:
+        """Print the results of numbers with uncertainties."""
+        family, options = self.family, self.options
+        if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
+            raise click.UsageError(
+                "--digits, --decimal and --spectrum go without an uncertainty: leave out one of both."
+            )
+        answers = spread_of(family, options, self.times, self.described.name)
+        if options["as_json"]:
+            dump({"parameters": parameters, **answers.record()})
+            return
+        texts, lines = answers.texts(), list[Line]()
+        if "larmor" in texts:
+            lines.append(Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)"))
+        if body.units_of(options):
+            rates = answers.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
+            lines += [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
+        printout = self.printout(texts, "", lines)
+        show(replace(printout, notes=chain(filter(None, printout.notes), answers.notes)))
+
+    def in_doubles(self, motion: Any, parameters: dict[str, Any]) -> None:
+        """Print a motion in given axes, in doubles."""
+        from atlas.motions.start import body_of
+
+        options, times, family = self.options, self.times, FAMILIES[motion.family]
+        sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
+        record = {"family": family.name} | _answers(family, motion, times, sampled)
+        record |= recorded(spectrum_of(motion, options))
+        body_given = body_of(motion.arguments["inertia"])
+        if options["as_json"]:
+            principal = {"principal_moments": body_given.moments, "principal_axes": body_given.axes}
+            dump({"parameters": parameters, **principal, **record, **_input_error(family, motion, times)})
+            return
+        described = family.command or Described("motion", "", "", (), family.says)
+        texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
+        moments = [] if body.given_tensor(options) is None else [
+            Line(f"I{i}", f"principal, about {axes_text([axis])}", f"{moment:.{TABLE_DIGITS}g}", "inertia")
+            for i, (moment, axis) in enumerate(zip(body_given.moments, body_given.axes, strict=True), 1)
+        ]  # fmt: skip
+        question = replace(self, family=family, described=described)
+        printout = question.printout(texts, NOT_ASKED, [*moments, *_in_hertz(family, texts, options)])
+        axes = axes_text(motion.axes)
+        if axes != OWN_AXES:
+            says = f"Quantities are along the axes {axes} of the body{family.last_axis}; columns along the axes given."
+            printout = replace(printout, notes=chain([says], printout.notes))
+        question.finish(printout, motion)
+
+    def printout(self, texts: dict[str, Any], worth: str, more_lines: Iterable[Line]) -> Printout:
+        """Return the certified texts as a `Printout`: lines of quantities, and three rows for each time."""
+        from atlas.arithmetic.certified_digits import NOT_CERTIFIED
+
+        family, described, options = self.family, self.described, self.options
+        uncertain_rows = False
+
+        def rows() -> Iterator[list[str]]:
+            nonlocal uncertain_rows
+            for row in in_threes(texts.get("samples", [])):
+                uncertain_rows |= NOT_CERTIFIED in row
+                yield row
+
+        def notes() -> Iterator[str]:
+            yield from (f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text)
+            yield from dict.fromkeys(texts.get("missing", {}).values())
+            yield worth.replace("printed", "printed, but of rounded lines,") if units else worth
+            if described.undecided and uncertain_rows:
+                yield f"{NOT_CERTIFIED}: {UNKNOWN}"
+
+        case = texts[described.named] if described.named else ""
+        units = _units(family, options)
+        lines = lines_of_quantities(family, texts, options, described.named)
+        heading = [
+            head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
+            for s in family.sampled
+            if s.printed and not s.uncertified
+            for head in s.heading
+        ]
+        return Printout(described.title + case, [*lines, *more_lines], ("t", *heading), rows(), notes())
 
 
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
@@ -244,47 +356,6 @@ def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]
     motion = motion_in_given_axes(options) if family.in_given_axes else None
     write_table(motion or _kernel(family, options), times, options["out"], _units(family, options))
     click.echo(str(options["out"]))
-
-
-def _later(
-    balls: Callable[[Sequence[float], Family], dict[str, Any]],
-    family: Family,
-    times: Sequence[float],
-    options: dict[str, Any],
-    spare: int,
-) -> Iterator[dict[str, Any]]:
-    """Yield the certified records of further times by blocks: a table prints while the next block is computed."""
-    from atlas.arithmetic.certified_digits import certified
-
-    for start in range(0, len(times), AT_ONCE):
-        balls_of_block = partial(balls, times[start : start + AT_ONCE], replace(family, quantities=()))
-        yield from certified(balls_of_block, options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
-
-
-def _shown_otherwise(
-    family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
-) -> bool:
-    """Show results outside the list of quantities, or without a certified counterpart: a file, a curve, uncertainties.
-
-    Return whether the options ask for one of them.
-    """
-    if options.get("out") is not None:
-        _write_table(family, options, times)
-        return True
-    if options.get("curve"):
-        _show_curve(family, options, parameters)
-        return True
-    if uncertain(options):
-        _with_sigma(family, described, options, parameters, times)
-        return True
-    if not family.in_given_axes:
-        return False
-    if options["digits"] is not None or options["decimal"]:
-        return False
-    motion = motion_in_given_axes(options)
-    if motion is not None:
-        _in_doubles(motion, options, parameters, times)
-    return motion is not None
 
 
 def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, Any]) -> None:
@@ -333,25 +404,6 @@ def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str
     return [line for q in quantities for line in _lines(q, texts[q.name], case, _units(family, options))]
 
 
-def _with_sigma(
-    family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
-) -> None:
-    """Print the results of numbers with uncertainties."""
-    if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
-        raise click.UsageError("--digits, --decimal and --spectrum go without an uncertainty: leave out one of both.")
-    spread_of_answers = spread_of(family, options, times, described.name)
-    if options["as_json"]:
-        dump({"parameters": parameters, **spread_of_answers.record()})
-    else:
-        texts = spread_of_answers.texts()
-        rates = spread_of_answers.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
-        hertz = [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
-        larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
-        lines = [*larmor, *(hertz if body.units_of(options) else [])]
-        printout = _printout(family, described, texts, options, "", lines)
-        show(replace(printout, notes=chain(filter(None, printout.notes), spread_of_answers.notes)))
-
-
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     """Return the given parameters by name, for the record."""
     if family.takes("coupling") and given_otherwise(options):
@@ -361,37 +413,6 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     if family.takes("c"):
         parameters |= given(options, CHARGE) | {"units": body.system_of(options)}
     return parameters
-
-
-def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
-    """Print a motion in given axes, in doubles."""
-    from atlas.motions.start import body_of
-
-    family = FAMILIES[motion.family]
-    sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-    record = {"family": family.name} | _answers(family, motion, times, sampled)
-    record |= recorded(spectrum_of(motion, options))
-    body_given = body_of(motion.arguments["inertia"])
-    if options["as_json"]:
-        principal = {"principal_moments": body_given.moments, "principal_axes": body_given.axes}
-        dump({"parameters": parameters, **principal, **record, **_input_error(family, motion, times)})
-    else:
-        described = family.command or Described("motion", "", "", (), family.says)
-        texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
-        moments = [] if body.given_tensor(options) is None else [
-            Line(f"I{i}", f"principal, about {axes_text([axis])}", f"{moment:.{TABLE_DIGITS}g}", "inertia")
-            for i, (moment, axis) in enumerate(zip(body_given.moments, body_given.axes, strict=True), 1)
-        ]  # fmt: skip
-        lines = [*moments, *_in_hertz(family, texts, options)]
-        printout = _printout(family, described, texts, options, NOT_ASKED, lines)
-        axes = axes_text(motion.axes)
-        if axes != OWN_AXES:
-            says = f"Quantities are along the axes {axes} of the body{family.last_axis}; columns along the axes given."
-            printout = replace(printout, notes=chain([says], printout.notes))
-        printout = replace(printout, notes=chain(printout.notes, _of_rounding(family, options, times, motion)))
-        show(printout)
-        if options.get("spectrum"):
-            show_lines(spectrum_of(motion, options), _units(family, options).get(RATE, RATE))
 
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
@@ -576,44 +597,6 @@ def _quantities(
     return (
         values | ({"missing": reasons} if reasons else {}) | ({"samples": samples(times, **columns)} if columns else {})
     )
-
-
-def _printout(
-    family: Family,
-    described: Described,
-    texts: dict[str, Any],
-    options: dict[str, Any],
-    worth: str,
-    more_lines: Iterable[Line],
-) -> Printout:
-    """Return the certified texts as a `Printout`: lines of quantities, and three rows for each time."""
-    from atlas.arithmetic.certified_digits import NOT_CERTIFIED
-
-    uncertain_rows = False
-
-    def rows() -> Iterator[list[str]]:
-        nonlocal uncertain_rows
-        for row in in_threes(texts.get("samples", [])):
-            uncertain_rows |= NOT_CERTIFIED in row
-            yield row
-
-    def notes() -> Iterator[str]:
-        yield from (f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text)
-        yield from dict.fromkeys(texts.get("missing", {}).values())
-        yield worth.replace("printed", "printed, but of rounded lines,") if units else worth
-        if described.undecided and uncertain_rows:
-            yield f"{NOT_CERTIFIED}: {UNKNOWN}"
-
-    case = texts[described.named] if described.named else ""
-    units = _units(family, options)
-    lines = lines_of_quantities(family, texts, options, described.named)
-    heading = [
-        head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
-        for s in family.sampled
-        if s.printed and not s.uncertified
-        for head in s.heading
-    ]
-    return Printout(described.title + case, [*lines, *more_lines], ("t", *heading), rows(), notes())
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
