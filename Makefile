@@ -15,7 +15,7 @@ FUZZ_EXAMPLES ?= 10000
 .PHONY: help report test figures picture accessibility verify bench stress lint lint-python lint-scripts lint-types lint-floors clean setup gl lock newest lowest release FORCE
 
 help:
-	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
+	@echo 'make report    the atlas, the paper on trial, the guide and a summary, as pages and PDF: build/report/atlas/index.html'
 	@echo 'make test      lint, types, imports and tests'
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure;   make picture   the picture of the README'
@@ -34,6 +34,7 @@ report: $(MADE)
 	@echo build/report/atlas/index.html
 	@echo build/report/atlas.pdf
 	@echo build/report/trial.pdf
+	@echo build/report/summary.pdf
 	@echo build/report/guide/index.html
 
 # What is installed may bring a GL library or take it away; so may the variable ATLAS_GL, which stands in the stamp.
@@ -42,7 +43,7 @@ THERE   := $(wildcard build/report/atlas.pdf)$(wildcard build/report/trial.pdf)$
 STAMP   := build/report/atlas.pdfbuild/report/trial.pdfbuild/report/atlas/index.html gl=$(ATLAS_GL)
 
 $(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
-	@$(ATLAS) report atlas trial guide >/dev/null
+	@$(ATLAS) report atlas trial guide summary >/dev/null
 	@$(ATLAS) report your_body --from toutatis >/dev/null
 	@echo 'gl=$(ATLAS_GL)' >$@
 

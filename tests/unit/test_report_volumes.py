@@ -9,6 +9,7 @@ from lxml import html
 from pypdf import PdfReader
 
 from atlas.book import bibliography
+from atlas.book.blocks.explorer import Explorer
 from atlas.book.building.report import build_report
 from atlas.book.compose import compose
 from atlas.book.document import THEOREMS, Document
@@ -80,6 +81,15 @@ def test_references_to_other_volumes_are_words_in_print(volumes: dict[str, Docum
         "../trial/index.html",
         "page-index",
     )
+
+
+def test_the_summary_has_the_steps_of_the_front_page_on_two_sides(tmp_path: Path) -> None:
+    """Its heads are the titles of the five steps, and its PDF has two pages."""
+    steps = next(block.steps for block in load(find("atlas")).pages[0].blocks if isinstance(block, Explorer))
+    summary = (folder("reports") / "summary.md").read_text("utf-8")
+    assert re.findall(r"^## (.*)$", summary, re.MULTILINE) == [step.title for step in steps]
+    build_report(find("summary"), tmp_path, formats=("pdf",))
+    assert len(PdfReader(tmp_path / "summary.pdf").pages) == 2
 
 
 def test_a_theorem_has_one_number_in_all_reports(volumes: dict[str, Document]) -> None:
