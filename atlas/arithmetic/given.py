@@ -103,6 +103,15 @@ def exact_number(x: Any) -> Any:
     return Given(head, int(remainder.p) / int(remainder.q), 2.0**-104, lambda _: x)
 
 
+def exact_numbers(x: Any) -> Any:
+    """Return an array of rational numbers of flint as the equal floats where they all have one, else as a `Given`."""
+    if not x.ndim:
+        return exact_number(x[()])
+    numbers = [exact_number(one) for one in x.ravel()]
+    words = np.reshape([(float(one), float(low_word(one))) for one in numbers], (*x.shape, 2))
+    return Given(words[..., 0], words[..., 1], 2.0**-104, x.__getitem__) if words[..., 1].any() else words[..., 0]
+
+
 def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
     """Return a rational number as a float if one is equal, else as a Fraction."""
     number = exact_number(x)

@@ -25,6 +25,7 @@ from atlas.bodies.inertia import (
     mass_matrix_from_inertia,
     principal_values,
     rational_matrix,
+    rounded,
 )
 from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning
 from atlas.viewers import notebook
@@ -485,7 +486,7 @@ class SymmetricBody(CarriesUncertainty):
         """Return the body of a mass matrix of rational numbers, see `from_mass_matrix`."""
         values, axes = principal_values(mass_matrix)
         order = sorted(range(3), key=values.__getitem__)
-        axes, exact = axes[order], [max(values[i], fmpq(0)) for i in order]
+        axes, exact = rounded([axes[i] for i in order]), [max(values[i], fmpq(0)) for i in order]
         g, largest = np.array([nearest(values[i]) for i in order]), exact[2]
         if not any(map(any, mass_matrix)):
             raise DomainError("The mass matrix is zero: all of the body is in one point, and has no rotation.")

@@ -18,7 +18,7 @@ SINGLE = 1e-6
 """Part of its largest element by which a tensor in single precision may fail to be that of a body."""
 
 PRECISION = 320
-"""Bits of principal values and axes before they are rounded, once."""
+"""Bits of principal values and axes."""
 
 MAX_EXACT_POINTS = 4096
 """Point masses up to which the sums over them are rational: in some tenths of a second."""
@@ -56,7 +56,7 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
     `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
     """
-    return np.array([[nearest(x) for x in row] for row in exact_mass_matrix(masses, positions)])
+    return rounded(exact_mass_matrix(masses, positions))
 
 
 def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
@@ -125,16 +125,21 @@ def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
     ascend.
     """
     values, axes = principal_values(rational_matrix(matrix))
-    return np.array([*map(nearest, values)]), axes
+    return np.array([*map(nearest, values)]), rounded(axes)
 
 
-def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], FloatArray]:
-    """Return the principal values to `PRECISION` bits, equal ones exactly equal, and the axes as rows, rounded once."""
+def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], list[list[fmpq]]]:
+    """Return principal values and axes, as rows, to `PRECISION` bits; values that are equal are exactly equal."""
     if not any(matrix[i][j] for i in range(3) for j in range(3) if i != j):
-        return [matrix[i][i] for i in range(3)], np.eye(3)
+        return [matrix[i][i] for i in range(3)], [[fmpq(i == j) for j in range(3)] for i in range(3)]
     with workprec(PRECISION):
         values, axes = principal_axes(matrix)
-        return [*map(as_rational, values)], np.array([[nearest(x) for x in axis] for axis in axes])
+        return [*map(as_rational, values)], [[*map(as_rational, axis)] for axis in axes]
+
+
+def rounded(matrix: list[list[fmpq]]) -> FloatArray:
+    """Return the floats nearest to the rational numbers of a matrix."""
+    return np.array([[nearest(x) for x in row] for row in matrix])
 
 
 def rational_matrix(matrix: FloatArray) -> list[list[fmpq]]:

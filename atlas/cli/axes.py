@@ -72,9 +72,9 @@ def along_principal_axes(motion: Any, unit: str = "") -> Principal:
     from atlas.motions.start import start_of
 
     start = start_of(**motion.arguments)
-    moments, axes = start.body.moments.tolist(), start.body.axes
+    axes = start.body.axes
     field, omega = start.along(axes)
-    arguments = {"inertia": tuple(moments), "field": tuple(field), "omega": tuple(omega)}
+    arguments = {"inertia": start.moments, "field": tuple(field), "omega": tuple(omega)}
     return _principal(FAMILIES["asymmetric"], arguments, axes, unit)
 
 

@@ -4,18 +4,20 @@ import reprlib
 import warnings
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from flint import fmpq
 
 from atlas.arithmetic.dimensions import INERTIA, RATE
-from atlas.arithmetic.given import Given
+from atlas.arithmetic.double_double import given
+from atlas.arithmetic.given import Given, exact_numbers
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, frozen, plain, real, vectors
-from atlas.arithmetic.numbers import as_rational, length, nearest, workprec
+from atlas.arithmetic.numbers import Number, as_rational, dot, length, nearest, workprec
 from atlas.arithmetic.words import exact
-from atlas.bodies.body import SymmetricBody, moments
-from atlas.bodies.inertia import inertia_tensor, principal
+from atlas.bodies.body import SymmetricBody, exact_moments, moments
+from atlas.bodies.inertia import inertia_tensor, principal_values, rational_matrix, rounded
 from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning, tell_nearest
 from atlas.lazy import cached_property
 from atlas.motions.frames import Placement, turned_by
@@ -25,6 +27,8 @@ ROUNDING = 2.0**-50
 
 NEARLY = 2.0**-40
 """Difference of two moments, beside the largest, that may come from rounding of a tensor."""
+
+MIXED = "Some of these bodies are symmetric and some are not: make one array of each."
 
 ORTHOGONAL = 1e-9
 """Deviation of R^T R from 1 up to which the rotation nearest to an attitude is taken without a word."""
@@ -37,13 +41,15 @@ class Body(NamedTuple):
     """Principal moments (..., 3), axes as rows (..., 3, 3) in the given ones, and the inertia tensor (..., 3, 3).
 
     `exact` is a body, or a ratio, with the moments along the first and the last axis without rounding; or three
-    different moments, of which floats do not hold all; or None.
+    different moments, of which floats do not hold all; or None. `turn` has the nine elements of the axes without
+    rounding where floats do not hold them; then there is an `exact`.
     """
 
     moments: FloatArray
     axes: FloatArray
     tensor: FloatArray
     exact: Any = None
+    turn: tuple[Any, ...] = ()
 
 
 class Start:
@@ -61,7 +67,20 @@ class Start:
     def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
         """Return the components of field and of angular velocity along `axes`, rows in the body, without rounding."""
         back = np.swapaxes(self.R, -1, -2) if self._turn is None else np.array(self._turn) * (-1.0, -1.0, -1.0, 1.0)
-        return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
+        if not self.body.turn:
+            return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
+        turned = turned_by(self.B, back), turned_by(self.w, *[back] * self.outside)
+        field, w = (given(_along, *self.body.turn, *v, unit=slice(9, None), count=3) for v in turned)
+        return field, w
+
+    @property
+    def moments(self) -> tuple[Any, Any, Any]:
+        """Principal moments without rounding, along the axes of the body."""
+        exact = self.body.exact
+        if exact is None or isinstance(exact, tuple):
+            return exact or parts(self.body.moments)
+        I2, I3 = exact_moments(exact)
+        return I2, I2, I3
 
     @property
     def omega(self) -> FloatArray:
@@ -77,7 +96,7 @@ class Start:
         I = self.body.moments
         symmetric = np.logical_or.reduce([I[..., i] == I[..., j] for i, j in ((0, 1), (1, 2), (0, 2))])
         if symmetric.any() and not symmetric.all():
-            raise DomainError("Some of these bodies are symmetric and some are not: make one array of each.")
+            raise DomainError(MIXED)
         return bool(symmetric.any())
 
     @cached_property
@@ -181,22 +200,38 @@ def body_of(inertia: Any) -> Body:
             )
         I2, I3 = moments(inertia_matrix)
         return of_moments((I2, I2, I3), np.eye(3))
-    for tensor in inertia_matrix.reshape(-1, 3, 3):
-        inertia_tensor(tensor)
-    pairs = [principal(tensor) for tensor in inertia_matrix.reshape(-1, 3, 3)]
-    I, axes = (np.reshape(x, inertia_matrix.shape[:-2] + np.shape(x[0])) for x in zip(*pairs, strict=True))
-    least, second, largest = np.moveaxis(np.sort(I), -1, 0)
+    pairs = [*map(_principal, inertia_matrix.reshape(-1, 3, 3))]
+    if len({I[0] == I[1] for I, _ in pairs}) > 1:
+        raise DomainError(MIXED)
+    arrays = [np.array(x, object) for x in zip(*pairs, strict=True)]
+    I, axes = (x.reshape(inertia_matrix.shape[:-2] + x.shape[1:]) for x in arrays)
+    of_axes = tuple(exact_numbers(I[..., i]) for i in range(3))
+    exact = SymmetricBody(of_axes[0], of_axes[2]) if pairs[0][0][0] == pairs[0][0][1] else of_axes
+    turn = tuple(exact_numbers(axes[..., i, j]) for i in range(3) for j in range(3))
+    return Body(joined_columns([*of_axes]), np.reshape(np.stack(turn, -1), axes.shape), inertia_matrix, exact, turn)
+
+
+def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
+    """Return principal moments and axes of one tensor; the axis of a body with two equal moments is the last one."""
+    I, axes = principal_values(rational_matrix(inertia_tensor(tensor)))
+    largest = max(range(3), key=I.__getitem__)
     # the rounding of a tensor's elements may put a plane body beyond all bodies
-    np.put_along_axis(I, I.argmax(axis=-1)[..., None], np.minimum(largest, least + second)[..., None], axis=-1)
-    for principal_moments, rows in zip(I.reshape(-1, 3), axes.reshape(-1, 3, 3), strict=True):
-        _hint_at_symmetry(principal_moments, rows)
-    return Body(I, axes, inertia_matrix)
+    I[largest] = min(I[largest], I[largest - 1] + I[largest - 2])
+    _hint_at_symmetry(np.array([*map(nearest, I)]), [nearest((y - x) / I[2]) for x, y in pairwise(I)], rounded(axes))
+    third = next((i for i in range(3) if I[i - 2] == I[i - 1]), 2)
+    order = [third - 2, third - 1, third]
+    return [I[i] for i in order], [axes[i] for i in order]
 
 
-def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
+def _along(*numbers: Number) -> tuple[Number, ...]:
+    """Return the components of a vector, the last three of the numbers, along the axes, the first nine."""
+    *axes, x, y, z = numbers
+    return tuple(dot(axes[i : i + 3], (x, y, z)) for i in (0, 3, 6))
+
+
+def _hint_at_symmetry(I: FloatArray, gaps: list[float], axes: FloatArray) -> None:
     """Warn of ascending principal moments of a tensor two of which are nearly equal: nothing joins them."""
-    gaps = np.diff(I)
-    i, part = int(gaps.argmin()), float(gaps.min() / I[2])
+    i, part = min(enumerate(gaps), key=lambda gap: gap[1])
     if 0 < part <= NEARLY:
         third = (0, 2)[1 - i]
         warnings.warn(
@@ -204,7 +239,7 @@ def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
             "closed form of its motion takes up to a minute. If two are meant to be equal, give atlas.SymmetricBody("
             f"{I[1]:.16g}, {I[third]:.16g}, axes), third axis ({', '.join(f'{x:.10g}' for x in axes[third])}).",
             NearlySymmetricWarning,
-            stacklevel=5,
+            stacklevel=6,
         )
 
 

@@ -46,9 +46,9 @@ BODIES = {
     "three moments": (tensor(1, 1.0, 1.3, 0.8), "asymmetric"),
     "flat": (tensor(2, 1.0, 1.5, 2.4), "asymmetric"),
     "free": (tensor(3, 1.0, 1.3, 0.8), "asymmetric"),
-    "disk": (tensor(4, 1.0, 1.0, 1.9), "asymmetric"),  # its moments, as rounded, are three
-    "rod": (tensor(5, 2.0, 0.3, 2.0), "general"),
-    "ball": (tensor(6, 0.7, 0.7, 0.7), "general"),
+    "disk": (tensor(4, 1.0, 1.0, 1.9), "asymmetric"),  # rounded elements have three moments, here and below
+    "rod": (tensor(5, 2.0, 0.3, 2.0), "asymmetric"),
+    "ball": (tensor(6, 0.7, 0.7, 0.7), "asymmetric"),
 }
 
 

@@ -17,7 +17,6 @@ from atlas.arithmetic.numbers import (
     dot,
     length,
     nearest,
-    rational,
     unit,
     workprec,
 )
@@ -178,12 +177,11 @@ class BallMotion(DoubleTurn[Ball]):
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
         """Return the motion, and axes with the third along the field and m(0) across the first."""
-        I = start.body.moments
-        if start.shape or not start.has_field or not I[0] == I[1] == I[2]:
+        if start.shape or not start.has_field or len({exact(x) for x in start.moments}) > 1:
             return None
         _, axes, field, omega = start.symmetric
         K, w = exact(*field), exact(*omega)
-        square, projection, size = dot(K, K), dot(w, K), rational(float(I[2]))
+        square, projection, size = dot(K, K), dot(w, K), exact(start.moments[2])[0]
         aside = [square * x - projection * y for x, y in zip(w, K, strict=True)]
         with workprec():
             b, side = as_rational(length(*K)), as_rational(length(*aside))
@@ -192,7 +190,7 @@ class BallMotion(DoubleTurn[Ball]):
                 aside = [square * x - dot(e, K) * y for x, y in zip(e, K, strict=True)]
             turn = np.array([[nearest(x) for x in unit(row)] for row in (cross(aside, K), aside, K)])
         larmor, m2, m3 = (exact_number(x) for x in (b, size * side / square, size * projection / square * b))
-        return cls(float(I[2]), larmor, (m2, m3)), turn @ axes
+        return cls(start.moments[2], larmor, (m2, m3)), turn @ axes
 
     def _inputs_of(self, i: int) -> Any:
         """Return the exact inputs of the i-th motion."""

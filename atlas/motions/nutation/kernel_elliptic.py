@@ -17,7 +17,7 @@ from atlas.motions.nutation.rows_elliptic import EllipticAtTimes, EllipticBlocks
 from atlas.motions.nutation.rows_scalars import IN_ARRAYS
 from atlas.motions.nutation.single import BITS
 from atlas.motions.nutation.single_elliptic import SingleElliptic
-from atlas.motions.start import Start, parts
+from atlas.motions.start import Start
 
 CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
 """Names of the conserved quantities, in the order of `invariants`."""
@@ -165,7 +165,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
         """Return (motion, principal axes as rows) from a `Start`."""
         axes = start.body.axes
-        return cls(parts(start.body.moments), tuple(start.along(axes)[0]), **parameters), axes
+        return cls(start.moments, tuple(start.along(axes)[0]), **parameters), axes
 
     def _inputs_of(self, i: int) -> Any:
         """Return the exact inputs of the i-th motion."""

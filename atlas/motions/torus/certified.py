@@ -139,7 +139,7 @@ class OnTorus:
     def _state(self, t: fmpq) -> tuple[Arrival, arb]:
         bits, extra_bits, turn = ctx.prec + GUARD_BITS, _digits_before_point(t), self._turn(t)
         if abs(t) <= MAX_DIRECT_TIME:
-            return self.torus.flow.go(t, fmpq(0), bits), turn
+            return self._along_series(t, bits), turn
         if why := self._without_periods(t):
             return self._directly(t, why), turn
         try:
@@ -162,7 +162,10 @@ class OnTorus:
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
                 f"{nearest_float(MAX_FLOW_TIME / self.rate):.6g}."
             )
-        bits = ctx.prec + 2 * GUARD_BITS
+        return self._along_series(t, ctx.prec + 2 * GUARD_BITS)
+
+    def _along_series(self, t: fmpq, bits: int) -> Arrival:
+        """Return the state at t by Taylor's series, with twice the bits where errors grow."""
         while True:
             try:
                 return self.torus.flow.go(t, fmpq(0), bits)

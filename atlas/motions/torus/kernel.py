@@ -20,7 +20,7 @@ from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.kernel import scalar
 from atlas.motions.nutation.single_elliptic import MAX_ERROR, SingleElliptic, SingleEulerTop
 from atlas.motions.spectrum import Wheels
-from atlas.motions.start import Start, parts
+from atlas.motions.start import Start
 from atlas.motions.torus.certified import AsymmetricMotion as Balls
 from atlas.motions.torus.rounded import Certified
 from atlas.motions.torus.theta import MAX_ROUNDING, ThetaKernel, closed_form
@@ -399,9 +399,8 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
         """Return the motion of a body with three different moments, and its principal axes."""
-        body = start.body
-        moments = body.exact if isinstance(body.exact, tuple) else parts(body.moments)
-        return None if start.is_symmetric else (cls(moments, *start.along(body.axes)), body.axes)
+        axes = start.body.axes
+        return None if start.is_symmetric else (cls(start.moments, *start.along(axes)), axes)
 
     def _inputs_of(self, i: int) -> Any:
         """Return the exact inputs of the i-th motion."""
