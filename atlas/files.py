@@ -23,6 +23,9 @@ WRITTEN = ".written"
 IGNORED = f"# notes of atlas, which it makes again\n.gitignore\n{WRITTEN}\n*.costs.json\n"
 """The file .gitignore of a folder that files are written to."""
 
+EXCLUDED = f"# notes of atlas, which it makes again\n/{WRITTEN}\n/*.costs.json\n"
+"""What a repository's own exclusions have where files are written to its root."""
+
 MAX_LINE_LENGTH = 1 << 20
 """Characters of a line that is read."""
 
@@ -188,9 +191,18 @@ def listed(lines: Iterable[str]) -> str:
 
 
 def hide_notes(folder: Path) -> None:
-    """Let git see no notes of ours in a folder below a user's repository, unless it has a .gitignore."""
+    """Let git see no notes of ours in a user's repository.
+
+    In a folder below its root by a .gitignore, unless the folder has one; at the root by the file of its exclusions,
+    which git shows nobody.
+    """
     ignore, here = folder / ".gitignore", folder.resolve()
-    if not os.path.lexists(ignore) and any((above / ".git").exists() for above in here.parents):
+    if (here / ".git" / "info").is_dir():
+        exclude = here / ".git" / "info" / "exclude"
+        text = exclude.read_text(encoding="utf-8") if exclude.exists() else ""
+        if EXCLUDED not in text:
+            write(exclude, f"{text.rstrip()}\n{EXCLUDED}".lstrip())
+    elif not os.path.lexists(ignore) and any((above / ".git").exists() for above in here.parents):
         write(ignore, IGNORED)
 
 

@@ -131,15 +131,15 @@ def test_git_sees_requested_files_and_no_internal_records(tmp_path: Path) -> Non
     theirs.mkdir()
     subprocess.run([*git, "init", "-q"], check=True, capture_output=True)
     for _ in range(2):
-        for folder in (theirs / "made", theirs / "a" / "b", plain):
+        for folder in (theirs, theirs / "made", theirs / "a" / "b", plain):
             with files.keeping(folder / "t.csv") as part:
                 part.write_text("1")
             files.write(folder / "t.costs.json", "{}")
         publish.replace(theirs / "pages", {"index.html": b"page", "s/a.css": b""})
         listed = subprocess.run([*git, "status", "--short", "-uall"], check=True, capture_output=True, text=True).stdout
         there = {line.split()[1] for line in listed.splitlines()}
-        assert there == {"a/b/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
-    assert not (plain / ".gitignore").exists()
+        assert there == {"t.csv", "a/b/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
+    assert not any((folder / ".gitignore").exists() for folder in (theirs, plain))
     own = theirs / "own"
     own.mkdir()
     (own / ".gitignore").write_text("*.log\n")
