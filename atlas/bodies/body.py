@@ -484,9 +484,9 @@ class SymmetricBody(CarriesUncertainty):
     @classmethod
     def _of_masses(cls, mass_matrix: list[list[fmpq]], tolerance: float) -> Self:
         """Return the body of a mass matrix of rational numbers, see `from_mass_matrix`."""
-        values, axes = principal_values(mass_matrix)
+        values, exact_axes = principal_values(mass_matrix)
         order = sorted(range(3), key=values.__getitem__)
-        axes, exact = rounded([axes[i] for i in order]), [max(values[i], fmpq(0)) for i in order]
+        axes, exact = rounded([exact_axes[i] for i in order]), [max(values[i], fmpq(0)) for i in order]
         g, largest = np.array([nearest(values[i]) for i in order]), exact[2]
         if not any(map(any, mass_matrix)):
             raise DomainError("The mass matrix is zero: all of the body is in one point, and has no rotation.")

@@ -42,7 +42,9 @@ def head_and_columns(path: Path) -> tuple[list[str], Columns]:
     except OSError:
         raise
     except Exception as error:  # pyarrow has errors of its own
-        raise AtlasError(f"{path.name} cannot be read as {path.suffix}: {' '.join(str(error).split())}.") from error
+        raise AtlasError(
+            f"{path.name} cannot be read as {path.suffix}: {' '.join(str(error).split()).rstrip('.')}."
+        ) from error
     if not any(map(np.size, columns.values())):
         raise AtlasError(f"{path.name} is empty; it needs columns such as t, R11, R12, R13 with numbers.")
     for name, column in columns.items():
