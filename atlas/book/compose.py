@@ -70,6 +70,7 @@ def compose(
             PageView(
                 next(appendices if page.appendix else chapters),
                 *(page.slug, composer.title, heading, blocks, templates, page.part, page.appendix),
+                printed=page.printed and page.slug not in document.ledger.values(),
             )
         )
     if report.gallery and not outline:

@@ -26,8 +26,9 @@ class Thumbnail(StrictStruct, frozen=True):
 class Page(StrictStruct, frozen=True):
     """One page of the HTML, one chapter of the PDF; pages of one part are grouped in the contents.
 
-    An appendix is lettered and set in small type. ``thumbnail`` represents the page on the front page. Titles are plain
-    words, with formulas between dollars.
+    An appendix is lettered and set in small type. A page with ``printed = false`` or with a ledger stands in the HTML
+    alone, and the contents of the PDF name it; pages with ``printed = false`` come last. ``thumbnail`` represents the
+    page on the front page. Titles are plain words, with formulas between dollars.
     """
 
     slug: Slug
@@ -35,6 +36,7 @@ class Page(StrictStruct, frozen=True):
     blocks: tuple[Block, ...]
     part: str = ""
     appendix: bool = False
+    printed: bool = True
     thumbnail: Thumbnail = Thumbnail()
 
 

@@ -43,6 +43,7 @@ class PageView:
     templates: tuple[str, ...]
     part: str = ""
     appendix: bool = False
+    printed: bool = True
 
     @property
     def file(self) -> str:
@@ -151,8 +152,8 @@ class Document:
 
     @property
     def printed(self) -> list[PageView]:
-        """The pages of the PDF: those with a ledger, which turns and folds, are in the HTML alone."""
-        return [page for page in self.pages if page.slug not in self.ledger.values()]
+        """The pages of the PDF: those with ``printed = false`` or a ledger are in the HTML alone."""
+        return [page for page in self.pages if page.printed]
 
     def place(self, name: str, *, printed: bool = False) -> tuple[str, str, str] | None:
         """Return the page, the anchor and the words of a name in this report: in its ledger, else where it is shown.

@@ -78,6 +78,8 @@ def _consistent(report: Report, folder: Path) -> Report:
     if not report.pages or report.pages[0].slug != "index":
         sentence = "the first must have the slug 'index': that is the file that readers open"
         raise SchemaError("pages", sentence, "slug", (0,))
+    if [page.printed for page in report.pages] != sorted((page.printed for page in report.pages), reverse=True):
+        raise SchemaError("pages", "those with printed = false must come last, so that chapters have one number")
     if report.bibliography and not beside(report.bibliography, folder):
         sentence = f"{report.bibliography!r} is no file in {folder.absolute()}, where the report is"
         raise SchemaError("bibliography", sentence, "bibliography")

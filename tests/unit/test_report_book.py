@@ -60,13 +60,20 @@ FIGURES = """  { kind = "figure", recipe = "magn", width = 150.0 },
   { kind = "figure", recipe = "magn", width = 155.0 },
 """
 """Too tall for what is left of a page."""
+THIRD = """
+[[pages]]
+slug = "third"
+title = "The third chapter"
+printed = false
+blocks = [{ kind = "prose", text = "Read on a screen." }]
+"""
 
 
 @pytest.fixture(scope="module")
 def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Set the book and return its PDF."""
     folder = tmp_path_factory.mktemp("book")
-    (folder / "book.toml").write_text(BOOK.replace(SECOND, FIGURES + SECOND), encoding="utf-8")
+    (folder / "book.toml").write_text(BOOK.replace(SECOND, FIGURES + SECOND) + THIRD, encoding="utf-8")
     return build_report(folder / "book.toml", folder, formats=("pdf",)).pdf
 
 
@@ -98,6 +105,22 @@ def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:
     for words in ("Part I The motion", "1 The first chapter", "1.1 A section", "A The second chapter"):
         assert words in contents
         assert words in body
+
+
+def test_a_page_that_is_not_printed_is_named_in_the_contents(book: list[str]) -> None:
+    """The PDF names it without a number, and has none of its text."""
+    assert "In the HTML pages alone The third chapter" in book[1]
+    assert not any("Read on a screen." in text for text in book)
+
+
+def test_pages_that_are_not_printed_come_last(tmp_path: Path) -> None:
+    """A chapter has one number in the pages and in the PDF."""
+    report = tmp_path / "book.toml"
+    report.write_text(
+        BOOK.replace('slug = "second"', 'slug = "second"\nprinted = false') + THIRD.replace("printed = false", "")
+    )
+    with pytest.raises(AtlasError, match="must come last"):
+        load(report)
 
 
 def test_figures_stand_in_their_chapter_and_in_order(book: list[str]) -> None:

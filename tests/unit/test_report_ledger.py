@@ -219,14 +219,14 @@ def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.Html
 
 
 @pytest.mark.slow
-def test_the_pdf_holds_every_slip_and_no_ledger(built: Built) -> None:
-    """Every refuted name is printed with a counterexample; pages with a ledger are in the HTML alone."""
+def test_the_pdf_holds_every_slip_and_names_the_ledger(built: Built) -> None:
+    """Every refuted name is printed with a counterexample; of pages with a ledger only the title is printed."""
     pages = [page.extract_text() for page in PdfReader(built.pdf).pages]
     text = re.sub(r"\s+", "", "".join(pages)).replace("\xad", "")
     refuted = [name for name, verdict in recorded.load().items() if verdict.verdict == "refuted"]
     assert [name for name in refuted if name not in text] == []
     assert text.count("Counterexample") >= len(refuted)
-    assert "SectionVII" not in text
+    assert text.count("SectionVII") == 1  # in the contents
 
 
 def test_the_order_of_grades_is_that_of_the_trial() -> None:
