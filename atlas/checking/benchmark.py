@@ -149,6 +149,8 @@ class Results(Item, frozen=True):
     runs: list[Run]
     costs: list[Cost]
     limits: list[Limit] = []
+    narrow: list[Run] = []
+    """Closed forms of the elementary motion once more, NumPy and C held back from AVX-512."""
 
 
 def stored() -> Path:

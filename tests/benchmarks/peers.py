@@ -1,6 +1,7 @@
 """Closed forms as other libraries have them: a product of turns about fixed axes, (85) and (28)."""
 
 import ctypes
+import os
 import subprocess
 import tempfile
 from collections.abc import Sequence
@@ -43,7 +44,8 @@ def compiled(constants: Sequence[float]) -> Solve:
     """Compile compiled.c for this machine: k and phi in two words each, and the components of the axis."""
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder) / "compiled.so"
-        flags = "-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC"
+        narrow = ["-mno-avx512f"] if "NPY_DISABLE_CPU_FEATURES" in os.environ else []  # as NumPy in this process
+        flags = "-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC", *narrow
         subprocess.run(["cc", *flags, str(Path(__file__).with_name("compiled.c")), "-lm", "-o", library], check=True)  # noqa: S607  whatever compiler there is
         rotations = ctypes.CDLL(str(library)).rotations
     words, floats = np.array(constants), np.ctypeslib.ndpointer(np.float64, flags="C")

@@ -1,11 +1,18 @@
-"""Error against time: every method on every case, up to every horizon, at every tolerance; failures are kept."""
+"""Error against time: every method on every case, up to every horizon, at every tolerance; failures are kept.
 
+`python -m benchmarks.precision` prints the runs of the closed forms of the elementary motion, for another process.
+"""
+
+import os
+import subprocess
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from statistics import median
 
+import msgspec
 from msgspec.structs import replace
 
 from atlas.checking.benchmark import Run, Status
@@ -14,6 +21,7 @@ from benchmarks.clock import interleave, once
 from benchmarks.integrators import Integrator, TimedOutError
 from benchmarks.oracle import Reference, reference
 from benchmarks.results import Setup, said
+from benchmarks.rotations import elementary_case
 
 SHORT = 0.1
 """A solution that takes longer than this many seconds is timed once, a shorter one several times."""
@@ -73,6 +81,14 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
         times = interleave({"base": partial(bench.plain, t)} | jobs, bench.plan.rounds)
         for name, error in errors.items():
             yield _measured(Run(case.name, name, horizon, len(t), "done"), error, times[name])
+
+
+def narrow() -> list[Run]:
+    """Return the closed forms of the elementary motion in a process whose NumPy and C do without AVX-512."""
+    held_back = os.environ | {"NPY_DISABLE_CPU_FEATURES": "X86_V4 AVX512_ICL AVX512_SPR"}
+    command = [sys.executable, "-m", "benchmarks.precision"]
+    told = subprocess.run(command, capture_output=True, check=True, env=held_back).stdout
+    return msgspec.json.decode(told, type=list[Run])
 
 
 def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
@@ -136,3 +152,9 @@ def _measured(run: Run, error: float, times: Sequence[float], note: str = "") ->
 def _unmeasured(run: Run, status: Status, note: str) -> Run:
     """Keep a run that has no error and no time, with the reason."""
     return replace(run, status=status, note=note)
+
+
+if __name__ == "__main__":
+    ready = Bench.of(elementary_case(), Plan((1e4,), (), samples=1024, rounds=31, limit=3.0))
+    runs = [item for item in closed(ready) if isinstance(item, Run)]
+    print(msgspec.json.encode(runs).decode())  # noqa: T201  what the other process reads

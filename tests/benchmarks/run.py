@@ -15,7 +15,7 @@ from benchmarks import arrays, cost, general, particle, rotations
 from benchmarks.integrators import integrators
 from benchmarks.limits import targets
 from benchmarks.oracle import check
-from benchmarks.precision import Bench, Plan, closed, stepping
+from benchmarks.precision import Bench, Plan, closed, narrow, stepping
 from benchmarks.results import Rows, Setup, machine, today, versions, write
 
 NEAR = 1e-35
@@ -95,7 +95,8 @@ def main() -> None:
     runs, prices, setups, rows = ([x for x in items if isinstance(x, kind)] for kind in (Run, Cost, Setup, Rows))
     limits = targets(machine(), setups, prices, rows)
     done = [price for price in prices if price.status == "done"]
-    record = Results(FORMAT, "make bench", today(), machine(), versions(), shown(runs), done, limits)
+    held_back = [_short(run) for run in narrow()] if machine().avx512 and not options.quick else []
+    record = Results(FORMAT, "make bench", today(), machine(), versions(), shown(runs), done, limits, held_back)
     for limit in limits:
         print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
     print(measured(record, record.versions))  # noqa: T201
