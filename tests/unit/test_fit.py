@@ -476,7 +476,7 @@ def test_the_command_fits_a_file(tmp_path: Path) -> None:
     """With sigma from its head, predictions, a figure, and JSON that holds the same numbers."""
     file = written(tmp_path / "mine.csv")
     drawn = str(tmp_path / "mine.svg")
-    words = ["fit", str(file), "--predict", "20", "20000ms", "--horizon", "0.1", "--figure", drawn, "--json"]
+    words = ["fit", str(file), "--predict", "20s", "20000ms", "--horizon", "0.1", "--figure", drawn, "--json"]
     result = CliRunner().invoke(command, words, catch_exceptions=False)
     found = json.loads(result.stdout)
     assert abs(found["params"]["ratio"]["value"] - RATIO) < 5 * found["params"]["ratio"]["stderr"]
