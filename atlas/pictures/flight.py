@@ -11,7 +11,7 @@ from atlas.arithmetic.inputs import FloatArray, positive
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.particle.flight import Flight
 from atlas.pictures.any_motion import turns as turns_of
-from atlas.pictures.captions import plain_vector, tex_equals, tex_vector
+from atlas.pictures.captions import plain_vector, tex, tex_equals, tex_vector
 from atlas.pictures.layers import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, frame
 from atlas.pictures.movement import translations
 from atlas.pictures.sample import curve, quarter_pixel
@@ -151,11 +151,19 @@ def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: 
     x_low, y_low = flat.min(axis=0)[:2]
     corner = np.array([x_low - max(0.0, *ends[:, 0]) - CLEAR * length, y_low - min(0.0, *ends[:, 1]), 0.0]) @ eye
     layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
-    size = 10.0 ** np.floor(np.log10(length))
-    size *= max(step for step in (1, 2, 5) if step * size <= length)
-    bar = corner + np.array([[0.0, -0.35 * length, 0.0], [size, -0.35 * length, 0.0]]) @ eye
-    layers += [Curve(bar, "axis"), Label(bar.mean(axis=0), f"{size:g} {unit}", "note", (0.0, -5.0))]
+    layers += scale_bar(corner - 0.35 * length * eye[1], eye[0], length, unit)
     return replace(view, layers=tuple(layers))
+
+
+def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: str, size: float = 1.0) -> list[Layer]:
+    """Return a bar of a round length, at most `longest`, along a unit vector, and its length in `unit` below it.
+
+    `size` is the length in `unit` of one step of the coordinates.
+    """
+    length = 10.0 ** np.floor(np.log10(longest * size))
+    length *= max(step for step in (1, 2, 5) if step * length <= longest * size)
+    bar = start + np.array([[0.0], [length / size]]) * direction
+    return [Curve(bar, "axis"), Label(bar.mean(axis=0), f"${tex(length)}$ {unit}", "note", (0.0, -5.0))]
 
 
 def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) -> Plane:
