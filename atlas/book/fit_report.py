@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from atlas.book.digits import MINUS
-from atlas.book.markdown import written
-from atlas.book.parts import Asked, figures_of, headed
+from atlas.book.markdown import fenced
+from atlas.book.parts import Asked, figures_of, headed, records_of, templated
 
 MAX_NAME_LENGTH = 48
 """Largest length of the name of a page; longer names end with a digest."""
@@ -90,60 +90,48 @@ class Fitted:
     def sources(self) -> dict[str, str]:
         """Return the texts of the report file and of its picture's recipe, by file name."""
         return {
-            f"{self.name}.md": headed(self.name, written(self.definition()), self.command),
+            f"{self.name}.md": templated(self.name, "fit.md", self.head(), self.values(), self.command),
             f"{self.name}.py": headed(self.name, self._recipe(), self.command),
         }
 
-    def definition(self) -> dict[str, Any]:
-        """Return the report as a dict of values for its file."""
-        left_out, motion = list[str](), self.motion
-        blocks = [
-            _prose(self._verdict()),
-            self._parameters(),
-            {"kind": "figure", "recipe": f"./{self.name}.py", "id": "data"},
-            *self._correlations(),
-            *([] if self.fit.warnings else [self._horizons()]),
-            *([_prose("What was asked of the time to come:", "", "```", *self.ahead, "```")] if self.ahead else []),
-            *self._motion(left_out),
-            _prose(
-                "## The same again", "", "This page, and its numbers with all covariances:", "", "```console",
-                f"$ {self.command}", f"$ {shlex.join(['atlas', 'fit', *self.words[1:], '--json'])}", "```",
-            ),
-            *([_prose("\n- ".join(["## Left out\n", *left_out]))] if left_out else []),
-        ]  # fmt: skip
-        records = (("bodies", "body", motion.body), ("fields", "field", motion.field))
+    def head(self) -> dict[str, Any]:
+        """Return the keys of the report's head."""
         return {
-            "name": self.name,
             "title": self.title or f"The motion in {self._file}",
             "subtitle": f"{self.fit.family} motion, {self.fit.t.size} times of {self.fit.kind.replace('_', ' ')}",
-            "abstract": "Errors are standard errors, of first order. The numbers of a fit are estimates: no digit is "
-            f"proven. Times are in {'s' if self.fit.time_unit == 's' else 'the unit of the file'}, moments of inertia "
-            "in that of $I_2$.",
-            "parameters": {kind: {name: record} for kind, name, record in records if record},
-            "pages": [{"slug": "index", "title": "Fit", "blocks": blocks}],
+        } | records_of(self.motion)
+
+    def values(self) -> dict[str, Any]:
+        """Return the values that the template sees: words, rows, and figures in their fences."""
+        fit, left_out, recipes = self.fit, list[str](), {name: dict[str, Any]() for name in self.motion.family.figures}
+        remarks = (
+            ("What speaks against this motion:", fit.warnings), ("What the data do not determine:", fit.undetermined),
+            ("Alternatives:", fit.others), ("Left out of the file:", fit.notes),
+        )  # fmt: skip
+        return {
+            "name": self.name, "unit": "s" if fit.time_unit == "s" else "the unit of the file",
+            "quality": self._quality(), "remarks": [(head, [*map(_marked, lines)]) for head, lines in remarks],
+            "parameters": self._parameters(), "epoch": f"{fit.epoch:g}", "correlations": [*self._correlations()],
+            "least": f"{MIN_CORRELATION:g}", "horizons": [] if fit.warnings else self._horizons(),
+            "end": f"{fit.t.max():.6g}", "ahead": self.ahead, "report": self.motion.command, "command": self.command,
+            "figures": [*map(fenced, figures_of(self.motion, recipes, left_out))], "left_out": left_out,
+            "numbers": shlex.join(["atlas", "fit", *self.words[1:], "--json"]),
         }  # fmt: skip
 
-    def _verdict(self) -> str:
-        """Return sentences on the quality of the fit, on undetermined parameters, and the warnings."""
+    def _quality(self) -> str:
+        """Return sentences on the quality of the fit."""
         fit = self.fit
         expected = f"where 1 ± {(2 / fit.nfree) ** 0.5:.2g} is expected"
-        lines = [
+        says = (
             f"The reduced chi square is {fit.redchi:.4g}, {expected}. The standard error of a measurement was given, "
             f"{fit.noise}."
             if fit.known
             else f"The standard error of a measurement, which makes the reduced chi square 1, is {fit.noise}."
-        ]
-        lines += [] if fit.warnings else ["Nothing in the residuals speaks against this motion."]
-        for head, sentences in (
-            ("What speaks against this motion:", fit.warnings),
-            ("What the data do not determine:", fit.undetermined),
-            ("Alternatives:", fit.others),
-            ("Left out of the file:", fit.notes),
-        ):
-            lines += ["", head, "", *(f"- {_marked(sentence)}" for sentence in sentences)] if sentences else []
-        return "\n".join(lines)
+        )
+        return says if fit.warnings else f"{says}\nNothing in the residuals speaks against this motion."
 
-    def _parameters(self) -> dict[str, Any]:
+    def _parameters(self) -> list[list[str]]:
+        """Return name, meaning, value with its standard error, and unit of each parameter."""
         rows = []
         for name, value, error, note in self.fit.rows()[1]:
             meaning, unit = MEANINGS.get(name) or MEANINGS[name.rstrip("123")]
@@ -155,49 +143,28 @@ class Fitted:
                 else "not determined"
             )
             rows.append([f"`{name}`", meaning, number.replace("-", MINUS), unit.replace("time", self.fit.time_unit)])
-        return {
-            "kind": "listing", "id": "parameters", "rows": rows, "columns": ["Name", "What it is", "Value", "Unit"],
-            "caption": f"Parameters at the time {self.fit.epoch:g}, with their standard errors.",
-        }  # fmt: skip
+        return rows
 
-    def _correlations(self) -> Iterator[dict[str, Any]]:
-        """Yield the block of strong correlations, or a sentence that there are none."""
+    def _correlations(self) -> Iterator[list[str]]:
+        """Yield the names and the correlation of pairs of parameters, the strongest first."""
         pairs = {
             frozenset((name, partner)): size
             for name, p in self.fit.parameters.items()
             for partner, size in (p.correl or {}).items()
             if abs(size) >= MIN_CORRELATION
         }
-        if pairs:
-            rows = [
-                [", ".join(f"`{name}`" for name in self.fit.names if name in pair), f"{size:.3f}".replace("-", MINUS)]
-                for pair, size in sorted(pairs.items(), key=lambda item: -abs(item[1]))
-            ]
-            yield {
-                "kind": "listing", "id": "correlations", "columns": ["Parameters", "Correlation"], "rows": rows,
-                "caption": f"Correlations of errors, from {MIN_CORRELATION:g} on: what one gains the other one pays.",
-            }  # fmt: skip
+        for pair, size in sorted(pairs.items(), key=lambda item: -abs(item[1])):
+            yield [", ".join(f"`{name}`" for name in self.fit.names if name in pair), f"{size:.3f}".replace("-", MINUS)]
 
-    def _horizons(self) -> dict[str, Any]:
-        """Return the table of times up to which predictions are good."""
+    def _horizons(self) -> list[list[str]]:
+        """Return errors of a prediction and the times up to which they are smaller."""
         fit = self.fit
         unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
-        rows = [
+        return [
             [f"{factor * size:.3g}{unit}", words, ENDS.get(until, f"{until:.6g}")]
             for factor, words in AHEAD.items()
             for until in [fit.horizon(factor * size)]
         ]
-        return {
-            "kind": "listing", "id": "horizon", "rows": rows, "columns": ["Error", "", "Until"],
-            "caption": "How far ahead a prediction of what was measured is good: the time until which its largest "
-            f"standard error is smaller. The data end at {fit.t.max():.6g}.",
-        }  # fmt: skip
-
-    def _motion(self, left_out: list[str]) -> Iterator[dict[str, Any]]:
-        """Yield the blocks of the motion's figures, below the command of its own report."""
-        command = self.motion.command
-        yield _prose("## The motion", "", f"With these values and R(0) = 1; `{command}` makes its own report.")
-        yield from figures_of(self.motion, {key: dict[str, Any]() for key in self.motion.family.figures}, left_out)
 
     def _recipe(self) -> str:
         """Return the recipe that draws data, curve and residuals."""
@@ -216,7 +183,3 @@ class Fitted:
 def _marked(sentence: str) -> str:
     """Return a sentence for the terminal as Markdown."""
     return re.sub(r"(--\w+)", r"`\1`", sentence).replace("+-", "±")
-
-
-def _prose(*lines: str) -> dict[str, Any]:
-    return {"kind": "prose", "text": "\n".join(lines)}

@@ -1,4 +1,4 @@
-"""Report files in Markdown, read and written: a head in TOML, a page below each ``#`` heading, fenced blocks.
+"""Report files in Markdown: a head in TOML, a page below each ``#`` heading, fenced blocks.
 
 All else is text, which reaches pandoc letter by letter. The file is split line by line and not by pandoc, whose trees
 of this Markdown hold neither the lines that a message has to name nor the text as it was typed.
@@ -150,16 +150,6 @@ def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]
     for key in values.keys() & {*keys}:
         raise LineError(piece.line, f"this block takes no key {key!r}: the file says it outside of the TOML.")
     return values
-
-
-def written(report: Mapping[str, Any]) -> str:
-    """Return the Markdown of a report's values; slugs of pages follow from their titles."""
-    head = {key: value for key, value in report.items() if key not in {"abstract", "pages"}}
-    pieces = [f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n", f"{report['abstract']}\n"]
-    for page in report["pages"]:
-        pieces.append(f"# {page['title']}\n")
-        pieces += [f"{block['text']}\n" if block["kind"] == "prose" else fenced(block) for block in page["blocks"]]
-    return "\n".join(pieces)
 
 
 def fenced(block: Mapping[str, Any]) -> str:

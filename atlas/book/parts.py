@@ -9,14 +9,17 @@ from hashlib import sha256
 from math import pi
 from typing import Any
 
+from atlas.book import toml
 from atlas.book.body_and_field import Body, Field, body_and_field
 from atlas.book.digits import plain
+from atlas.book.expansion import expanded
 from atlas.book.files import RULE
 from atlas.book.schema import convert
 from atlas.book.tables import compute
 from atlas.book.tables.table import Request
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES, Family
+from atlas.places import folder
 
 
 @dataclass(frozen=True)
@@ -108,6 +111,13 @@ HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
     "# Change it as you like, and build it by `atlas report {name}.md --format single pdf`.\n\n"
 )
+
+
+def templated(name: str, template: str, head: Mapping[str, Any], values: Mapping[str, Any], command: str) -> str:
+    """Return a report in Markdown from a file of `templates/report` with values filled in, below its head."""
+    source = (folder("templates") / "report" / template).read_text(encoding="utf-8")
+    lines = "".join(toml.lines({"name": name, **head}))
+    return headed(name, f"{RULE}\n{lines}{RULE}\n\n{expanded(values, {}, source)[1]}", command)
 
 
 def headed(name: str, content: str, command: str) -> str:
@@ -235,3 +245,10 @@ def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
             left_out.append(f"The nearest closed motions: {reason}")
         else:
             yield block
+
+
+def records_of(request: Asked) -> dict[str, Any]:
+    """Return the parameters of a report's head: its body and its field, where there are records of them."""
+    records = (("bodies", "body", request.body), ("fields", "field", request.field))
+    parameters = {kind: {name: record} for kind, name, record in records if record}
+    return {"parameters": parameters} if parameters else {}

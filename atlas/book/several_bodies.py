@@ -12,8 +12,8 @@ from typing import Any
 from atlas.arithmetic.uncertainty import concise
 from atlas.book.card import ENTRIES, ONE_PERIOD, card, thing_of
 from atlas.book.digits import Number
-from atlas.book.markdown import written
-from atlas.book.parts import Asked, headed
+from atlas.book.markdown import fenced
+from atlas.book.parts import Asked, templated
 from atlas.book.verdict import verdict
 from atlas.book.your_body import NAME, name_of, title_of
 
@@ -45,20 +45,20 @@ def value_of(entry: Mapping[str, Any]) -> str:
 def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
     """Return the files of an index by name: its Markdown, which links each report, and its CSV."""
     made = [row for row in rows if not row.fault]
-    blocks: list[dict[str, Any]] = []
+    blocks = list[str]()
     if made:
-        blocks.append({
+        blocks.append(fenced({
             "kind": "listing", "id": "bodies", "sorts": True,
             "columns": ["Line", "Report", *(f"{one.says[0].upper()}{one.says[1:]}, {one.letter}" for one in ENTRIES)],
             "rows": [[str(row.line), link_to(row), *map(value_of, row.card.values())] for row in made],
             "caption": f"Cards of the bodies of `{table}`, a line of the file each. A click on the head of a column "
             "sorts by it.",
-        })  # fmt: skip
+        }))  # fmt: skip
     if failed := [[str(row.line), f"`{' '.join(row.words)}`", as_words(row.fault)] for row in rows if row.fault]:
-        blocks.append({
+        blocks.append(fenced({
             "kind": "listing", "id": "failed", "columns": ["Line", "Options", "Reason"], "rows": failed,
             "caption": "Lines without a report.",
-        })  # fmt: skip
+        }))  # fmt: skip
     says = f"Bodies of {table}"
     return {f"{INDEX}.md": page(INDEX, says, blocks, command), f"{INDEX}.csv": table_of(rows)}
 
@@ -73,12 +73,9 @@ def as_words(text: str) -> str:
     return re.sub(r"([\\`*_{}\[\]#$<>|@^~]|-(?=-))", r"\\\1", text)
 
 
-def page(name: str, title: str, blocks: Sequence[Mapping[str, Any]], command: str) -> str:
-    """Return a report of one page as Markdown, with the command that makes it at its head."""
-    abstract = "Numbers are those of the cards, to their proven digits."
-    pages = [{"slug": "index", "title": "Cards", "blocks": blocks}]
-    report = {"name": name, "title": title, "front_matter": False, "abstract": abstract, "pages": pages}
-    return headed(name, written(report), command)
+def page(name: str, title: str, blocks: Sequence[str], command: str) -> str:
+    """Return a report of one page as Markdown, of texts and fenced blocks."""
+    return templated(name, "bodies.md", {"title": title, "front_matter": False}, {"blocks": blocks}, command)
 
 
 def table_of(rows: Iterable[Row]) -> str:
@@ -119,8 +116,7 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
                if made["reason"] not in {None, ONE_PERIOD}]  # fmt: skip
     texts = [f"{place}: {title}. Its report is `{name}`, by `{request.command}`." for place, name, title, request
              in zip(("First", "Second"), names, titles, (first, second), strict=True)]  # fmt: skip
-    blocks: list[dict[str, Any]] = [{"kind": "prose", "text": "\n\n".join(texts)}, block]
-    blocks += [{"kind": "prose", "text": "\n- ".join(["## What is left out\n", *reasons])}] if reasons else []
+    blocks = [*texts, fenced(block), *["\n- ".join(["## What is left out\n", *reasons])] * bool(reasons)]
     command = f"{first.command} --against {names[1]}.inputs.toml"
     return name, {f"{name}.md": page(name, "Two bodies side by side", blocks, command)}
 

@@ -18,8 +18,6 @@ from atlas.book import toml
 from atlas.book.card import ENTRIES, ONE_PERIOD, card, centre_of, has_card, thing_of
 from atlas.book.digits import Number, plain
 from atlas.book.elsewhere import near, reproduced
-from atlas.book.expansion import expanded
-from atlas.book.files import RULE
 from atlas.book.markdown import fenced
 from atlas.book.parts import (
     Asked,
@@ -29,8 +27,10 @@ from atlas.book.parts import (
     figures_of,
     headed,
     other_families,
+    records_of,
     setting_of,
     table_of,
+    templated,
     too_slow,
 )
 from atlas.book.templates import versions
@@ -39,8 +39,6 @@ from atlas.places import folder
 
 NAME = "your_body"
 """Name of the report, before the digest of its inputs."""
-TEMPLATES = folder("templates") / "report"
-"""Folder of the prose, and of the recipe of the body's picture."""
 PICTURE = f"{NAME}.py"
 """File of this recipe beside the reports, one for all."""
 PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stability": "maps", "motion_map": "maps",
@@ -153,27 +151,19 @@ def files_of(request: Asked) -> dict[str, str]:
         Where there is no such object.
     """
     name, made = name_of(request), card(request)
-    values, parameters = template_values(request, made), records_of(request)
-    head = {"name": name, "title": values["title"], "front_matter": False} | parameters
-    source = (TEMPLATES / "your_body.md").read_text(encoding="utf-8")
-    content = f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n\n{expanded(values, {}, source)[1]}"
+    values = template_values(request, made)
+    head = {"title": values["title"], "front_matter": False} | records_of(request)
+    content = templated(name, "your_body.md", head, values, request.command)
     record = {**made, "title": values["title"], "verdict": values["verdict"], "outweighed_by": values["outweighed_by"]}
     made_files = {
-        f"{name}.md": headed(name, content, request.command),
+        f"{name}.md": content,
         f"{name}.card.json": json.dumps(record, indent=1, ensure_ascii=False) + "\n",
         f"{name}.inputs.toml": inputs_of(request),
     }
     if PICTURE in content:
-        recipe = (TEMPLATES / "body.py.txt").read_text(encoding="utf-8")
+        recipe = (folder("templates") / "report" / "body.py.txt").read_text(encoding="utf-8")
         made_files[PICTURE] = headed(NAME, recipe, f"atlas report {NAME}")
     return made_files
-
-
-def records_of(request: Asked) -> dict[str, Any]:
-    """Return the parameters of a report's head: its body and its field, where there are records of them."""
-    records = (("bodies", "body", request.body), ("fields", "field", request.field))
-    parameters = {kind: {name: record} for kind, name, record in records if record}
-    return {"parameters": parameters} if parameters else {}
 
 
 def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
