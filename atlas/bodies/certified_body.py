@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from atlas.arithmetic.certified_inputs import rational
+from atlas.arithmetic.certified_inputs import rational, rationals
 from atlas.bodies.formula_domain import ROD, check_ratio, written
 from atlas.bodies.formula_shapes import FLAT, SHAPES, check_shape
 from atlas.errors import DomainError
@@ -31,6 +31,19 @@ def ratio_of(ratio: Any) -> fmpq:
         I = rational(ratio, "the ratio I = I3/I2")
     check_ratio(I)
     return I
+
+
+class BodyInField:
+    """A body with I = I3/I2 in the field (B2, B3)."""
+
+    def __init__(self, ratio: Any, field: Any) -> None:
+        self.I = ratio_of(ratio)
+        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
+
+    @property
+    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
+        """Arguments (I2, I3, B2, B3) of the formulas, with I2 = 1 and I3 = I."""
+        return fmpq(1), self.I, self.B2, self.B3
 
 
 def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:

@@ -5,17 +5,13 @@ from typing import Any
 from flint import arb, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rationals
-from atlas.bodies.certified_body import ratio_of
+from atlas.bodies.certified_body import BodyInField
 from atlas.bodies.formula_domain import check_a2, check_a3, check_beta
 from atlas.surfaces import formula as quadric
 
 
-class Quadric:
+class Quadric(BodyInField):
     """The surface (51) for I = I3/I2 and the field (B2, B3), with its canonical form (54)."""
-
-    def __init__(self, ratio: Any, field: Any) -> None:
-        self.I = ratio_of(ratio)
-        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
 
     @property
     def kind(self) -> str:
@@ -75,11 +71,6 @@ class Quadric:
         check_beta(self.B2, self.B3)
         c, s = quadric.half_angle(*self._constants)
         return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
-
-    @property
-    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
-        """Arguments (I2, I3, B2, B3) of the formulas, with I2 = 1 and I3 = I."""
-        return fmpq(1), self.I, self.B2, self.B3
 
     def residual(self, omega: Any) -> fmpq:
         """Return the left-hand side of (50) at a point."""

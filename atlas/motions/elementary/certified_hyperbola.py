@@ -4,19 +4,15 @@ from typing import Any
 
 from flint import fmpq
 
-from atlas.arithmetic.certified_inputs import Real, rational, rationals
+from atlas.arithmetic.certified_inputs import Real, rational
 from atlas.arithmetic.numbers import root
-from atlas.bodies.certified_body import ratio_of
+from atlas.bodies.certified_body import BodyInField
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
 from atlas.motions.elementary import formula_hyperbola as hyperbola
 
 
-class Hyperbola:
+class Hyperbola(BodyInField):
     """The curve (67) in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3)."""
-
-    def __init__(self, ratio: Any, field: Any) -> None:
-        self.I = ratio_of(ratio)
-        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
 
     @property
     def pole(self) -> fmpq:
@@ -84,11 +80,6 @@ class Hyperbola:
             return None
         spread, factor = root(1 - 8 * tau2), (1 - self.I) / (2 * (1 + tau2))
         return factor * (1 - 2 * tau2 - spread), factor * (1 - 2 * tau2 + spread)
-
-    @property
-    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
-        """Arguments (I2, I3, B2, B3) of the formulas, with I2 = 1 and I3 = I."""
-        return fmpq(1), self.I, self.B2, self.B3
 
     def _off_the_pole(self, omega2: Any) -> fmpq:
         w2 = rational(omega2, "omega2")
