@@ -70,7 +70,7 @@ MAX_PAGES_WITHOUT_COVER = 2
 
 
 class Report(StrictStruct, frozen=True):
-    """The whole file.
+    """The records of a whole report file.
 
     ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
     this one: the contents lead to them, and so do citations of names that only they have.

@@ -15,11 +15,11 @@ from typing import Any
 OPEN, CLOSE = "<$", "$>"
 """Signs around an expression: neither TeX nor Markdown has a meaning for them."""
 MAX_SECONDS = 5
-"""Processor time of an expansion."""
+"""Largest processor time of an expansion, in seconds."""
 MAX_LENGTH = 5_000_000
-"""Characters of a report."""
+"""Largest number of characters of a report."""
 MAX_MEMORY = 1 << 30
-"""Bytes of memory of an expansion."""
+"""Largest memory of an expansion, in bytes."""
 FIRST_MARK, LAST_MARK = 0xF0000, 0xFFFFD
 """Private characters that stand for the numbers of lines while a template is filled in."""
 MARKS = re.compile(f"[{chr(FIRST_MARK)}-{chr(LAST_MARK)}]")
@@ -108,7 +108,7 @@ def mapped(value: Any, function: Callable[[str], Any]) -> Any:
 
 
 def sentence_of(error: Exception) -> str:
-    """Return a mistake in a template as a sentence. Raises MemoryError where that is the mistake."""
+    """Return the message of an error in a template, without its full stop. Raises a MemoryError again."""
     if isinstance(error, MemoryError):
         raise error
     return str(error).rstrip(".") or type(error).__name__

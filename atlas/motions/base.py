@@ -732,7 +732,7 @@ class DoubleTurn(Motion[Rotation]):
 
     @cached_property
     def _flat_vectors(self) -> Mapping[str, Any]:
-        """Constant vectors of the motions in a row."""
+        """Components of the motions' constant vectors by name, lists of arrays flattened to (count,)."""
         return {
             name: [np.broadcast_to(x, self.shape).reshape(-1) for x in vector]
             for name, vector in self._vectors().items()

@@ -21,7 +21,7 @@ WIDTH = 120.0
 _PAGE, _LEAST, _NAMES = np.array([WIDTH, 98.0]), 50.0, np.array([17.0, 14.0])
 _FLAT = 1e-3
 MAX_ARROW_RATIO = 2.2
-"""The arrow along I^-1 B' is at most so many times as long as that of B': for a needle all else would be small."""
+"""Largest length of the arrow I^-1 B' over that of B': beside a needle's all else would be small."""
 LEGEND = (
     r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. The points of the "
     r"hyperbola $\omega_1=0$ (heavy line) alone are motions; through $-\mathbf{B}'$ go the canonical axes."
@@ -44,7 +44,7 @@ def in_plane(second: float, third: float) -> FloatArray:
 
 
 def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) -> Scene:
-    """Return a figure with one panel, seen from `view` = (azimuth, elevation), with room for names.
+    """Return a scene with one panel, seen from `view` = (azimuth, elevation) in degrees, with room for names.
 
     It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
     """

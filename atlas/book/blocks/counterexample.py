@@ -66,12 +66,12 @@ class _Letters:
         return f"{partner}${self.formula(name.removeprefix(partner))}={number}$"
 
     def told(self, side: str) -> str:
-        """Return the value of a side as TeX: a number, or the sentence on a formula."""
+        """Return one side of a relation as TeX: its number, or a formula with " has ..." after it as words."""
         formula, says, remainder = side.partition(" has ")
         return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{remainder}"
 
     def formula(self, line: str) -> str:
-        """Return a relation or an expression."""
+        """Return a relation or an expression in Python's letters as TeX."""
         python = re.sub(r"(?<![<>!=])=(?!=)", "==", line).replace("^", "**")
         return self.tex(ast.parse(python, mode="eval").body)
 

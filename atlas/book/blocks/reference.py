@@ -51,7 +51,7 @@ class DescribedView:
 
 @dataclass(frozen=True)
 class ReferenceView:
-    """The names that are described."""
+    """View of the reference: a `DescribedView` for each public name that a block lists."""
 
     entries: tuple[DescribedView, ...]
 

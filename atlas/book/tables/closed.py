@@ -10,7 +10,7 @@ from atlas.book.tables.table import RATE, Data, Request, certified, column, head
 from atlas.errors import AtlasError, DomainError
 
 MAX_FRACTIONS, MAX_DENOMINATOR = 6, 10_000
-"""As many fractions as are shown, and the largest denominator."""
+"""Largest number of fractions shown, and largest denominator."""
 PRINTED_DIGITS = 12
 """Digits that a double has for certain, and some to spare."""
 
@@ -135,7 +135,7 @@ def companions(request: Request, setup: CompanionParameters) -> Data:
 
 
 def angles(ratio: float, B2: float, B3: float, omega2: float) -> tuple[Any, ...]:
-    """Return theta, sqrt(c), theta_+ and theta_- in degrees and 1/s, as balls."""
+    """Return balls theta (degrees), sqrt(c) (1/s), theta_+, theta_- (degrees). AtlasError without a companion."""
     from flint import arb, fmpq
 
     I, B2, B3, omega2 = (fmpq(*value.as_integer_ratio()) for value in (ratio, B2, B3, omega2))

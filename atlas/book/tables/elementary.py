@@ -44,7 +44,7 @@ def side_by_side(
 
 
 def titled(request: Request) -> str:
-    """Name the body in a sentence, or say that there are several."""
+    """Return "the " and the body's title, or "the bodies" for several, for use in a sentence."""
     if len(request.cases) > 1:
         return "the bodies"
     record = request.case.body_record
@@ -85,7 +85,7 @@ def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
 
 
 class PointsParameters(StrictStruct, frozen=True):
-    """Further values of omega2, in 1/s."""
+    """Parameters of the table `points`: further values of omega2, in 1/s."""
 
     omega2: tuple[float, ...] = ()
 

@@ -32,7 +32,7 @@ def quantities() -> Data:
 
 
 def _rows(family: Family) -> Iterator[Row]:
-    """Yield parameters, quantities, and functions of time."""
+    """Yield the rows of a family: parameters, quantities, and functions of time."""
     for p in family.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
     for q in family.quantities:
@@ -63,7 +63,7 @@ def targets() -> Data:
 
 
 def _sizes(target: Target) -> tuple[str, ...]:
-    """Return the sizes of a target in words."""
+    """Return width, height, type, lines and resolution of a target as texts."""
     least, greatest = target.lines
     lines = f"{least:g}" if greatest == ANY else f"{least:g} to {greatest:g}"
     return f"{target.width:g}", f"{target.height:g}", f"{target.type:g}", lines, f"{target.dpi:g}"

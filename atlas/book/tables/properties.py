@@ -16,7 +16,7 @@ from atlas.motions.register import FAMILIES, Family, Quantity
 from atlas.trial.ledger import EQUATIONS
 
 SPARE_BITS = 1 << 12
-"""Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
+"""Extra bits of precision up to which certified digits are sought: a zero may have no proof."""
 _LETTERS = re.compile(
     r"(?<![\w\\'])(?:(B)(')?(?![\w'])|(omega|Omega|alpha|beta|nu|mu|[A-Zcekmn])('?)_?(\d|(?<=_)i)(?!\w)"
     r"|(omega|Omega|alpha|beta|nu|mu|pi|prod|[A-Zb-z])(?![\w']))|(?<!\w)(-)(?= |\w)"
@@ -43,7 +43,7 @@ class Thing:
 
     @classmethod
     def of(cls, request: Request) -> "Thing":
-        """Read the family and its parameters. Raises AtlasError for unknown or missing names."""
+        """Return the object of a request. Raises AtlasError for unknown or missing families and parameters."""
         surplus = dict(request.parameters)
         name, described = surplus.pop("family", None), surplus.pop("given", True)
         units = {"time": str(surplus.pop("time", "time"))} | _units(surplus.pop("units", None))
@@ -94,7 +94,7 @@ class Thing:
         return self.family.balls()(*self.exact)
 
     def unit(self, unit: str) -> str:
-        """Return a unit of the register in TeX, by the names that were asked for."""
+        """Return a unit of the register as Markdown, with the names of this object's units."""
         words = unit
         for name, name_of_unit in self.units.items():
             words = words.replace(name, name_of_unit)

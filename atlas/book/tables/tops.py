@@ -93,7 +93,7 @@ def _of_top(numbers: tuple[float, ...]) -> str:
 
 
 def monodromy(setup: MonodromyParameters) -> Data:
-    """Return the change of the basis of periods on loops round unstable spins, theorem-residue."""
+    """Return the table of the monodromy matrices of loops round unstable spins, a row per loop, theorem-residue."""
     from atlas.maps.monodromy import around, on_loop
     from atlas.maps.wells import Wells
 
@@ -235,7 +235,7 @@ def identified(request: Request, setup: Observed) -> Data:
 
 
 def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
-    """Return singular values of the equations in (x_i, y_i), and of a fit's derivatives by its parameters."""
+    """Return two arrays of singular values, descending: of the linear equations of motion, of a fit's derivatives."""
     from atlas.fitting.data import of_arrays
     from atlas.fitting.models import model_of
     from atlas.fitting.parameters import parameters_of

@@ -18,7 +18,7 @@ from atlas.motions.nutation.certified_quartic import Quartic, Root, Vector, rati
 
 
 class EllipticQuartic(Quartic):
-    """Q for an elliptic motion; e and K have their components in the order of axes (b, c, a), a the nutating one.
+    """Quartic Q(u) of an elliptic motion; e and K have their components in the order (b, c, a), a the nutating axis.
 
     `sign` is the sign of v.
     """
@@ -35,7 +35,7 @@ class EllipticQuartic(Quartic):
         self.torque = sign * (e[2] * self.N - self.h)
 
     def _isolated(self) -> list[Root]:
-        """Isolate the roots: of a quadratic in u^2."""
+        """Return the roots of Q, a quadratic in u^2, in balls that do not overlap; real ones first, ascending."""
         (e_b, e_c, e_a), h, N = self._e, self.h, self.N
         if e_a in (e_b, e_c):
             return super()._isolated()
@@ -55,6 +55,6 @@ class EllipticQuartic(Quartic):
                 return real + [x for x in roots if not x.is_real]
 
     def sign_beside(self, pole: int) -> int:
-        """Return the sign of the torque, which is equal at both poles."""
+        """Return the sign, -1, 0 or 1, of the torque at a pole; equal at both poles, so that `pole` is not used."""
         del pole
         return sign_of(self.torque)

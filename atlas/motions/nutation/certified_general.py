@@ -180,7 +180,7 @@ class GeneralMotion(Nutating):
 
     @property
     def is_plane(self) -> bool:
-        """Whether M is along neither the field nor the axis, p = M3 = 0."""
+        """Whether p = M3 = 0 and theta varies: the axis swings in a plane that turns about the field."""
         return not self.is_steady and bool(self.quartic.c3 == self.quartic.momentum == 0)
 
     @property

@@ -176,7 +176,7 @@ class Varied:
 
     @cached_property
     def differences(self) -> Differences:
-        """Evaluator of derivatives at single times."""
+        """The `Differences` of this motion, made once: derivatives in its inputs at single times."""
         return self._make()
 
     def weighted(self, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:

@@ -64,7 +64,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def discriminant(self) -> DoubleDouble:
-        """A quarter of the discriminant of the other factor: negative."""
+        """A quarter of the discriminant of the quartic's quadratic factor without turning points, (m,); negative."""
         return self.f[2] * self.f[2] * self.w
 
     @property

@@ -85,7 +85,7 @@ def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
 
 
 def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
-    """Return a coefficient of the product of two rows."""
+    """Return the Cauchy product of two coefficient rows, sum of rows[x][n] back[y][n], where `back` is reversed."""
     return sum(map(mul, rows[x], back[y]), acb(0))
 
 

@@ -17,7 +17,7 @@ from atlas.motions.torus.theta import ThetaKernel
 
 
 def of_euler(exact: AsymmetricMotion) -> Inputs:
-    """Return the inputs of Euler's top."""
+    """Return the `Inputs` of `sensitivity` for a free body with three moments: I1 to I3, omega1 to omega3."""
     size, J = size_of(*exact.omega), floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "omega1", "omega2", "omega3"), (*exact.inertia, *exact.omega), (*exact.inertia, *[size] * 3),
