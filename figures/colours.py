@@ -63,7 +63,7 @@ def scene() -> Scene:
         area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
         columns[column] += [area, meaning(ends[1], name)]
     return Scene(
-        caption="In grey print a vector is told by its name; two lines of a "
+        caption="In grey print a vector is recognised by its name; two lines of a "
         "column differ in lightness, width or dashes, and marks in shape. The colours of bodies are for figures in "
         "which they are compared. Elementary motions are initial angular velocities, and have their hue.",
         alt="Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image "

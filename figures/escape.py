@@ -19,7 +19,7 @@ from atlas.pictures.movement import translations
 from atlas.pictures.sample import flat, room
 
 ROW = "its axis"
-SEEN = "The smaller the push beside an unstable motion, the later it is left."
+SEEN = "The smaller the push off an unstable motion, the later the body leaves it."
 WIDTH, COURSE, LAW, MARGIN = 120.0, 30.0, 62.0, 12.0
 """Width, heights of a course and of the law."""
 

@@ -103,12 +103,13 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
         sentences.append(f"On the shaded bands, {spans}, ends included, the motions are unstable against nutation.")
     elif bands:
         sentences.append(
-            rf"Unstable against nutation are those on the first line with {spans}, and those on the second with "
-            rf"$\lvert\omega_3\rvert<{tex(free_spin(ratio, field))}$."
+            rf"Motions on the first line with {spans}, and on the second with "
+            rf"$\lvert\omega_3\rvert<{tex(free_spin(ratio, field))}$, are unstable against nutation."
         )
     elif B2 and one_less == 0:
         sentences.append(
-            r"All these motions are stable against nutation but the one at $-\mathbf{B}'$, where the two lines meet."
+            r"All these motions are stable against nutation except the motion at $-\mathbf{B}'$, "
+            "where the lines meet."
         )
     elif B2:
         sentences.append("All these motions are stable against nutation.")

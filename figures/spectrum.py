@@ -45,7 +45,7 @@ def scene(
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {rate_words}. (a) Of the axis, along the field and across "
             "it. "
             r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are norms of "
-            r"complex amplitudes, for one sign of a frequency, beside the root mean square."
+            r"complex amplitudes, for one sign of a frequency, over the root mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "
