@@ -4,8 +4,6 @@ The path in constant fields, (93) to (99): round the magnetic field with the fre
 acceleration, and adrift across both fields.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, positive
@@ -13,8 +11,6 @@ from atlas.motions.particle.kernel import ParticleMotion
 from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space
 from atlas.pictures.any_motion import course
 from atlas.pictures.captions import plain, plain_vector, tex, tex_equals, tex_vector
-from atlas.pictures.flight import scale_bar
-from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import tolerance
 from atlas.pictures.sample import curve
 
@@ -53,20 +49,16 @@ def scene(
     for vector, role, name in ((magnetic, "field", r"$\mathbf{B}$"), (electric, "electric", r"$\mathbf{E}$")):
         if any(vector):
             layers.append(Arrow(line[0], line[0] + 0.4 * np.array(vector) / np.linalg.norm(vector), role, name))
-    view = Space((), azimuth=azimuth, elevation=elevation, title="(a) path")
-    eye = frame(view)
-    flat = line @ eye.T
-    corner = np.array([flat[:, 0].min(), flat[:, 1].min() - 0.12, 0.0]) @ eye
-    layers += scale_bar(corner, eye[0], 0.5, length, span)
     fields = rf"$\mathbf{{E}}={tex_vector(electric)}$, $\mathbf{{B}}={tex_vector(magnetic)}$"
     until = tex_equals(float(f"{stop:.3g}"))
     return Scene(
-        caption=rf"(a) The path of a particle ({particle.kind}) up to $t{until}$; the arrows are not to scale. (b) Its "
-        rf"velocity, at the dot ${tex_vector(velocity)}$. {particle.case.capitalize()}: $\mu={tex(mu)}$, {fields}.",
+        caption=rf"(a) The path of a particle ({particle.kind}) up to $t{until}$; its largest extent is "
+        rf"${tex(float(f'{span:.3g}'))}$ ({length}), and the arrows are not to scale. (b) Its velocity, at the dot "
+        rf"${tex_vector(velocity)}$. {particle.case.capitalize()}: $\mu={tex(mu)}$, {fields}.",
         alt=f"The path in space of a particle with mu = {plain(mu)} in E = {plain_vector(electric)} and B = "
         f"{plain_vector(magnetic)}, and the three components of its velocity over time.",
         panels=(
-            replace(view, layers=tuple(layers)),
+            Space(tuple(layers), azimuth=azimuth, elevation=elevation, title="(a) path"),
             course(
                 particle.velocity, tuple(f"$v_{i}$" for i in (1, 2, 3)), stop, f"$t$ ({unit})",
                 rf"$\mathbf{{v}}$ ({length}/{unit})", "(b) velocity", size=(SIZE[0] / 2, SIZE[1]), pieces=pieces,

@@ -155,15 +155,12 @@ def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: 
     return replace(view, layers=tuple(layers))
 
 
-def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: str, size: float = 1.0) -> list[Layer]:
-    """Return a bar of a round length, at most `longest`, along a unit vector, and its length in `unit` below it.
-
-    `size` is the length in `unit` of one step of the coordinates.
-    """
-    length = 10.0 ** np.floor(np.log10(longest * size))
-    length *= max(step for step in (1, 2, 5) if step * length <= longest * size)
-    bar = start + np.array([[0.0], [length / size]]) * direction
-    return [Curve(bar, "axis"), Label(bar.mean(axis=0), f"${tex(length)}$ {unit}", "note", (0.0, -5.0))]
+def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: str) -> list[Layer]:
+    """Return a bar of a round length, at most `longest`, along a unit vector, and its length below it."""
+    size = 10.0 ** np.floor(np.log10(longest))
+    size *= max(step for step in (1, 2, 5) if step * size <= longest)
+    bar = start + np.array([[0.0], [size]]) * direction
+    return [Curve(bar, "axis"), Label(bar.mean(axis=0), f"${tex(size)}$ {unit}", "note", (0.0, -5.0))]
 
 
 def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) -> Plane:

@@ -84,7 +84,7 @@ def book(printed: Path) -> list[str]:
 
 
 def test_no_figure_is_wider_than_the_text(printed: Path) -> None:
-    """Three that ask for 150 to 160 mm: none has more than the 152 mm of a line."""
+    """Three that ask for 150 to 160 mm: none has more than the 158 mm of a line."""
     widths = list[float]()
     for page in PdfReader(printed).pages:
         forms = page["/Resources"].get("/XObject", {})  # type: ignore[attr-defined]
@@ -96,7 +96,7 @@ def test_no_figure_is_wider_than_the_text(printed: Path) -> None:
 
         page.extract_text(visitor_operand_before=measure)
     assert len(widths) >= 3
-    assert max(widths) <= 152.1
+    assert max(widths) <= 158.1
 
 
 def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:

@@ -189,7 +189,7 @@ def test_unused_columns_are_named(tmp_path: Path) -> None:
         with pytest.raises(AtlasError, match=f"There is '{wrong}' .*{hint}"):
             graded(tmp_path / "t.csv", f"t,{wrong}", ["0,1"])
     for other in ("Temp", "Torque1", "Battery"):
-        with pytest.raises(AtlasError, match=r"there is no column t\.$"):
+        with pytest.raises(AtlasError, match=r"there is no column t; name the times t\.$"):
             graded(tmp_path / "t.csv", f"{other},Omega1,Omega2,Omega3", rows)
     motion = MOTIONS["general"]
     motion.to_dataframe(np.linspace(0, 8, 41)).to_csv(tmp_path / "fit.csv", index=False)
