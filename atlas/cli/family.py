@@ -389,12 +389,19 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
         motion = _kernel(answering, values) if motion is None else motion
         answers = {"family": answering.name} if named == "motion" else {}
         if values is not options:  # a proof that is a sentence is said once
-            answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
+            answering = replace(answering, quantities=tuple(_drawn(answering)))
         answers |= _answers(answering, motion, times, [s for s in sampled if times and hasattr(motion, s.method)])
         larmor = in_field(family) and values["magnetic"] is not None
         return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
 
     return UncertainAnswer.of(answered, options)
+
+
+def _drawn(family: Family) -> Iterator[Quantity]:
+    """Yield the quantities of a draw of the inputs, with the fast function of each that has one."""
+    for q in family.quantities:
+        if q.tabled or not q.slow:
+            yield replace(q, get=q.drawn or q.get)
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:

@@ -23,7 +23,7 @@ class UncertainAnswer:
     def of(cls, answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> "UncertainAnswer":
         """Return the answer with its standard deviations, from options with independent uncertainties."""
         inputs, middle = uncertain(options), answer(options)
-        with bar("draws") as tell:
+        with bar("draws", every=10) as tell:
             deviations = spread(middle, lambda steps: answer(_moved_options(options, inputs, steps)), len(inputs), tell)
         return cls(middle, deviations)
 

@@ -15,6 +15,7 @@ import atlas
 from atlas.arithmetic import uncertainty
 from atlas.arithmetic.uncertainty import concise
 from atlas.cli.app import atlas as command
+from atlas.motions.torus.certified_torus import Torus
 
 
 @pytest.fixture(autouse=True)
@@ -172,3 +173,16 @@ def test_a_digit_below_the_error_of_a_deviation_is_not_printed(error: float, tex
 def test_the_last_two_digits_have_the_deviation(value: float, sigma: float, text: str) -> None:
     """In brackets stands the standard deviation, in units of the last digit."""
     assert concise(value, sigma) == text
+
+
+@pytest.mark.slow
+def test_a_torus_is_drawn_with_the_certified_frequencies(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draws take them from theta functions, the first answer from proved periods, which a draw need not prove."""
+    motion: Any = atlas.motion((0.9, 1.1, 1.45), (0, 1, 2), (0.3, 0.7, 0.2))
+    np.testing.assert_allclose(motion._approximate_frequencies(), motion.frequencies, rtol=1e-14)
+    proofs = []
+    proved = Torus._enclosed
+    monkeypatch.setattr(Torus, "_enclosed", lambda *args: proofs.append(args) or proved(*args))
+    found = numbers("motion --inertia 0.90(1) 1.1 1.45 --field 0 1 2 --omega 0.3 0.7 0.2")
+    assert len(proofs) <= 2, "two periods of the middle"
+    assert all(found["sigma"]["frequencies"])

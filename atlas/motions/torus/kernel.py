@@ -22,6 +22,7 @@ from atlas.motions.nutation.single_elliptic import MAX_ERROR, SingleElliptic, Si
 from atlas.motions.spectrum import Wheels
 from atlas.motions.start import Start
 from atlas.motions.torus.certified import AsymmetricMotion as Balls
+from atlas.motions.torus.certified_torus import frequencies
 from atlas.motions.torus.rounded import Certified
 from atlas.motions.torus.theta import MAX_ROUNDING, ThetaKernel, closed_form
 
@@ -124,6 +125,13 @@ class SingleAsymmetric:
         if closed is None or isinstance(closed, SingleElliptic) or (closed.fits and "_choice" not in vars(self)):
             return closed
         return self._choice[0]
+
+    def approximate_frequencies(self) -> list[float]:
+        """Return f1, f2, f3, not proved, from theta functions; those of certified balls where there are none."""
+        if not isinstance(self.closed, ThetaKernel):
+            return [nearest(f) for f in enclosed(lambda: self.exact.frequencies, BITS)]
+        periods, rate = [p.least() for p in self.closed.periods], self.closed.rate
+        return [nearest(f) * rate for f in frequencies(periods, self.closed.constants.b)]
 
     @property
     def theta(self) -> ThetaKernel:
@@ -395,6 +403,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
+
+    def _approximate_frequencies(self) -> FloatArray:
+        """Return the frequencies (f1, f2, f3), shape (..., 3), in rad/time, not proved: those of the closed form."""
+        return np.asarray(self._of_each(SingleAsymmetric.approximate_frequencies))
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
