@@ -137,8 +137,11 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         if log:
             steps: Iterable[float] = (start * (stop / start) ** (i / last_place) for i in range(last_place + 1))
         else:
-            start_value, step = start.exactly(), (stop.exactly() - start.exactly()) / last_place
-            steps = (float(start_value + i * step) for i in range(last_place + 1))
+            ends = start.exactly(), stop.exactly()
+            denominator = math.lcm(*(end.denominator for end in ends)) * last_place
+            first, last = (int(end * denominator) for end in ends)
+            step = (last - first) // last_place  # whole, so that each place is one division, rounded once
+            steps = ((first + i * step) / denominator for i in range(last_place + 1))
         return [self._single(repr(x) + unit, param, ctx) for x in steps]
 
     def _with_sigma(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs
 
+import click
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -18,6 +19,7 @@ from atlas.cli.body_request import COMMANDS, ByOptions
 from atlas.cli.body_request import asked as page_asked
 from atlas.cli.explore import started
 from atlas.cli.points import oblique_tensor
+from atlas.cli.typed import REAL
 from atlas.errors import NearlySymmetricWarning
 from atlas.motions.register import FAMILIES as REGISTER
 from atlas.sweeps.families import FAMILIES
@@ -362,6 +364,16 @@ def test_a_range_of_times_is_its_list() -> None:
     """START:STOP:COUNT has both ends, beside single times, exact where decimals are not."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --times".split()
     assert numbers(*words, "0:0.3:4", "7") == numbers(*words, "0", "0.1", "0.2", "0.3", "7")
+
+
+def test_a_long_range_is_read_by_one_division_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first row of many is printed at once: a range takes no fraction's product or sum for each of its numbers."""
+    option, start, step = click.Option(["--times"], multiple=True, type=REAL), Fraction(1, 3), Fraction(-7, 3000)
+    expected = [float(start + i * step) for i in range(2001)]
+    sums, add = list[Fraction](), Fraction.__add__
+    monkeypatch.setattr(Fraction, "__add__", lambda x, y: sums.append(x) or add(x, y))
+    assert REAL.convert("1/3:-13/3:2001", option, None) == expected
+    assert len(sums) < 10
 
 
 TENSOR = "--tensor 2 1.5 1 0.1 0.05 0.2 --field 0.3 0 1 --spin 3"
