@@ -18,6 +18,7 @@ from atlas.cli.app import atlas as command
 from atlas.errors import NearlySymmetricWarning
 from atlas.motions.frames import turned_by
 from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.torus.approximate_periods import Curve
 from atlas.sweeps.plan import Plan
 
 EPS = 2.0**-52
@@ -239,6 +240,18 @@ def test_a_symmetric_tensor_turned_in_floats_has_its_three_moments_at_any_time()
     assert "proved for this motion" in m.agreement
     difference = np.abs(m.rotation(1e5) - same.rotation(1e5)).max()
     assert 0 < difference < 1e-8
+
+
+@pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
+def test_a_ball_turned_in_floats_seeks_no_periods(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its slowest period is out of reach: it is certified at once, without integrals along the paths of its torus."""
+    monkeypatch.setattr(Curve, "along", lambda *_: pytest.fail("an integral was taken"))
+    P, field, omega = Rotation.random(random_state=2).as_matrix(), (0.3, 0.1, 1.0), (0.2, 0.3, 1.0)
+    tensor = P.T @ np.eye(3) @ P
+    m = atlas.motion((tensor + tensor.T) / 2, field, omega)
+    assert m.family == "asymmetric"
+    assert np.abs(m.rotation(3.0) - atlas.motion(1, field, omega).rotation(3.0)).max() < 1e-14
+    assert "so nearly a ball" in m.agreement
 
 
 def test_a_sweep_evaluates_the_product_that_was_typed(tmp_path: Any) -> None:

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
+from flint import acb, acb_mat, arb, arb_mat, fmpq, fmpz_mat
 from numpy.typing import NDArray
 
 from atlas.arithmetic.numbers import workprec
@@ -46,6 +46,10 @@ MAX_PATH_PARTS = 100
 
 AREA_BITS, AREA_INTEGER_BITS = 160, 8
 """Bits of areas in the search for the polarization, and of an integer there: near symmetry its values are large."""
+
+NEARLY_A_BALL = fmpq(1, 2**27)
+"""Relative spread of moments below which no lattice was found in any motion that was tried: the slowest period goes as
+the inverse of the spread."""
 
 MAX_REDUCTIONS = 60
 """Rounds of Siegel's reduction at most."""
@@ -84,6 +88,8 @@ class Lattice:
 
 def lattice(motion: Integrals) -> Lattice:
     """Return the periods of a motion's torus. Raises NotCertifiedError where they cannot be distinguished."""
+    if max(motion.moments) - min(motion.moments) < NEARLY_A_BALL * max(motion.moments):
+        raise NotCertifiedError("not certified: the body is so nearly a ball that its slowest period is not found.")
     with workprec(BITS):
         curve = Curve(motion)
         try:
