@@ -134,7 +134,7 @@ def test_an_elementary_motion_does_not_tell_ratio_and_field_apart() -> None:
 def test_the_axis_of_an_elementary_motion_tells_no_more_than_the_direction_of_the_field() -> None:
     """The axis turns about the field at omega2 / sin(angle), whatever the ratio and the size of the field.
 
-    Both reversed, omega2 and field, turn the axis alike: either sign is found.
+    Both reversed, omega2 and field, turn the axis alike: the fit finds one of the two and names the other.
     """
     rng = np.random.default_rng(1)
     t = np.linspace(0, 20, 200)
@@ -142,6 +142,11 @@ def test_the_axis_of_an_elementary_motion_tells_no_more_than_the_direction_of_th
     found = atlas.fit(t, "elementary", axis=n / np.linalg.norm(n, axis=1, keepdims=True), sigma=1e-3)
     assert [name for name in ("ratio", "B2", "B3", "b") if found.params[name].stderr] == []
     assert abs(abs(found.params["omega2"].value) - 0.7) < 5 * found.params["omega2"].stderr < 1e-3
+    reversed_both = ("B1", "B2", "B3", "omega2")
+    (other,) = (one.values for one in found.alternatives if one.equal)
+    assert [other[name] for name in reversed_both] == [-found.params[name].value for name in reversed_both]
+    field = np.array([found.params[name].value for name in reversed_both[:3]]) * np.sign(found.params["omega2"].value)
+    assert np.linalg.norm(field / np.linalg.norm(field) - np.array([0, 1, 2]) / np.sqrt(5)) < 1e-3
     assert "ratio is not determined by these data." in found.undetermined
 
 
