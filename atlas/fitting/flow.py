@@ -27,6 +27,10 @@ LONGEST = 20000
 """Largest number of steps."""
 
 
+HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], float)
+"""The matrix [Omega]x, row by row, is Omega times this."""
+
+
 @dataclass(frozen=True)
 class Flow:
     """S motions from their states at t = 0, all at once.
@@ -57,54 +61,49 @@ class Flow:
         """
         signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], self.order, abs(t).max(initial=0.0)
         S, sides = len(self.omega), len(signs)
-        out = np.full((t.size, 4, 3, S), np.nan)
+        out = np.full((S, t.size, 4, 3), np.nan)
         g = self.coupling.sum(-1, keepdims=True) - 2 * self.coupling
-        vectors = self.moments, g, self.field, self.potential
-        moments, gyration, field, (linear, quadratic) = (np.tile(x.T, sides) for x in vectors)
-        pulled, sign = bool(self.potential.any()), np.repeat(signs, S)
-        # the motions along the last axis; components 1, 2, 3, 1, 2, so that a cross product is one of slices
-        orders = np.zeros((n + 1, 4, 5, sides * S))  # the series of the rows of R, and of I Omega - g b
-        omegas, b = np.zeros((n + 1, 5, sides * S)), np.zeros((n + 1, 3, sides * S))  # of Omega, the last first; of b
+        moments, gyration, field = (np.tile(x, (sides, 1)) for x in (self.moments, g, self.field))
+        linear, quadratic = np.tile(self.potential, (sides, 1)).T[..., None]
+        pulled, sign = bool(self.potential.any()), np.repeat(signs, S)[:, None, None]
+        orders = np.zeros((sides * S, 4, n + 1, 3))  # the series of the rows of R, and of I Omega - g b
+        hats = np.zeros((sides * S, n + 1, 3, 3))  # that of [Omega]x, the last first
+        b, flat = np.zeros((sides * S, n + 1, 3)), orders.reshape(sides * S, 4, -1)
         state = np.concatenate([self.attitude, (self.moments * self.omega)[:, None]], 1)  # R and I Omega
-        state, now = np.tile(state.transpose(1, 2, 0), sides), 0.0
-        views = [  # of each order: slices cost as much as the sums of a few motions
-            ((orders[k, :, :3], orders[k, 3, :3], b[k], omegas[n - k, :3]),
-             ((orders[k, :, 3:], orders[k, :, :2]), (omegas[n - k, 3:], omegas[n - k, :2])),
-             ((orders[: k + 1, :, 1:4], omegas[n - k :, 2:]), (orders[: k + 1, :, 2:], omegas[n - k :, 1:4])),
-             sign / (k + 1)) for k in range(n + 1)
+        state, now = np.tile(state, (sides, 1, 1)), 0.0
+        views = [  # of each order: slices cost as much as the sums
+            (orders[:, :, k], orders[:, 3, k], b[:, k], hats[:, n - k].reshape(-1, 9), flat[:, :, : 3 * (k + 1)],
+             hats[:, n - k :].reshape(sides * S, -1, 3)) for k in range(n + 1)
         ]  # fmt: skip
+        factors = [sign / (k + 1) for k in range(n)]
         for _ in range(LONGEST):
-            for k, ((rows, last_row, b_k, omega), copies, (ahead, back), factor) in enumerate(views):
-                np.einsum("im,icm->cm", field, state[:3], out=b_k)
+            for k, (rows, last_row, b_k, hat, rows_so_far, hats_so_far) in enumerate(views):
+                np.vecmat(field, state[:, :3], out=b_k)
                 rows[:] = state
                 np.subtract(last_row, gyration * b_k, out=last_row)
                 if k == n:
                     break
-                np.divide(state[3], moments, out=omega)
-                for again, first in copies:
-                    again[:] = first
-                state = np.einsum("jrcm,jcm->rcm", *ahead)
-                state -= np.einsum("jrcm,jcm->rcm", *back)
+                np.matmul(state[:, 3] / moments, HAT, out=hat)
+                state = rows_so_far @ hats_so_far
                 if pulled:
-                    pull = linear * b_k[:2] + quadratic * np.einsum("jm,jcm->cm", b[k::-1, 2], b[: k + 1, :2])
-                    state[3, :2] += pull[::-1] * [[1.0], [-1.0]]
-                state *= factor
-            size = np.maximum(abs(orders[n, :3]).max((0, 1)), abs(orders[n - 1, :3]).max((0, 1)) ** (n / (n - 1)))
+                    pull = linear * b_k[:, :2] + quadratic * np.vecmat(b[:, k::-1, 2], b[:, : k + 1, :2])
+                    state[:, 3, :2] += pull[:, ::-1] * [1.0, -1.0]
+                state *= factors[k]
+            size = np.maximum(abs(orders[:, :3, n]).max((1, 2)), abs(orders[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
             steps = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
             h = float(np.sort(np.where(np.isfinite(steps), steps, np.inf))[int(SLOWEST * sides * S)])
             if not np.isfinite(h):
                 break
-            for series, side in zip(np.split(orders[:, :, :3], sides, -1), signs, strict=True):
+            for series, side in zip(np.split(orders, sides), signs, strict=True):
                 places = np.flatnonzero((side * t >= now) & (side * t <= now + h))
-                out[places] = np.tensordot((side * t[places] - now)[:, None] ** np.arange(n + 1), series, 1)
+                out[:, places] = ((side * t[places] - now)[:, None] ** np.arange(n + 1) @ series).swapaxes(1, 2)
             now += h
             if now > end:
                 break
-            state = np.tensordot(h ** np.arange(n + 1), orders[:, :, :3], 1)
-            state[3] += gyration * np.einsum("im,icm->cm", field, state[:3])
-        values = np.moveaxis(out, -1, 0)
-        R = values[:, :, :3]
-        return R, (values[:, :, 3] + g[:, None] * np.vecmat(self.field[:, None], R)) / self.moments[:, None]
+            state = h ** np.arange(n + 1) @ orders
+            state[:, 3] += gyration * np.vecmat(field, state[:, :3])
+        R = out[:, :, :3]
+        return R, (out[:, :, 3] + g[:, None] * np.vecmat(self.field[:, None], R)) / self.moments[:, None]
 
     def rotation(self, t: FloatArray) -> FloatArray:
         """Return R (S, N, 3, 3) at times (N,), NaN and wrong values as in `at`."""

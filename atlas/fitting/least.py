@@ -118,13 +118,12 @@ class Crowd:
             turn = -np.linalg.solve(damped, ((J @ (w * bend)[..., None])[..., 0] / size)[..., None])[..., 0] / size / 2
             much = np.linalg.norm(turn * size, axis=-1) > BEND * np.linalg.norm(step * size, axis=-1)
             new = self._back(Y + step + np.where(much[:, None], 0.0, turn))
-            new_r = problem.apart(new, places)
-            costs = self._cost(new_r)
+            new_slopes = self._slopes(new, places)
+            costs = self._cost(new_slopes[0])
             is_better = costs < self.costs
             self.X = np.where(is_better[:, None], new, self.X)
             fallen = (self.costs - costs) / np.maximum(self.costs, 1e-300) * r.shape[-1]
-            if is_better.any():
-                r[is_better], J[is_better] = self._slopes(new[is_better], places)
+            r, J = np.where(is_better[:, None], new_slopes[0], r), np.where(is_better[:, None, None], new_slopes[1], J)
             self.damping = np.clip(np.where(is_better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
             self.costs = np.where(is_better, costs, self.costs)
             ended = is_better & (fallen < decrement) | (self.damping > 1e3) | (self.costs < exact * r.shape[-1])
