@@ -52,25 +52,53 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
 
 
 def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed tensor I11 I22 I33 I12 I13 I23; that of a plane body if within its last digits."""
+    """Return a typed tensor I11 I22 I33 I12 I13 I23; that of a plane body if within its last digits.
+
+    Raises click.UsageError for a tensor of no body that another order or sign of the numbers makes that of a body.
+    """
     if value is None:
         return None
     import numpy as np
 
-    a, b, c, d, e, f = map(float, value)
-    tensor = np.array([[a, d, e], [d, b, f], [e, f, c]])
-    spread, axes = np.linalg.eigh(np.trace(tensor) / 2 * np.eye(3) - tensor)
+    spread, axes = _principal_spread(value)
     beyond = -spread[0] * (1 + 1e-9)
     change = beyond * (np.eye(3) - np.outer(axes[:, 0], axes[:, 0]))
     moves = [change[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
-    size = float(np.abs(tensor).max())
+    size = max(abs(float(x)) for x in value)
     units = [max(float(_unit(x)), SINGLE * size) for x in value]
     is_near = all(abs(move) < unit for move, unit in zip(moves, units, strict=True))
     if not (1e-14 * size < beyond < LARGEST * size and is_near):
+        if beyond > ROUNDED * size:
+            _ask_for_order(param, value)
         return value
     new = tuple(_with_value(x, float(x) + move, None) for x, move in zip(value, moves, strict=True))
     _tell(param, value, new, "the tensor of no body", "the plane body next to it")
     return new
+
+
+def _principal_spread(numbers: Sequence[float]) -> tuple[Any, Any]:
+    """Return principal values (3,), ascending, and axes (3, 3) of the mass matrix (8) of I11 I22 I33 I12 I13 I23."""
+    import numpy as np
+
+    a, b, c, d, e, f = map(float, numbers)
+    tensor = np.array([[a, d, e], [d, b, f], [e, f, c]])
+    return np.linalg.eigh(np.trace(tensor) / 2 * np.eye(3) - tensor)
+
+
+def _ask_for_order(param: click.Parameter, value: Sequence[Typed]) -> None:
+    """Raise click.UsageError if a tensor of no body is that of a body in URDF's order or with products reversed."""
+    a, b, c, d, e, f = value
+    minus = [x.text[1:] if x.text.startswith("-") else f"-{x.text.removeprefix('+')}" for x in (d, e, f)]
+    readings = (
+        ("the order of URDF, ixx ixy ixz iyy iyz izz", (a, d, f, b, c, e), [x.text for x in (a, d, f, b, c, e)]),
+        ("products +sum m x y, as SolidWorks has", (a, b, c, -d, -e, -f), [*(x.text for x in (a, b, c)), *minus]),
+    )
+    for reading, numbers, texts in readings:
+        if _principal_spread(numbers)[0][0] > 0:
+            raise click.UsageError(
+                f"--{param.name} {' '.join(x.text for x in value)}: no body has this tensor I11 I22 I33 I12 I13 I23; "
+                f"did you mean {reading}? Then type --{param.name} {' '.join(texts)}"
+            )
 
 
 def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:

@@ -106,3 +106,26 @@ def test_uncertain_bodies_are_no_printed_digits(body: list[str]) -> None:
     """Numbers with a standard deviation are taken as typed."""
     outcome = run(*body, "--field", "0", "1", "2", "--omega", "0.3", "0.7", "0.2", "--times", "0")
     assert (outcome.exit_code, outcome.stderr) == (0, ""), outcome.stderr
+
+
+@pytest.mark.parametrize(
+    ("typed", "asked", "meant"),
+    [
+        ("1 0.1 0.2 1.2 0.15 1.4", "URDF", "1 1.2 1.4 0.1 0.2 0.15"),
+        ("1.0 1.1 1.2 0.35 -0.4 -.35", "SolidWorks", "1.0 1.1 1.2 -0.35 0.4 .35"),
+    ],
+)
+def test_a_tensor_in_another_order_is_asked_about(typed: str, asked: str, meant: str) -> None:
+    """The command that the error names is one of a body."""
+    outcome = run("--tensor", *typed.split(), *FREE)
+    assert outcome.exit_code == 2
+    assert asked in outcome.stderr
+    assert outcome.stderr.rstrip().endswith(f"--tensor {meant}")
+    assert run("--tensor", *meant.split(), *FREE).exit_code == 0
+
+
+def test_a_tensor_of_no_body_in_any_order_is_refused_as_it_was_typed() -> None:
+    """No other reading is offered where none is a body."""
+    outcome = run("--tensor", "1", "1", "3", "0", "0", "0.1", *FREE)
+    assert isinstance(outcome.exception, DomainError)
+    assert "did you mean" not in str(outcome.exception)
