@@ -80,7 +80,7 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
     slope = 1 / (2 * float(bifurcation.inertia[middle]))
     spins = np.array([(spin.F, spin.H - slope * spin.F) for spin in bifurcation.spins])
     start, spread = float(spins[:, 0].min()), float(np.ptp(spins[:, 0]))
-    x_limits = start - 0.12 * spread, start + reach * spread
+    x_limits = start - 0.2 * spread, start + reach * spread
     sizes = (WIDTH / 2 - MARGIN) / (x_limits[1] - x_limits[0]), (HEIGHT - MARGIN) / float(np.ptp(spins[:, 1]))
     lines = [
         (

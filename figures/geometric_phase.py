@@ -91,7 +91,10 @@ def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
     """
     lines = (("main", "turn", 0, 1), ("reference", "dynamic part", 1, 1), ("limit", "geometric part", 2, -1))
     layers: list[Layer] = [Curve(np.array([[z[0], 0.0], [z[-1], 0.0]]), "guide")]
-    layers += [Curve(np.column_stack([z, sign * phases[:, k]]), role, name) for role, name, k, sign in lines]
+    word = int(np.searchsorted(z, 0.25 * z[0] + 0.75 * z[-1]))
+    for role, name, k, sign in lines:
+        line = np.column_stack([z, sign * phases[:, k]])
+        layers += [Curve(line, role), Label(line[word], name, role, (2, 5))]
     layers.append(Points(np.column_stack([np.full(3, chosen[0]), chosen[1:]]), "start"))
     limits = float(z[0]), float(z[-1])
     return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(b) in one period")

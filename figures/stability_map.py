@@ -24,7 +24,7 @@ TOP = 0.6
 CELLS = (160, 96)
 NARROWEST = 120.0
 BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "ball"), (1.5, "short solenoid"), (2.0, "loop"))
-ASIDE, UP = 0.1, 0.035
+ASIDE, UP = 0.14, 0.035
 """How far the names stand inside the map, in units of I and tau."""
 
 

@@ -4,12 +4,17 @@ The same body is launched in the same way: with its charge spread as its mass, w
 of its axis under its weight, and turned by the moment that a field induces in it.
 """
 
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import plain, spelt, tex, tex_vector
+from atlas.pictures.layers import Arrow, Curve, Label, Layer, Space, frame
 
 ROW = "tops"
 SEEN = "Whatever turns it, the axis of a top nutates by one formula."
@@ -46,20 +51,40 @@ def scene(
         )
         for letter, (name, (label, role), *_), motion in zip("abcd", TOPS, motions, strict=True)
     )  # fmt: skip
+    panels = tuple(replace(panel, layers=(*panel.layers, *cause(k, panel))) for k, panel in enumerate(panels))
     return Scene(
         caption=(
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega={tex_vector(omega)}$, "
             rf"over {spelt(nutations)} of nutation, the cause upright: (a) one charge-to-mass ratio throughout "
-            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start."
+            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Small: what turns each. "
+            "Dots: the start."
         ),
         alt=(
             f"Four unit spheres with traces of a body's axis, I = {plain(ratio)}: waves or loops between two parallels "
-            "around the field or the vertical, another pattern for each top."
+            "around the field or the vertical, another pattern for each top. A small "
+            "body on each has charges inside, charges outside, an arrow of its weight, or one of its moment."
         ),
         panels=panels,
         columns=len(panels),
         size=(SIZE * len(panels), SIZE + 10.0),
     )
+
+
+def cause(place: int, panel: Space) -> list[Layer]:
+    """Return a small body in front of the sphere with what turns it: charges, its weight, or the induced moment."""
+    right, up, toward = frame(panel)
+
+    def at(x: float, y: float) -> FloatArray:
+        return np.asarray(1.5 * toward + x * right + (y - 0.55) * up)
+
+    corners = ((-0.17, -0.2), (0.17, -0.2), (0.17, 0.2), (-0.17, 0.2), (-0.17, -0.2))
+    body = Curve(np.array([at(x, y) for x, y in corners]), "silhouette")
+    if place == 2:
+        return [body, Arrow(at(0.0, 0.0), at(0.0, -0.42), "direction", "")]
+    if place == 3:
+        return [body, Arrow(at(0.0, -0.16), at(0.0, 0.42), "body_axis", "")]
+    aside = 0.085 if place == 0 else 0.27
+    return [body, *(Label(at(x, y), "+", "field") for x in (-aside, aside) for y in (-0.1, 0.1))]
 
 
 def _motion(

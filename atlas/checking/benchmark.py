@@ -213,10 +213,14 @@ def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str]
 
 
 def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
-    """Return one panel a case, all on the same axes; only the lowest row names the horizontal axis."""
+    """Return one panel a case, all on the same axes; only the lowest row names the horizontal axis.
+
+    One panel alone has no letter.
+    """
     every, upper = [layer for runs in cases.values() for layer in runs], len(cases) - columns
+    letters = [f"({letter}) " for letter in "abcdefgh"] if len(cases) > 1 else [""]
     return tuple(
-        panel(runs, every, ("" if k < upper else labels[0], labels[1]), room, f"({'abcdefgh'[k]}) {case_title(case)}")
+        panel(runs, every, ("" if k < upper else labels[0], labels[1]), room, letters[k] + case_title(case))
         for k, (case, runs) in enumerate(cases.items())
     )
 
