@@ -51,7 +51,7 @@ def prepare(module: str) -> str:
 
 
 def _begin(more: Callable[[], Any] | None) -> None:
-    """Let this worker end as soon as the process that started it has ended, however that was; then call `more`."""
+    """Prepare this worker: it will end as soon as its parent process ends, in any way. Then call `more`, at once."""
     for number in ENDING:  # a fork has the handlers of the command line
         if callable(getsignal(number)):
             signal(number, SIG_DFL)

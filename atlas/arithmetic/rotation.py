@@ -146,7 +146,7 @@ class DoubleRotation:
 
     @cached_property
     def rodrigues(self) -> FloatArray:
-        """Matrices of the functions of the phase k t by itself, (3, 3, 3), times two."""
+        """Twice the matrices 1, [n, .] and n n^T that go with cos k t, sin k t and 1 - cos k t, shape (3, 3, 3)."""
         return 2 * rodrigues(self.axis)
 
     @cached_property
@@ -174,7 +174,7 @@ class DoubleRotation:
         return large * scale, small * scale
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), (84), shape (..., 3, 3)."""
+        """Return R(t), (84), body to laboratory, shape (..., 3, 3) for times t (...); `out`, if given, is filled."""
         return combinations(self.phases, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -185,7 +185,10 @@ class DoubleRotation:
 
     @cached_property
     def _products(self) -> FloatArray:
-        """Weights of the functions of `basis` of half the phases in q_n q_z: the four products of cosines and sines."""
+        """Weights (9, 4) of the functions of `Basis`, at half the phases, in the quaternion (x, y, z, w) of R(t).
+
+        Only the last four functions, products of cosines and sines, have weights other than zero.
+        """
         x, y, z = map(nearest, self.axis)
         weights = np.zeros((9, 4))
         weights[5:] = 4 * np.array([[0, 0, 0, 1], [x, y, z, 0], [0, 0, 1, 0], [y, -x, 0, -z]])

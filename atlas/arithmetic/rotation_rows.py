@@ -194,7 +194,7 @@ class DoubleRotationRows:
         out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
 
     def _columns(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
-        """Return the columns of R_n(k t) R_z(phi t), or of its inverse, each entry (m,).
+        """Return three columns (x, y, z) of R_n(k t) R_z(phi t), of its transpose if `inverse`; each entry is (m,).
 
         A step of Newton's corrects the length of a column for rounding.
         """

@@ -31,7 +31,10 @@ class InputsError(AtlasError):
 
 
 class Input(StrictStruct, frozen=True):
-    """An input: its kind, unit, range or choices, default (required without one), and a line of help."""
+    """An input: its kind, unit, range or choices, default (required without one), and a line of help.
+
+    `range` has its least and largest value; `count` is how many numbers an input of the kind "numbers" takes.
+    """
 
     kind: Literal["number", "integer", "numbers", "text", "choice", "truth"]
     help: str = ""

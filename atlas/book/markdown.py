@@ -31,7 +31,10 @@ class LineError(AtlasError):
 
 @dataclass(frozen=True)
 class Piece:
-    """A run of lines from `line` on: a text (kind ""), a heading ("#"), a block of some kind, or the head."""
+    """A run of lines: a text (kind ""), a heading ("#"), a block of some kind, or the head.
+
+    `line` counts from 1: the first line, or the opening fence of a block or head, which is not among `lines`.
+    """
 
     kind: str
     line: int

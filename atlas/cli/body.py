@@ -267,7 +267,10 @@ def exact_body(options: dict[str, Any]) -> Any:
 
 
 def mass_of(options: Mapping[str, Any]) -> Any:
-    """Return the mass of a shape, from --mass or from the density with pi in 512 digits; None without either."""
+    """Return the mass of a shape, from --mass or from the density with pi in 512 digits; None without either.
+
+    Raises UsageError for a density besides a mass, or of a shape that is no solid; DomainError for a volume of zero.
+    """
     if options.get("density") is None:
         return options.get("mass")
     from atlas.arithmetic.numbers import as_rational, rational, workprec

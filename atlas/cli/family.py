@@ -405,7 +405,10 @@ def _drawn(family: Family) -> Iterator[Quantity]:
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:
-    """Return the lines of the quantities in `texts`, except the one called `named`, which selects the case."""
+    """Return the printed lines of a family's quantities, whose values as text are in `texts` by name.
+
+    The quantity called `named` has no line: its text is the case, such as the kind of motion, that selects the lines.
+    """
     case = texts.get(named, "") if named else ""
     quantities = [q for q in family.quantities if q.name in texts and q.name != named]
     return [line for q in quantities for line in _lines(q, texts[q.name], case, _units(family, options))]
@@ -562,7 +565,10 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
 
 
 def _quaternion(motion: Any, t: Any, R: Any, quaternion_near: Any) -> Any:
-    """Return the quaternion in balls whose sign is that of the doubles; "not certified" where R is."""
+    """Return the quaternion [x, y, z, w] of R at time t in balls, with the sign of `quaternion_near`, its floats.
+
+    Four times "not certified" if the entries of R are, or if `quaternion_near` is None.
+    """
     from flint import fmpq
 
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED

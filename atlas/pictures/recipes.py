@@ -56,7 +56,10 @@ class Recipe:
     row: str = ""
 
     def scene(self, **parameters: Any) -> "Scene":
-        """Return the scene for these parameters, defaults for the others; all are noted in the scene."""
+        """Return the scene for these parameters, defaults for the others; all are noted in the scene.
+
+        Raises AtlasError for an unknown parameter or a recipe that fails.
+        """
         from atlas.pictures.layers import Scene
 
         for name in parameters:

@@ -45,7 +45,7 @@ class EntryView:
 
     @property
     def number(self) -> str:
-        """Name of an entry that has a number in print, else ""."""
+        """Name of the entry if its equation is numbered in print, else ""."""
         return self.name if self.equation.number is not None else ""
 
     @property

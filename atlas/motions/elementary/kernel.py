@@ -201,7 +201,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return self._table(scalars, (1,) * 4)
 
     def _table(self, formula: Callable[..., Any], degree: tuple[int, ...]) -> FloatArray:
-        """Return results of a formula of the case and the inputs, each rounded once, (n, ...)."""
+        """Return the n results of formula(case, *inputs) for every motion, each rounded once, shape (n, ...).
+
+        `degree` has for each result its power of the unit of frequency.
+        """
         table = np.empty((len(degree), prod(self.shape)))
         for case, index, inputs in self._cases():
             values = over(partial(formula, case), *inputs, unit=self._frequencies, degree=degree)
@@ -527,7 +530,10 @@ class FreeMotion(DoubleTurn[Free]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return (motion, principal axes as rows) of a symmetric body without a field; None for any other start."""
+        """Return (motion, axes) of a symmetric body without a field; None for any other start.
+
+        The axes (..., 3, 3) are the principal axes as rows, the symmetry axis last.
+        """
         if start.has_field or not start.is_symmetric:
             return None
         body, axes, _, w = start.symmetric

@@ -144,7 +144,10 @@ class Pencil:
         return [-(self.v * y) - ONE for y in self.e]
 
     def is_elliptic(self, w: DoubleDouble) -> Any:
-        """Return a mask of rows that are elliptic motions for certain, which have w < 0."""
+        """Return a mask of rows that are certainly elliptic motions, with w < 0 (see `roots_of_elliptic`).
+
+        False also where rounding leaves the kind open, and near rest.
+        """
         sizes, rank = np.array([np.broadcast_to(y.hi, self.shape) for y in self.I]), self.order
         conditions = [
             (sizes > 0).all(0) & (2 * PLANE_FACTOR * sizes.max(0) < sizes.sum(0)) & (abs(self.branch.hi) == 1),

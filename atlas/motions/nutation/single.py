@@ -77,7 +77,7 @@ class SingleMotion:
         return np.asarray(b * VECTOR @ self.sides[1])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape (..., 3, 3)."""
         return self._linear(self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -215,7 +215,10 @@ class Charge:
     def _fill(
         self, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray, name: str
     ) -> None:
-        """Write the three components, block by block."""
+        """Write component(i, times, functions), i = 0, 1, 2, at times t (m,) into `out` (m, 3), block by block.
+
+        Raises DomainError, with `name` as its subject, if a number is too large for a float.
+        """
         for start in range(0, t.size, BLOCK):
             piece = t[start : start + BLOCK]
             halves, work = np.empty((3, 1, piece.size)), room(1, piece.size)

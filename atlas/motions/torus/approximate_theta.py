@@ -71,7 +71,7 @@ class ThetaMotion:
 
     @property
     def forms(self) -> list[Form]:
-        """N, the denominator, K and M as forms of (2 zeta_1, zeta_2); N but for a turn, which is 1 at the start."""
+        """Ten forms in (2 zeta_1, zeta_2): three of N without exp(i l (zeta - start)), the denominator, K and M."""
         shift = 2 * self.w[0], self.w[1]
         N = [Form(x.place, x.weights, shift) for x in self.N]
         return [*N, self.denominator, *self.K, *self.M]

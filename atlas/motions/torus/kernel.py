@@ -158,7 +158,7 @@ class SingleAsymmetric:
         return self._choice[1]
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape (..., 3, 3)."""
         return self._started("rotation", np.eye(3), t, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -155,7 +155,7 @@ class ThetaKernel:
         return error if error <= MAX_PROVEN_ERROR else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape (..., 3, 3)."""
         return evaluate(real(t, "The time"), (3, 3), out, lambda _: self._attitude(self.entries))
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -60,7 +60,10 @@ def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: F
 
 
 def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
-    """Return the painting rank (T,) of triangles from `cut`, summed over the quadrics."""
+    """Return the painting rank (T,) of triangles `corners` (T, 3, K) from `cut`, its other arguments the same.
+
+    The least is painted first. Each quadric adds 0 to 2: more, the more of its sheets lie behind the triangle.
+    """
     total = np.zeros(len(corners))
     for number, form in enumerate(forms):
         sign = 1.0 if towards @ form[:3, :3] @ towards >= 0.0 else -1.0
