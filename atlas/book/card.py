@@ -98,6 +98,13 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
     return functions.sqrt(sum(x * x for x in (*across, along)))
 
 
+def _pole(key: str, arguments: Mapping[str, Any]) -> str:
+    """Return words on a rate whose two limits differ: that of an axis which nutates through the field's direction."""
+    (*across, along), (W1, W2, *_) = arguments.get("field") or (0.0,), arguments.get("omega") or (0.0, 0.0)
+    through = key in {"turn", "spin"} and "ratio" in arguments and along and not any(across) and any((W1, W2))
+    return ", by the mean of the rates on both sides of the pole, through which the axis goes" * bool(through)
+
+
 def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, Any]) -> Any:
     """Return a frequency of the torus, f1 at place 0. Raises DomainError for a motion with a period and two rates."""
     if not (family.quantity("frequencies") and any(arguments["field"])):
@@ -165,7 +172,7 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
         text = _proven(one.key, item, exact, request.digits)
         equation = one.equation if request.family.takes("ratio") else ""
         entry: dict[str, Any] = {
-            "says": one.says.replace("the field", centre), "letter": one.letter,
+            "says": one.says.replace("the field", centre) + _pole(one.key, floats), "letter": one.letter,
             "value": _value(there.get(one.key), text), "unit": _unit(one.unit, request.time),
             "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
             "equation": equation or None, "reason": None,

@@ -77,6 +77,16 @@ def test_numbers_of_the_card_agree_with_plain_formulas() -> None:
     assert free["spin"]["value"] == pytest.approx((1 - 1.5) * 0.2)
 
 
+def test_a_turn_through_the_pole_is_said_to_be_a_mean() -> None:
+    """Its rate is the mean of the limits, of fields a little to one side and to the other."""
+    turns = [card(request_of(f"--ratio 1.6 --field {x} 2 --omega 0.3 0.7 0.2"))["turn"] for x in ("1e-7", "0", "-1e-7")]
+    before, at, after = (2 * pi / one["value"] for one in turns)
+    assert at == pytest.approx(abs(before - after) / 2, rel=1e-5), "before and after it goes round in opposite ways"
+    assert ["pole" in one["says"] for one in turns] == [False, True, False]
+    for words in ("--ratio 1.6 --omega 0.3 0.7 0.2", "--ratio 1.6 --field 0 2 --spin 0.2"):
+        assert "pole" not in card(request_of(words))["turn"]["says"]
+
+
 @pytest.mark.parametrize("scale", ["1e-300", "1e300"])
 def test_cards_of_tiny_and_huge_rates_agree_with_one(scale: str) -> None:
     """Rates are proportional to their unit, also where their squares are no doubles."""
