@@ -427,12 +427,15 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
     """Return the angle in rad by which rounded inputs turn the body until the latest time; {} below ROUNDING."""
-    if not times or not family.is_sensitive:
-        return {}
-    with suppress(AtlasError):  # where there are no derivatives there is no bound
-        error = float(motion.input_error(max(map(float, times), key=abs)))
-        return {"input_error": error} if error > ROUNDING else {}
-    return {}
+    error = _turn_by_rounding(family, motion, times) if times else None
+    return {"input_error": error} if error is not None and error > ROUNDING else {}
+
+
+def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> float | None:
+    """Return the bound of the angle by which rounded inputs turn the body; None where no derivatives are at hand."""
+    with suppress(AtlasError):
+        return float(motion.input_error(max(map(float, times), key=abs))) if family.is_sensitive else None
+    return None
 
 
 def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
@@ -444,14 +447,15 @@ def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
     """Yield the sentence on the error from rounded inputs, if there is one."""
-    rounded = options["digits"] is None and not options["decimal"] and family.is_sensitive
-    if not rounded or _is_short(options, times):
+    rounded = options["digits"] is None and not options["decimal"] and (family.is_sensitive or family.in_given_axes)
+    if not rounded or not times or _is_short(options, times):
         return
-    for error in _input_error(family, motion or _kernel(family, options), times).values():
-        farthest = max(map(float, times), key=abs)
+    error = _turn_by_rounding(family, motion or _kernel(family, options), times)
+    if error is None or error > ROUNDING:
+        turn = "an angle that is not known" if error is None else f"up to {error:.1g} rad"
         yield (
-            f"Rounding the inputs to floats turns the body by up to {error:.1g} rad at t = {farthest:g}; --digits with "
-            "--decimal takes them as typed."
+            f"Rounding the inputs to floats turns the body by {turn} at t = {max(map(float, times), key=abs):g}; "
+            "--digits with --decimal takes them as typed."
         )
 
 

@@ -242,6 +242,15 @@ def test_a_symmetric_tensor_turned_in_floats_has_its_three_moments_at_any_time()
     assert 0 < difference < 1e-8
 
 
+def test_an_error_of_rounding_that_is_not_known_is_called_so() -> None:
+    """No derivatives are at hand of a motion with three moments, and none exist of one about a principal axis."""
+    for words in ("--field 0.4 0.1 1.2 --omega 0.5 0.3 1.1", "--field 0 0 1.2 --omega 0 0 1.1"):
+        asked = ["motion", "--inertia", "0.8", "1", "1.2", *words.split(), "--times"]
+        said = CliRunner().invoke(command, [*asked, "1e9"], catch_exceptions=False).output
+        assert "turns the body by an angle that is not known at t = 1e+09;" in " ".join(said.split())
+        assert "not known" not in CliRunner().invoke(command, [*asked, "1"], catch_exceptions=False).output
+
+
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 def test_a_ball_turned_in_floats_seeks_no_periods(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its slowest period is out of reach: it is certified at once, without integrals along the paths of its torus."""
