@@ -13,7 +13,7 @@ from atlas.pictures import Image, Label, Plane, Scene
 from atlas.pictures.captions import tex, tex_setting
 
 ROW = "a body"
-SEEN = "Written as it stands, (84) loses digits where the map is bright."
+SEEN = "The map is bright where (84), written as it stands, loses digits."
 LIMITS = (1e-17, 1.0)
 LOW = 1e-2
 TIME = r"$t\,|\mathbf{B}'|$"

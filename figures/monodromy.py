@@ -18,7 +18,7 @@ from atlas.pictures.captions import plain, tex
 from atlas.pictures.sample import room
 
 ROW = "its map"
-SEEN = "Carried round an unstable spin, a lattice of periods comes back, and not each period."
+SEEN = "Carried round an unstable spin, the lattice of periods comes back, but one period as another."
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
 LOOP_POINTS = 480
