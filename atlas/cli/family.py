@@ -382,6 +382,7 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
     `named` is the name of the command, whose record has the name of the family where several share it.
     """
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options.get("as_json"))]
+    middle = dict[str, Any]()
 
     def answered(values: dict[str, Any]) -> dict[str, Any]:
         motion = motion_in_given_axes(values) if family.in_given_axes else None
@@ -389,19 +390,20 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
         motion = _kernel(answering, values) if motion is None else motion
         answers = {"family": answering.name} if named == "motion" else {}
         if values is not options:  # a proof that is a sentence is said once
-            answering = replace(answering, quantities=tuple(_drawn(answering)))
+            answering = replace(answering, quantities=tuple(_drawn(answering, middle)))
         answers |= _answers(answering, motion, times, [s for s in sampled if times and hasattr(motion, s.method)])
+        middle.update(answers if values is options else {})
         larmor = in_field(family) and values["magnetic"] is not None
         return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
 
     return UncertainAnswer.of(answered, options)
 
 
-def _drawn(family: Family) -> Iterator[Quantity]:
-    """Yield the quantities of a draw of the inputs, with the fast function of each that has one."""
+def _drawn(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
+    """Yield the quantities of a draw, with the function of each that has one for draws; `middle` are its values."""
     for q in family.quantities:
         if q.tabled or not q.slow:
-            yield replace(q, get=q.drawn or q.get)
+            yield replace(q, get=partial(q.drawn, near=middle[q.name]) if q.drawn and q.name in middle else q.get)
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:

@@ -179,10 +179,19 @@ def test_the_last_two_digits_have_the_deviation(value: float, sigma: float, text
 def test_a_torus_is_drawn_with_the_certified_frequencies(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draws take them from theta functions, the first answer from proved periods, which a draw need not prove."""
     motion: Any = atlas.motion((0.9, 1.1, 1.45), (0, 1, 2), (0.3, 0.7, 0.2))
-    np.testing.assert_allclose(motion._approximate_frequencies(), motion.frequencies, rtol=1e-14)
+    np.testing.assert_allclose(motion._frequencies_near(motion.frequencies), motion.frequencies, rtol=1e-14)
     proofs = []
     proved = Torus._enclosed
     monkeypatch.setattr(Torus, "_enclosed", lambda *args: proofs.append(args) or proved(*args))
     found = numbers("motion --inertia 0.90(1) 1.1 1.45 --field 0 1 2 --omega 0.3 0.7 0.2")
     assert len(proofs) <= 2, "two periods of the middle"
     assert all(found["sigma"]["frequencies"])
+
+
+@pytest.mark.slow
+def test_frequencies_of_a_neighbour_are_in_the_same_basis() -> None:
+    """The bases of I1 = 0.75 and 0.8 differ, f1 by f2: the deviation of f1 is that of its slope, not of a jump."""
+    middle, beside = (atlas.AsymmetricMotion((I1, 1.1, 1.45), (0, 1, 2), (0.3, 0.7, 0.2)) for I1 in (0.8, 0.75))
+    f1, f2, f3 = beside.frequencies
+    assert abs(f1 - middle.frequencies[0]) > 0.5
+    np.testing.assert_allclose(beside._frequencies_near(middle.frequencies), (f1 + f2, f2, f3), rtol=1e-13)

@@ -48,6 +48,23 @@ BESIDE = ("ball", "symmetric body")
 """Kinds that `BallMotion` and `GeneralMotion` answer."""
 
 
+MAX_TERM = 4
+"""Largest integer in a change of the basis of frequencies that is tried."""
+
+
+def in_basis_near(frequencies: list[float], near: list[float]) -> list[float]:
+    """Return f1, f2, f3 in the basis of one torus in which they are nearest to the frequencies of another."""
+    f1, f2, f3 = frequencies
+    integers = np.arange(-MAX_TERM, MAX_TERM + 1)
+    a, b = (x.ravel() for x in np.meshgrid(integers, integers))
+    combined = a * f1 + b * f2
+    distance = abs(combined - near[0])[:, None] + abs(combined - near[1])
+    is_basis = abs(a[:, None] * b - b[:, None] * a) == 1
+    first, second = np.unravel_index(np.where(is_basis, distance, np.inf).argmin(), distance.shape)
+    nearest_multiple = combined[abs(f3 + combined - near[2]).argmin()]
+    return [combined[first], combined[second], f3 + nearest_multiple]
+
+
 class SingleAsymmetric:
     """Evaluator of one motion: the closed form if available, else balls rounded once."""
 
@@ -404,9 +421,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
-    def _approximate_frequencies(self) -> FloatArray:
-        """Return the frequencies (f1, f2, f3), shape (..., 3), in rad/time, not proved: those of the closed form."""
-        return np.asarray(self._of_each(SingleAsymmetric.approximate_frequencies))
+    def _frequencies_near(self, near: list[float]) -> FloatArray:
+        """Return f1, f2, f3, shape (..., 3), in rad/time, not proved, in the basis nearest to the frequencies `near`.
+
+        A torus has f1 and f2 but for integer combinations of determinant 1 or -1, and f3 but for multiples of both.
+        """
+        return np.asarray(self._of_each(lambda single: in_basis_near(single.approximate_frequencies(), near)))
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
