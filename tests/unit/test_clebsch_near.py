@@ -94,7 +94,7 @@ def test_motions_whose_periods_are_too_long_are_held_against_the_twin_where_it_i
 def test_periods_too_long_to_integrate_are_refused_in_one_line() -> None:
     """Moments of a ball but for a billionth: times up to a limit have an answer, and it is said why no others have."""
     motion = atlas.AsymmetricMotion((1.0, 1 + 2.0**-30, 1 + 1.75 * 2.0**-30), (0.5, -1.0, 0.25), (0.25, 1.0, -0.5))
-    assert "certified at each time: the periods found for the motion's torus" in motion.agreement
+    assert "certified at each time: the body is so nearly a ball" in motion.agreement
     with pytest.raises(atlas.AtlasError, match=r"^not certified: .*, up to \|t\| = 128\.$"):
         motion.rotation(1e6)
     R = motion.rotation(50.0)
@@ -137,3 +137,13 @@ def test_many_times_without_a_closed_form_take_one_way(monkeypatch: pytest.Monke
     together = SingleAsymmetric(AsymmetricMotion(inertia, field, omega)).rotation(times)
     assert np.array_equal(together[[0, 50, 77, 100]], alone)
     assert len(set(map(id, count))) == 2
+
+
+@pytest.mark.slow
+def test_two_frequencies_of_a_torus_are_positive() -> None:
+    """The signs of the periods are chosen so: neighbours have no frequency of the other sign."""
+    rng = np.random.default_rng(8)
+    for omega in rng.normal(size=(6, 3)):
+        f1, f2, _ = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.3, 0.5, 1.0), omega).frequencies
+        assert f1 > 0
+        assert f2 > 0

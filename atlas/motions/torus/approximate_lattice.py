@@ -172,7 +172,10 @@ def _real_first(conjugation: Whole) -> list[list[int]]:
 
 
 def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]:
-    """Return Gauss's reduction of the two real periods, as whole weights: by Riemann's form zeta* (Im tau)^-1 zeta."""
+    """Return Gauss's reduction of the two real periods, as whole weights: by Riemann's form zeta* (Im tau)^-1 zeta.
+
+    Their signs make the frequencies f1 and f2 positive.
+    """
     vectors = matrix_of(acb_mat(periods))[:, :2]
     a1, a2, _, _ = basis @ vectors
     zeta = np.linalg.solve(np.array([a1, a2 / 2]).T, vectors[:2].T)
@@ -186,7 +189,9 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
             rows = np.array([rows[0], rows[1] - n * rows[0]])
         else:
             break
-    return [[int(n) for n in row] for row in rows]
+    # (f1, f2) is 2 pi times the first row of the inverse of the two periods, each of them (T_H, T_F) as a row
+    signs = np.sign(np.linalg.inv(rows @ vectors[:2].real)[0])
+    return [[int(n * sign) for n in row] for row, sign in zip(rows, signs, strict=True)]
 
 
 def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
