@@ -14,7 +14,7 @@ from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import plain, spelt, tex, tex_vector
-from atlas.pictures.layers import Arrow, Curve, Label, Layer, Space, frame
+from atlas.pictures.layers import Arrow, Curve, Layer, Space, frame
 
 ROW = "tops"
 SEEN = "Whatever turns it, the axis of a top nutates by one formula."
@@ -84,7 +84,12 @@ def cause(place: int, panel: Space) -> list[Layer]:
     if place == 3:
         return [body, Arrow(at(0.0, -0.16), at(0.0, 0.42), "body_axis", "")]
     aside = 0.085 if place == 0 else 0.27
-    return [body, *(Label(at(x, y), "+", "field") for x in (-aside, aside) for y in (-0.1, 0.1))]
+    charges = [(x, y) for x in (-aside, aside) for y in (-0.1, 0.1)]
+    arms = ((0.05, 0.0), (0.0, 0.05))
+    return [
+        body,
+        *(Curve(np.array([at(x - h, y - v), at(x + h, y + v)]), "field") for x, y in charges for h, v in arms),
+    ]
 
 
 def _motion(

@@ -165,6 +165,7 @@ UNTIED = {
     "inertia.sums_over_points": GIVEN,
     "inertia.principal_values": GIVEN,
     "inertia.rational_matrix": GIVEN,
+    "inertia.rounded": GIVEN,
     "units.ratio_of": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
     "units.system": NAME,

@@ -146,6 +146,7 @@ CASES = [
     ("motion --ratio=1.5 --feild 1 2 --spin 1 --json", "No such option '--feild'"),
     ("motion --ratio 1.5 --field 1 2 --omega 1 2 3 --spin 1", "the start is given twice, by --omega and --spin"),
     ("motion --tensor 1 1 1 0 0 0 --ratio 1 --field 0 0 1 --spin 1", "by --ratio and --tensor"),
+    ("motion --tensor 1 0.1 0.2 1.2 0.15 1.4 --field 0 0 1 --spin 1", "did you mean the order of URDF"),
     ("motion --tensor 1 1 1 0 0 0.1 --field 0 0 1 --spin 1 --attitude 0 0 1 1", "of the length 1, x y z w"),
     ("check {place}/plain.csv --ratio 1 --spin 1 --omega 1 2 3", "the start is given twice, by --omega and --spin"),
     ("sweep elementary --set ratio=1.3(1),1.4 B2=1 B3=2 omega2=0.3 --quantity k --out k.csv", "has one value"),

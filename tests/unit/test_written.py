@@ -32,7 +32,7 @@ blocks = [
 ]
 """
 WRITERS = {
-    "page --ratio 1.3 --field 1 2 --omega2 0.7": "motion-ratio-1.3-field-1-2-omega2-0.7.md",
+    "page --ratio 1.3 --field 1 2 --omega2 0.7": "your_body-9c28476c.md",
     "tex small.toml": "small",
     "data small.toml": "small",
     "animate trochoids --over turns=1:3:2 --dpi 20": "trochoids.gif",
