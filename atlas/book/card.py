@@ -158,7 +158,7 @@ class Balls:
 
 
 def card(request: Asked) -> dict[str, dict[str, Any]]:
-    """Return the card: of each key value, digits as text, unit, sigma, proven digits, equation; or the reason.
+    """Return the card: for each key a record with value, digits as text, unit, sigma, proven digits, equation, reason.
 
     A double that is not within its proven digits gives way to them: squares of tiny or huge rates are no doubles.
     """
@@ -205,7 +205,7 @@ def _unit(unit: str, time: str) -> str:
 
 
 def reason_of(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> str:
-    """Return why the card lacks a number."""
+    """Return the reason, in words, for which the card lacks a number."""
     try:
         _number(key, family, motion, arguments, math)
     except DomainError as reason:

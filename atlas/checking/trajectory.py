@@ -234,7 +234,7 @@ def _one_word(line: str) -> str:
 def _blocks(
     lines: Iterator[str], above: int, title: Heading, separator: str, file: str
 ) -> Iterator[dict[str, FloatArray]]:
-    """Yield blocks of rows, arrays (m,) by column, from the lines below line number `above`, the line of names.
+    """Yield blocks of rows, arrays (m,) by column, from the lines below the line of names, number `above`.
 
     Raises AtlasError, which names the line, for a mistake in a row, a parameter among the rows, and no rows.
     """

@@ -400,7 +400,7 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
 
 
 def _drawn(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
-    """Yield the quantities of a draw, with the function of each that has one for draws; `middle` are its values."""
+    """Yield the quantities at moved inputs, each by its `drawn` if it has one; `middle` has the unmoved values."""
     for q in family.quantities:
         if q.tabled or not q.slow:
             yield replace(q, get=partial(q.drawn, near=middle[q.name]) if q.drawn and q.name in middle else q.get)

@@ -49,7 +49,7 @@ class Quantity:
     equation   where it stands; `cases`, by the name of a case, where `equation` and `says` are other there
     symbol     in a printout, the name if there is none; `lines`, symbol and words of each component on its own line
     get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
-    drawn      how to get it for a standard deviation, from an object of kernels and the value `near` at the middle
+    drawn      how to get it at inputs moved for a standard deviation, from an object of kernels and the unmoved value
     text       how the texts of its digits become one text
     missing    why there may be none: an empty cell then, which this explains; "" where that is an error
     checked     its name in a stress run, if it has a promise or is checked without one

@@ -141,7 +141,7 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 
 @dataclass(frozen=True)
 class Model:
-    """A family in a fit: parameter `names`, `fixed` default values, `make` from values by name to the motion."""
+    """A family in a fit: parameter `names`, `fixed` default values, `make` the function from values to a motion."""
 
     name: str
     names: tuple[str, ...]

@@ -40,7 +40,10 @@ def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable
 def around(
     quadric: FloatArray, centre: FloatArray, east: FloatArray, north: FloatArray, tolerance: float
 ) -> FloatArray:
-    """Return the angles s (N,) of the meridians of a round surface with the widest section `ellipse(centre, ...)`."""
+    """Return the angles s (N,) of the meridians of a round surface.
+
+    Its widest section is the ellipse about `centre` through centre + east and centre + north.
+    """
     return sample.cuts(quadric, [ellipse(centre, east, north)], 0.0, TURN, tolerance)
 
 

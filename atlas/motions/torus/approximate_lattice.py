@@ -190,7 +190,7 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
         else:
             break
     # (f1, f2) is 2 pi times the first row of the inverse of the two periods, each of them (T_H, T_F) as a row
-    signs = np.sign(np.linalg.inv(rows @ vectors[:2].real)[0])
+    signs = np.where(np.linalg.inv(rows @ vectors[:2].real)[0] < 0, -1, 1)
     return [[int(n * sign) for n in row] for row, sign in zip(rows, signs, strict=True)]
 
 

@@ -53,7 +53,7 @@ MAX_TERM = 4
 
 
 def in_basis_near(frequencies: list[float], near: list[float]) -> list[float]:
-    """Return f1, f2, f3 in the basis of one torus in which they are nearest to the frequencies of another."""
+    """Return f1, f2, f3 of a torus in the basis in which they are nearest to `near`, those of another torus."""
     f1, f2, f3 = frequencies
     integers = np.arange(-MAX_TERM, MAX_TERM + 1)
     a, b = (x.ravel() for x in np.meshgrid(integers, integers))
