@@ -87,5 +87,6 @@ def plain_setting(ratio: Any, field: Sequence[float]) -> str:
 
 
 def lasting(time: float, unit: str) -> str:
-    """Return a time with its unit as text: '2.21 s', or '2.21 units of time' for an unnamed unit."""
-    return f"{time:.3g} {'units of time' if unit == 'time' else unit}"
+    """Return a time with its unit for a caption: '2.21 s', or '2.21 units of time' for an unnamed unit."""
+    number = f"{time:.3g}"
+    return f"{f'${tex(float(number))}$' if 'e' in number else number} {'units of time' if unit == 'time' else unit}"
