@@ -16,6 +16,7 @@ from atlas.arithmetic import uncertainty
 from atlas.arithmetic.uncertainty import concise
 from atlas.cli.app import atlas as command
 from atlas.motions.torus.certified_torus import Torus
+from atlas.motions.torus.kernel import in_basis_near
 
 
 @pytest.fixture(autouse=True)
@@ -195,3 +196,11 @@ def test_frequencies_of_a_neighbour_are_in_the_same_basis() -> None:
     f1, f2, f3 = beside.frequencies
     assert abs(f1 - middle.frequencies[0]) > 0.5
     np.testing.assert_allclose(beside._frequencies_near(middle.frequencies), (f1 + f2, f2, f3), rtol=1e-13)
+
+
+def test_the_basis_nearest_to_equal_frequencies_is_a_basis() -> None:
+    """Both frequencies would be nearest as one combination, which generates no other."""
+    root = 3.0**0.5
+    f1, f2, _ = in_basis_near([2.0, root, 0.1], [root, root, 0.1])
+    assert f1 != f2
+    assert {round(x, 12) for x in (f1, f2)} <= {round(a * 2.0 + b * root, 12) for a in (-1, 0, 1) for b in (-1, 0, 1)}
