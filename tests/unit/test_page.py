@@ -359,7 +359,7 @@ def test_a_precession_too_slow_to_draw_is_reported(
     prose = "".join(block.get("text", "") for block in made["pages"][0]["blocks"])
     assert "followed for the precession" in prose
     assert "a whole turn takes 492 s" in prose
-    assert "7.71e-07 s" in prose
+    assert r"$7.71 \times 10^{-7}$ s" in prose
     (listing,) = (block for block in made["pages"][0]["blocks"] if block.get("id") == "neighbours")
     assert made["parameters"]["fields"]["field"]["title"] == "field of (0.4, 0.6928) T"
     for _, line in listing["rows"]:  # no start stands twice, and no density without its shape
