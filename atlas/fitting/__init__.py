@@ -237,7 +237,11 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
 
 
 def _is_followed(problem: Problem, x: Any) -> bool:
-    """Return whether the motion of parameters x follows the data, up to noise."""
+    """Return whether residuals at the varied parameters x (n,) are no larger than noise.
+
+    With given `sigma` the reduced chi square is compared with its expected value; else the median misfit must be below
+    `FOLLOWED` times the spread, and the correlation of neighbouring residuals below `SURE` standard deviations.
+    """
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
     if problem.data.known:
         allowed = SURE if problem.data.kind == "rotation" else 1.0  # others have false minima nearly as deep

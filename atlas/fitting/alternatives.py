@@ -131,7 +131,10 @@ def warnings_of(
 
 @dataclass(frozen=True)
 class _Turned:
-    """Motion `left` R `right`, both (3, 3), known at the times of the data; `seen` has arrays by quantity."""
+    """Motion S R S' for the rotations `left` S and `right` S', both (3, 3), known at the times of the data only.
+
+    `seen` holds the arrays of R (N, 3, 3), or of Omega or the field in the body (N, 3), by name.
+    """
 
     seen: Mapping[str, FloatArray]
     left: FloatArray
@@ -148,9 +151,10 @@ class _Turned:
 
 
 def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bool) -> list[Alternative]:
-    """Return other parameter sets that predict the same data by a symmetry, as `Alternative` with the fit's `redchi`.
+    """Return the parameter sets other than x (n,) that predict the same data by a symmetry, as `Alternative` records.
 
-    With `signs` axes are only reversed, not permuted. Fixed values, bounds and expressions are respected.
+    `redchi` is the reduced chi square of the fit, which each alternative gets. With `signs` axes are only reversed, not
+    permuted. Solutions that fixed values, bounds or expressions exclude are left out.
     """
     motion, values = problem.model.make(problem.values(x)), problem.values(x)
     data, kind, identity = problem.data, problem.data.kind, np.eye(3)
@@ -208,9 +212,10 @@ def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Itera
 def _turned_parameters(
     problem: Problem, values: Values, S: FloatArray, body_turn: FloatArray, omega: FloatArray
 ) -> Iterator[dict[str, float]]:
-    """Yield the parameters of the motion S R body_turn; nothing where the family has no such motion.
+    """Yield the parameters by name of the motion S R body_turn, for rotations S and body_turn (3, 3).
 
-    For tops there are two, with both signs of n. `omega` is the angular velocity in the body at t = 0, shape (3,).
+    Nothing is yielded where the family has no such motion. For tops there are two, with both signs of n. `omega` (3,)
+    is the angular velocity in the body at t = 0.
     """
     model = problem.model
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
@@ -232,7 +237,7 @@ def _turned_parameters(
 
 
 def _same(problem: Problem, values: Values, others_values: Values) -> bool:
-    """Return whether two sets of parameters are equal up to rounding; attitudes are compared as matrices."""
+    """Return whether two sets of parameters are equal up to `SAME_VALUES`; attitudes are compared as matrices."""
     names = [name for name in problem.model.names if name not in ATTITUDE]
     off = max(abs(values[name] - others_values[name]) / (problem.units[name] + abs(values[name])) for name in names)
     return bool(max(off, abs(attitude(values) - attitude(others_values)).max()) < SAME_VALUES)
@@ -256,10 +261,11 @@ def other_minima(problem: Problem, tried: list[tuple[float, Any]], freedom: floa
 def wider_families(
     problem: Problem, x: FloatArray, parameters: Parameters, scale: float
 ) -> list[tuple[float, Alternative]]:
-    """Return pairs (fall of chi square, alternative) for good fits of wider families with other values.
+    """Return pairs (fall of chi square, `Alternative`) for the wider families that fit well with other values.
 
     A fit is good if its reduced chi square is within `BIASED` standard deviations of 1. A value is another one if it
-    differs by more than `BIASED` standard errors. `scale` is the estimated noise over the given sigma.
+    differs by more than `BIASED` standard errors. `scale` is the estimated noise over the given sigma. Families without
+    such a motion are skipped, and all of them if parameters are expressions of others.
     """
     alternatives = []
     values, chi_square = problem.values(x), problem.chi_square(x)
@@ -294,7 +300,10 @@ def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
 
 
 def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dict[str, float]:
-    """Return the differences, in standard errors, of the parameters that differ by more than `least`, by name."""
+    """Return (values - fit)/standard error by name, for free parameters where its magnitude exceeds `least`.
+
+    Attitudes, and parameters without a standard error, are left out.
+    """
     off = {
         name: (values[name] - p.value) / p.stderr
         for name, p in parameters.items()
@@ -304,7 +313,10 @@ def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dic
 
 
 def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:
-    """Return the problem of a wider family, and the varied parameters (n,) that give the present motion there."""
+    """Return the pair (`Problem` of the wider family `model`, varied parameters (n,) of the present motion in it).
+
+    Parameters that were not varied stay fixed, and so does the largest component of a top's direction.
+    """
     parameters = problem.params
     inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}
     if model.has_direction:

@@ -74,7 +74,7 @@ class Data:
     """Sentences on rows and columns that were left out."""
 
     def part(self, places: Any) -> "Data":
-        """Return the data at the given indices, or the slice, of the times."""
+        """Return the `Data` at these indices, or this slice, of the times."""
         return replace(self, t=self.t[places], values=self.values[places], sigma=self.sigma[places])
 
     @property

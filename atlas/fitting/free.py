@@ -71,7 +71,8 @@ def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[li
 def _moments(R: FloatArray, omega: FloatArray, inertia: FloatArray) -> tuple[FloatArray, float]:
     """Return the moments (3,) for which R I Omega is as constant as possible, and the relative change of R I Omega.
 
-    By least squares over rotations (N, 3, 3) and angular velocities (N, 3); `inertia` (3,) decides what is left open.
+    The moments are a least-squares solution over rotations (N, 3, 3) and angular velocities (N, 3) in the body.
+    Combinations of moments that these leave open stay near `inertia` (3,).
     """
     momenta = R * omega[:, None] / np.linalg.norm(omega, axis=1).max()  # one column for each moment
     change = (momenta - momenta.mean(0)).reshape(-1, 3)

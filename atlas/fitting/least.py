@@ -45,7 +45,8 @@ PROBE = 0.1
 class Crowd:
     """M motions of one problem, refined together by least squares on some of the data: `X` (M, n) are the parameters.
 
-    `costs` (M,) are the sums of the loss function, `damping` (M,) the damping factors of the steps.
+    `costs` (M,) are the sums of the loss function, `damping` (M,) the damping factors of Levenberg and Marquardt's
+    steps.
     """
 
     def __init__(self, problem: Any, X: FloatArray) -> None:
@@ -55,7 +56,7 @@ class Crowd:
         self.spin = problem.names.index("omega3") if is_free and "omega3" in problem.names else None
 
     def _straight(self, X: FloatArray) -> FloatArray:
-        """Return the coordinates of steps, shape of X: M3 in the place of omega3 for axes and signals, else X.
+        """Return the parameters X (..., n) with M3 in the place of omega3 for data of axes and signals, else X.
 
         Such data determine the momentum M3 along the axis, but omega3 only together with I3.
         """
@@ -131,9 +132,9 @@ class Crowd:
                 break
 
     def drop(self, count: int, largest: float = np.inf) -> None:
-        """Keep at most `count` motions, those of least cost, equal ones once; the best always, others up to `largest`.
+        """Keep at most `count` motions, by ascending cost; after the best, only those whose cost is at most `largest`.
 
-        Motions whose parameters differ by less than `EQUAL` natural units count as equal.
+        Motions whose parameters differ by less than `EQUAL` natural units count as equal, and one of them is kept.
         """
         best: list[int] = []
         for i in np.argsort(self.costs, kind="stable"):

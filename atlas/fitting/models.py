@@ -42,7 +42,7 @@ def _general(p: Values) -> Any:
 
 
 def _elementary(p: Values) -> Any:
-    """Return the `ElementaryMotion` of the parameters; omega2 is along the part of the field across e3 at the start."""
+    """Return the `ElementaryMotion` of parameters by name; omega2 is along the part of the field across e3."""
     return ElementaryMotion.in_laboratory(p["ratio"], vector(p, B), attitude(p), omega2=p["omega2"])
 
 
@@ -78,7 +78,7 @@ def _started(p: Values) -> dict[str, FloatArray]:
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
-    """Return the length of a field's part across e3, and the rotation (3, 3) about e3 that takes that part to e2."""
+    """Return the length of the part across e3 of a field K (3,), and the rotation (3, 3) about e3 taking it to e2."""
     size = float(np.hypot(K[0], K[1]))
     c, s = (K[1] / size, K[0] / size) if size else (1.0, 0.0)
     return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
@@ -109,9 +109,10 @@ def _asymmetric(p: Values) -> Any:
 
 
 def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
-    """Return the `Flow` of S motions, from numbers or arrays (S,) by name and the error of a step.
+    """Return the `Flow` of S motions from parameters by name, each a number or an array (S,).
 
-    Omega is NaN where moments are those of no body, or where there is no elliptic motion.
+    `error` is the allowed error of a step. Omega is NaN where the moments are those of no body, or where there is no
+    elliptic motion.
     """
     size = max(np.size(x) for x in p.values())
     parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
@@ -172,10 +173,10 @@ class Model:
         return {*B, *OMEGA} <= set(self.names)
 
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
-        """Return the vectors v with dR/dp = [v]x R of the P named parameters at times (N,), shape (N, P, 3).
+        """Return the vectors v (N, P, 3) with dR/dp = [v]x R, of the P named parameters at times t (N,).
 
-        Exactly, by `Motion.sensitivity`; by differences for families without exact derivatives, and on a separatrix,
-        where these raise an error.
+        They are exact, by `Motion.sensitivity`, or central differences of R for families without exact derivatives, and
+        where `sensitivity` raises an error, as on a separatrix. `units` has the natural unit of each parameter.
         """
         if self.exact:
             with suppress(AtlasError, ZeroDivisionError):
@@ -271,10 +272,10 @@ def field_of(model: Model, p: Values) -> FloatArray:
 
 
 def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
-    """Return the parameters p with R (3, 3) and Omega (3,) as the state at t = 0.
+    """Return the parameters p by name, with R (3, 3) and Omega in the body (3,) as the state at t = 0.
 
-    Parameters of the attitude that data of this kind do not determine get their conventional values; field and Omega
-    are changed so that the data stay the same.
+    Attitude parameters that data of this kind do not determine get their conventional values; field and Omega are
+    changed so that the data stay the same. For elementary motions `omega2` is set from Omega.
     """
     field = vector(p, B)
     if model.has_direction and kind in IN_BODY:

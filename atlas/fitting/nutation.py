@@ -109,10 +109,11 @@ def with_small_nutations(
 
 
 def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
-    """Return the minima; for data of axes with a fitted ratio below `SMALL`, a body of ratio 1 first if as good.
+    """Return the minima, pairs (chi square, varied parameters); one of a body of ratio 1 may be put before them.
 
-    The axis determines M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios omega3 has no upper limit, and
-    derivatives at one point do not show how much the field changes with the ratio.
+    It is put first for data of axes whose fitted ratio is below `SMALL`, if chi square rises by less than `LEVEL` times
+    the noise. The axis determines M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios omega3 has no upper
+    limit, and derivatives at one point do not show how much the field changes with the ratio.
     """
     best, x = tried[0]
     values, ratio = problem.values(x), problem.params["ratio"]
@@ -181,7 +182,7 @@ def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotatio
 
 
 def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> str:
-    """Return a sentence on another body whose motion follows the data as well, or ""."""
+    """Return a sentence on the first other minimum of another ratio I3/I2 with nearly the same chi square, or ""."""
     best = problem.values(tried[0][1])["ratio"]
     for chi, x in tried[1:]:
         values = problem.values(x)
@@ -212,7 +213,7 @@ class _Modes(NamedTuple):
     spin: FloatArray
 
     def part(self, places: Any) -> "_Modes":
-        """Return the modes at some indices."""
+        """Return the `_Modes` at these indices."""
         return _Modes(*(x[places] for x in self))
 
 
@@ -227,9 +228,9 @@ class _Steady:
         self.rate = (K[:2] @ self.omega[:2]) / self.sine**2
 
     def modes(self, ratio: FloatArray, omega3: FloatArray | None = None) -> _Modes:
-        """Return the small nutations of bodies of the ratios (M,), with spins omega3 (M,) if given.
+        """Return the `_Modes` of small nutations, of bodies of the ratios (M,), with spins omega3 (M,) if given.
 
-        The frequency is NaN where the motion is unstable.
+        Without `omega3` the spin is that of the elementary motion. The frequency is NaN where the motion is unstable.
         """
         r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
         k, u, s = self.rate, self.cosine, self.sine
@@ -253,7 +254,10 @@ class _Steady:
         return np.concatenate([c * n[:, None] + s * pace, s * n[:, None] - c * pace], 1)
 
     def beside(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
-        """Return the parameters of the steady motion with a small nutation, its amplitudes (2,) of cosine and sine."""
+        """Return the parameters by name of the elementary motion plus one small nutation `mode`.
+
+        `size` (2,) are the amplitudes of the parts that begin as cos(nu t) and sin(nu t).
+        """
         h = 1e-4 / problem.rate
         back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
         R, steady = Rotation.from_rotvec(here).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
@@ -265,9 +269,11 @@ class _Steady:
 
 
 def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> tuple[int, list[tuple[float, Values]]]:
-    """Return the number of nutations tried, and the best as pairs (expected fall of chi square, parameters).
+    """Return (count of nutations tried, list of the best), the best as pairs (expected fall of chi square, parameters).
 
-    `J` are the derivatives of the residuals in the parameters of the elementary motion, which follow a nutation.
+    `motion` is an elementary motion with the parameters `values`, and `J` (N k, n) are the derivatives of the residuals
+    in its parameters. The count is 0 and the list empty for data of the field in the body, for an axis along the field,
+    and where no frequency is below the limit.
     """
     data = problem.data
     steady, span = _Steady(motion, values), float(np.ptp(data.t))
@@ -294,9 +300,10 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
 
 
 def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
-    """Return a list of one `_Modes` of nutations below the frequency `fastest`, or of none.
+    """Return a list of one `_Modes` with nutations below the frequency `fastest` in rad/time; empty if there are none.
 
-    Neighbours differ in phase by `PHASE_STEP` over the `span`, or by more where there would be over `MAX_NUTATIONS`.
+    Neighbours differ in phase by `PHASE_STEP` over the time `span`, or by more where there would be over
+    `MAX_NUTATIONS`.
     """
     places = np.flatnonzero(modes.frequency < fastest)  # no nan
     if not places.size:
@@ -309,7 +316,11 @@ def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
 def _periodogram(
     problem: Problem, steady: _Steady, modes: _Modes, x: FloatArray, J: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the expected fall of chi square for each nutation (M,), and its amplitudes (M, 2)."""
+    """Return the expected fall of chi square for each nutation (M,), and its amplitudes of cosine and sine (M, 2).
+
+    `x` are the parameters of the elementary motion, `J` (N k, n) the derivatives of the residuals, whose span is
+    projected out of residuals and nutations.
+    """
     data, M = problem.data, modes.ratio.size
     r = problem.residuals(x)
     weight = np.sqrt(SCORE[problem.loss](r * r))

@@ -60,7 +60,7 @@ class Parameters(Mapping[str, Parameter]):
         return Parameters(self._by_name | {name: replace(self[name], **new) for name, new in parameters.items()})
 
     def values_with(self, free_values: Values) -> dict[str, float]:
-        """Return the values of all parameters by name: those of `free_values`, the rest as they are.
+        """Return the values of all parameters by name: from `free_values`, else the present value.
 
         Expressions are evaluated. Raises AtlasError for an expression that has no value.
         """
@@ -152,7 +152,10 @@ def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str
 
 
 def _attributes(name: str, p: Any) -> dict[str, Any]:
-    """Return the attributes of a parameter, from a number, a mapping as lmfit.create_params takes, or lmfit's own."""
+    """Return the attributes (keys of `KEYS`) that parameter `p` has: a number, a mapping, or a parameter of lmfit.
+
+    Raises AtlasError for an unknown key of a mapping.
+    """
     if isinstance(p, Mapping):
         if unknown := sorted({*p} - {*KEYS, "brute_step", "is_init_value"}):
             raise AtlasError(f"{name} has no attribute {unknown[0]!r}: there are {', '.join(KEYS)}.")

@@ -79,7 +79,7 @@ class Problem:
 
     @cached_property
     def gauge(self) -> dict[str, float]:
-        """Parameters that data of this kind do not determine, with the values they get."""
+        """Attitude parameters that data of this kind do not determine: their conventional values, 0, by name."""
         return unseen(self.model, self.data.kind)
 
     @cached_property
@@ -113,7 +113,7 @@ class Problem:
         return np.asarray(np.clip(X, low + gap, high - gap))
 
     def inside(self, values: Values) -> FloatArray:
-        """Return the varied parameters (n,) from values by name, moved inside the bounds; missing ones as they are."""
+        """Return the varied parameters (n,) moved inside the bounds; a name not in `values` keeps its value."""
         return self.inner(np.array([values.get(name, self.params[name].value) for name in self.names]))
 
     def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
@@ -312,15 +312,18 @@ class Problem:
         return float(np.sum(RHO[self.loss](z)))
 
     def noise(self, chi: float) -> float:
-        """Return the unit of differences of chi square: 1, or the least reduced chi square where sigma is estimated."""
+        """Return the unit in which differences of chi square are counted: 1 where sigma is given and the loss linear.
+
+        Else `chi`, the least chi square, over the degrees of freedom.
+        """
         is_known = self.data.known and self.loss == "linear"
         return 1.0 if is_known else chi / (self.data.t.size * self.width - len(self.names))
 
 
 def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[FloatArray, FloatArray]:
-    """Return SciPy's least-squares solution (n,) from a start x, and the Jacobian (N k, n) there.
+    """Return SciPy's least-squares solution (n,) from a start x (n,), and the Jacobian (N k, n) there.
 
-    If `steady`, the solution is the start itself. With a robust loss SciPy weights the Jacobian.
+    If `steady`, SciPy stops at the start. With a robust loss SciPy weights the Jacobian.
     """
     from scipy.optimize import least_squares
 

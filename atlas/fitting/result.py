@@ -166,7 +166,7 @@ class Fit:
     if not TYPE_CHECKING:  # else mypy would take any name for an attribute
 
         def __getattr__(self, name: str) -> Any:
-            """Raise AttributeError, which tells the new name of an attribute that was renamed."""
+            """Raise AttributeError for a missing attribute; the message gives the new name of a renamed attribute."""
             new = RENAMED.get(name)
             raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 
@@ -319,7 +319,7 @@ class Fit:
             raise AtlasError(f"There are no confidence intervals of these parameters: {error}".strip()) from error
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows of the table of parameters, as texts."""
+        """Return (heading, rows) of the table of parameters: four texts, and four texts for each parameter."""
         heading, rows = ["parameter", "value", "standard error", ""], []
         for name, p in self.parameters.items():
             note = "" if p.free else f"= {p.expr}" if p.expr else "fixed"
@@ -344,7 +344,7 @@ class Fit:
 
     @property
     def noise(self) -> str:
-        """The standard error of a measurement, in words."""
+        """The standard error of a measurement as text, "0.001", or "0.001 to 0.02" where it differs between times."""
         return (
             f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{np.min(self.sigma):.3g} to {np.max(self.sigma):.3g}"
         )
@@ -356,7 +356,7 @@ class Fit:
 
     @property
     def others(self) -> list[str]:
-        """The alternatives, one sentence each."""
+        """A sentence for each of `alternatives`, a list of str."""
         return [alternative.sentence(self.family, self.parameters) for alternative in self.alternatives]
 
     def _sentences(self) -> list[str]:

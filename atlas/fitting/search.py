@@ -47,7 +47,7 @@ PARTS, BEST = (0.5, 0.25, 0.75), 3
 
 
 def turns(data: Data, i: Any, j: Any) -> FloatArray:
-    """Return the change from data i to data j, shape of i: for rotations in radians, else relative to the spread."""
+    """Return the change from data i to data j, indices (M,): in rad for rotations, else relative to the spread."""
     x = data.values
     if data.kind == "rotation":
         return np.asarray(np.linalg.norm(difference(x[j], x[i]), axis=-1))
@@ -55,7 +55,10 @@ def turns(data: Data, i: Any, j: Any) -> FloatArray:
 
 
 def rate_of(data: Data, least: float = TURN) -> float:
-    """Return a typical rate in rad/time, at which sorted data change by `least` or more."""
+    """Return a typical rate in rad/time: change over time for the shortest gap at which it exceeds `least`.
+
+    Changes are medians of `turns` over neighbours of the sorted data. For data that do not change it is 1/span.
+    """
     rate, n = 0.0, data.t.size
     for k in np.unique(np.geomspace(1, max(n // 6, 1), 24).astype(int)):
         gap = data.t[k:] - data.t[:-k]
@@ -70,7 +73,7 @@ def rate_of(data: Data, least: float = TURN) -> float:
 
 
 def centre_of(data: Data, rate: float, share: float) -> float:
-    """Return the time of a datum with many others within a fraction of a turn, near the fraction `share` of all."""
+    """Return the time of a datum with many others within about 1/`rate`, near the fraction `share` of the data."""
     t, count = data.t, np.zeros(data.t.size)
     for width in (WINDOW / rate, 2 * ARC / rate):
         count += np.searchsorted(t, t + width, "right") - np.searchsorted(t, t - width)
@@ -183,7 +186,7 @@ def _unit_across(K: FloatArray) -> FloatArray:
 
 
 def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield (time, problem shifted there, parameters x, count of data fitted) for promising starts.
+    """Yield tuples (time, problem shifted there, parameters x (n,), count of data fitted) for promising starts.
 
     A complete start given by the user comes first, on all data.
     """
@@ -256,7 +259,10 @@ def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
 
 
 def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
-    """Return the number of data that a motion follows without losing a turn, at least `least`."""
+    """Return the number of data, in the `order` of their distance from t = 0, that the motion follows; `least` or more.
+
+    The phase counts as lost where the root mean square of neighbouring residuals exceeds `_allowed` and 1.7 `misfit`.
+    """
     problem, n = crowd.problem, len(order)
     if least >= n:
         return n
@@ -269,5 +275,5 @@ def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
 
 
 def _allowed(problem: Problem) -> float:
-    """Return the residual, in standard errors, up to which a motion's phases count as correct."""
+    """Return the largest residual, in standard errors, at which a motion's phase still counts as correct."""
     return float(LOST * problem.data.spread / np.median(problem.data.sigma))

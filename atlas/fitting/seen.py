@@ -122,7 +122,7 @@ def _separated(directions: FloatArray) -> FloatArray:
 
 
 def gauge(problem: Problem) -> list[str]:
-    """Return at most one sentence, on the attitude angles that data of this kind do not determine."""
+    """Return a list of at most one sentence, on the attitude angles that data of this kind do not determine."""
     hidden = unseen(problem.model, problem.data.kind)
     if not hidden:
         return []
