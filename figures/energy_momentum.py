@@ -43,8 +43,10 @@ def scene(
     ]
     panels: list[Plane] = []
     for name, top in zip(top_names, tops, strict=True):
-        panels.append(panel(f"({'abcdef'[len(panels)]}) {name}", *top, M3, reach, unit))
-        panels += swallowtail(panels[-1], "abcdef"[len(panels)])
+        whole = panel(f"({'abcdef'[len(panels)]}) {name}", *top, M3, reach, unit)
+        small = [layer for layer in whole.layers if isinstance(layer, Label) and layer.role == "unstable_line"]
+        kept = tuple(layer for layer in whole.layers if layer not in small)  # the swallowtail has room for the rest
+        panels += [replace(whole, layers=kept), *swallowtail(whole, "abcdef"[len(panels) + 1])]
     same = f", $b={tex(b[0])}$" if alike else ""
     drawn_roles = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
     stability_words = "stable (solid) or unstable (dashed)" if "unstable_line" in drawn_roles else "all stable (solid)"
@@ -64,6 +66,7 @@ def scene(
             "isolated points above it where they are unstable, and ends of a branch where they are stable."
         ),
         panels=tuple(panels),
+        columns=min(len(panels), 3),
         spare=tuple(k for k, panel in enumerate(panels) if "swallowtail" in panel.title),
         named={
             word: role
@@ -76,7 +79,7 @@ def scene(
             }.items()
             if role in drawn_roles
         },
-        size=(WIDTH, HEIGHT * len(panels)),
+        size=(min(WIDTH * len(panels), 178.0), HEIGHT * (1 + (len(panels) - 1) // 3)),
     )
 
 
@@ -128,7 +131,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     layers += [Label(np.array(spin[:2]), spin_name, "note", (9, -4) if has_zero_rate else (5, 6)) for spin in spins[:1]]
     layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note"))
     place = np.array([-0.95 * reach * scale, low + 0.04 * (high - low)])
-    layers += [Label(place, "no motion", "note", (20.0, 0.0))] if least[0] > place[1] else []
+    layers += [Label(place, "no motion", "note", (2.0, 0.0))] if least[0] > place[1] else []
     return Plane(
         tuple(layers),
         rf"$p$ (1/{unit})",

@@ -23,7 +23,7 @@ FIRST = "general"
     epilog=examples(
         "atlas explore",
         "atlas explore top",
-        "atlas explore hyp_a --no-browser --port 8800",
+        "atlas explore quadric --no-browser --port 8800",
         "atlas explore --inertia 0.8 1 1.3 --field 0.2 1 0.6 --spin 2",
     ),
 )

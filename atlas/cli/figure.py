@@ -55,7 +55,7 @@ class FigureCommand(Command):
     "figure",
     cls=FigureCommand,
     epilog=examples(
-        "atlas figure hyp_a hyp_b",
+        "atlas figure quadrics hyperbola",
         "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",
         "atlas figure quadric --renderer shaded",
         "atlas figure hyperbola --format csv",

@@ -151,7 +151,6 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "opening": Style("#b07a35", fill=1.0, back="#b07a35", glass=1.0),
         "seam": Style("#6b4517", fill=1.0, back="#6b4517", glass=1.0),
         "cone": Style("#6fae97", fill=0.25, back="#a5d0c1"),
-        "tangent_plane": Style("#b9a3cf", fill=0.22, back="#b9a3cf"),
         "plane": Style("#b8c0c9", fill=0.20, back="#b8c0c9"),
         "region": Style(SKY, fill=0.25),
         "unstable_region": Style(VERMILION, fill=0.16),

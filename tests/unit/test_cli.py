@@ -304,7 +304,7 @@ def test_without_gl_a_line_drawing_replaces_a_shaded_figure_with_a_notice(
 
     monkeypatch.setenv(gl.CHOICE, gl.NONE)
     gl.library.cache_clear()
-    words = ["figure", "hyp_a", "lssc", "--renderer", "shaded", "--out", str(tmp_path)]
+    words = ["figure", "quadric", "lssc", "--renderer", "shaded", "--out", str(tmp_path)]
     result = CliRunner().invoke(command, words, standalone_mode=False)
     assert result.return_value == 0
     lines = [line for line in result.stderr.splitlines() if not line.endswith(" s")]  # how far it is, on a busy machine

@@ -251,9 +251,9 @@ CASES = [
     *((f"{SWEEP} --set ratio=1:2:{text}", f"has at most 10000000 values, not {text}")
       for text in ("10000001", "999999999999999999999")),
     ("figure", "name the figures, or say --all"),
-    ("figure loop --all", "name the figures, or say --all"),
+    ("figure cone --all", "name the figures, or say --all"),
     ("figure {place}/one.py {place}/sub/one.py", "have the same name"),
-    ("figure loop --set field", "--set takes KEY=VALUE"),
+    ("figure cone --set field", "--set takes KEY=VALUE"),
     ("figure cone --format csv --out {place}", "cone.csv is not as atlas wrote it: the new one is cone.new.csv"),
     ("report atlas --out {place}/ratios.csv/new", "ratios.csv' is a file"),
     ("animate film_strip --out {place}/mine.gif", "mine.gif' ends as a file does"),

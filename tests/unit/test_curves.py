@@ -64,7 +64,7 @@ def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], Fl
     [
         ("flight", {}),
         ("frequencies", {}),
-        pytest.param("hyp_a", {}, marks=pytest.mark.slow),
+        pytest.param("quadric", {}, marks=pytest.mark.slow),
         ("hyperbola", {}),
         pytest.param("hyperbolas", {}, marks=pytest.mark.slow),
         ("magn", {}),

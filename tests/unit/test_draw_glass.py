@@ -117,14 +117,14 @@ SHEETS = ("quadric", {"ratio": 0.5, "field": (1.0, 1.0)})
 GLASS: dict[str, tuple[Callable[[], list[Surface]], float, float]] = {
     "a ball along its axis": (lambda: [solids.sphere(O, 1.0, FINE)], 0.0, 90.0),
     "a ball from the side": (lambda: [solids.sphere(O, 1.0, FINE, role="ball")], 20.0, 15.0),
-    "a hyperboloid of one sheet from the side": (lambda: of("hyp_b"), 20.0, 15.0),
+    "a hyperboloid of one sheet from the side": (lambda: of("quadric", ratio=0.5, field=(1.0, 0.5)), 20.0, 15.0),
     "a hyperboloid of one sheet from within": (lambda: of(SHEETS[0], **SHEETS[1]), 90.0, 63.0),
     "both sheets of a hyperboloid": (lambda: of("quadric"), 20.0, 15.0),
     "both sheets of a hyperboloid, the one before the other": (lambda: of("quadric"), 90.0, 58.0),
     "a cone": (lambda: of("cone"), 25.0, 14.0),
     "a cone along its asymptote": (lambda: of("cone", field=(1.0, 1.0)), 90.0, 45.0),
-    "two sheets and the planes that touch them": (lambda: of("loop"), 25.0, 14.0),
-    "the same from below": (lambda: of("loop"), -60.0, -35.0),
+    "two sheets of a loop": (lambda: of("quadric", ratio=2.0), 25.0, 14.0),
+    "the same from below": (lambda: of("quadric", ratio=2.0), -60.0, -35.0),
     "two planes": (lambda: of("quadric", field=(1.0, 0.0)), 25.0, 14.0),
     "a cone in a ball": (lambda: of("motion_sphere"), 25.0, 18.0),
     "a cone in a ball, from behind": (lambda: of("motion_sphere"), 200.0, -30.0),
@@ -136,7 +136,7 @@ GLASS: dict[str, tuple[Callable[[], list[Surface]], float, float]] = {
     "a ball through a plane and through a cylinder": (
         lambda: [
             solids.sphere(O, 1.0, FINE),
-            solids.rectangle(0.2 * E3, 1.6 * E1, 1.4 * E2, role="tangent_plane"),
+            solids.rectangle(0.2 * E3, 1.6 * E1, 1.4 * E2, role="plane"),
             solids.cylinder(O, E3, 0.7, 2.6, FINE),
         ],
         35.0,
@@ -185,7 +185,7 @@ def test_a_wire_covers_as_much_as_its_style_says(dpi: float, slope: float, tmp_p
 
     Within an eighth: a pixel has four samples, which all are as dark as its middle, or not covered.
     """
-    pane = replace(solids.rectangle(O, E2, E3, role="tangent_plane"), rims=())
+    pane = replace(solids.rectangle(O, E2, E3, role="plane"), rims=())
     wire = np.array([[0.0, -0.7, -0.7 * slope], [0.0, 0.7, 0.7 * slope]])
     pictures = []
     for wires in ((), (wire,)):
@@ -269,5 +269,5 @@ def test_a_cut_keeps_the_area_and_leaves_no_triangle_across() -> None:
 
 def test_equal_quadrics_count_once() -> None:
     """Both sheets of a hyperboloid are one quadric."""
-    forms, numbers = distinct_forms(of("loop"))
-    assert (len(forms), numbers) == (3, [0, 0, 1, 2])
+    forms, numbers = distinct_forms(of("quadric"))
+    assert (len(forms), numbers) == (1, [0, 0])

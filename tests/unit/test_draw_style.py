@@ -192,14 +192,14 @@ def test_a_plotter_needs_a_panel_in_space() -> None:
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
 def test_a_plotter_that_may_be_turned_peels() -> None:
     """Depth peeling is used in the picture, without antialiasing, in the coordinates of the scene; names are labels."""
-    plotter = atlas.plotter("loop")
-    assert plotter.shape == (1, len(recipes.load("loop").scene().panels))  # side by side
+    plotter = atlas.plotter("quadric")
+    assert plotter.shape == (1, len(recipes.load("quadric").scene().panels))  # side by side
     try:
         first = plotter.screenshot(return_img=True)
         assert plotter.renderer.GetLastRenderingUsedDepthPeeling()
         assert plotter.render_window.GetMultiSamples() == 0
         low, high = np.array(plotter.bounds).reshape(3, 2).T
-        (panel,) = recipes.load("loop").scene().panels
+        (panel,) = recipes.load("quadric").scene().panels
         for layer in panel.layers:
             if isinstance(layer, Curve):
                 assert (layer.points >= low - 1e-6).all()
@@ -347,7 +347,7 @@ def test_dashes_gaps_and_tints_can_be_seen() -> None:
     assert all(0.1 < STYLES[role].fill < 0.4 for role in ("region", "unstable_region", "shade"))
 
 
-@pytest.mark.parametrize("role", ["surface", "sphere", "ball", "cone", "tangent_plane", "plane"])
+@pytest.mark.parametrize("role", ["surface", "sphere", "ball", "cone", "plane"])
 def test_curves_behind_two_walls_are_seen(role: str) -> None:
     """Where curves run on and behind a surface its near wall and the far one, of half its tint, pass 2/5 of the light.
 

@@ -30,7 +30,7 @@ NAMES = (
     "stability",
     "trochoids",
 )
-IN_SPACE = ("ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric")
+IN_SPACE = ("ball", "cone", "lssc", "magn", "motion_sphere", "quadric")
 OF_A_BODY = tuple(name for name in NAMES if name not in {"hyperbolas", "trochoids"})
 RATIOS = (2.0, 1.5, 1.0, 1.0 + EPS, 0.5, 1e-3)
 FIELDS = ((1.0, 2.0), (-1.0, 0.1), (1.0, -0.3), (0.0, 1.0), (0.0, -2.0), (1.0, 0.0), (-3.0, -1e-9), (1e-6, 1e6))

@@ -196,9 +196,9 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: atlas.sweep("elementary", TABLE, ["k"], out="a.txt"), "A table ends in .csv"),
     (lambda: atlas.sweep("elementary", TABLE, ["k"], rows=0), "rows of a part must be at least 1, not 0"),
     (lambda: atlas.animate("motion", "omega2"), "say through which values omega2 goes"),
-    (lambda: atlas.figure("loop", style=str(Path(__file__).parent)), "it is no file, nor a name"),
-    (lambda: atlas.figure("loop", style={"lines.linewidth": "inf"}), "no number to draw with"),
-    (lambda: atlas.figure("loop", style={"lines.lynewidth": 1}), "cannot be used"),
+    (lambda: atlas.figure("cone", style=str(Path(__file__).parent)), "it is no file, nor a name"),
+    (lambda: atlas.figure("cone", style={"lines.linewidth": "inf"}), "no number to draw with"),
+    (lambda: atlas.figure("cone", style={"lines.lynewidth": 1}), "cannot be used"),
     (lambda: times((1e300,), Random(1), 1e-320), "gave fewer than"),  # noqa: S311  reproducible, not secret
 ]
 
