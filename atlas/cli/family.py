@@ -228,7 +228,7 @@ class Question:
         texts = answer(options, parameters, self.floats, partial(self.balls, first_times, family), spare)
         if texts is None:
             return
-        texts["samples"] = chain(texts.get("samples", []), self.later(times[len(first_times) :], spare))
+        texts["samples"] = chain(texts.get("samples", []), later(times, partial(self.digits, spare)))
         self.finish(self.printout(texts, certificate(options), _in_hertz(family, texts, options)))
 
     def finish(self, printout: Printout, motion: Any = None) -> None:
@@ -240,13 +240,12 @@ class Question:
             motion = _kernel(family, options) if motion is None else motion
             show_lines(spectrum_of(motion, options), _units(family, options).get(RATE, RATE))
 
-    def later(self, times: Sequence[float], spare: int) -> Iterator[dict[str, Any]]:
-        """Yield the certified records of further times by blocks: a table prints while the next block is computed."""
+    def digits(self, spare: int, times: Sequence[float]) -> Any:
+        """Return the certified records of some times."""
         from atlas.arithmetic.certified_digits import certified
 
-        for start in range(0, len(times), AT_ONCE):
-            block = partial(self.balls, times[start : start + AT_ONCE], replace(self.family, quantities=()))
-            yield from certified(block, self.options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
+        block = partial(self.balls, times, replace(self.family, quantities=()))
+        return certified(block, self.options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
 
     def shown_otherwise(self, parameters: dict[str, Any]) -> bool:
         """Show a file, a curve, uncertain results or a motion in given axes; return whether the options ask for one.
@@ -295,16 +294,22 @@ class Question:
         from atlas.motions.start import body_of
 
         options, times, family = self.options, self.times, FAMILIES[motion.family]
-        sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-        record = {"family": family.name} | _answers(family, motion, times, sampled)
+        as_json = options["as_json"]
+        sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not as_json)]
+        record = {"family": family.name} | _answers(family, motion, times if as_json else times[:AT_ONCE], sampled)
         record |= recorded(spectrum_of(motion, options))
         body_given = body_of(motion.arguments["inertia"])
-        if options["as_json"]:
+        if as_json:
             principal = {"principal_moments": body_given.moments, "principal_axes": body_given.axes}
             dump({"parameters": parameters, **principal, **record, **_input_error(family, motion, times)})
             return
         described = family.command or Described("motion", "", "", (), family.says)
-        texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
+        bare = replace(family, quantities=())
+        texts = _rounded(record)
+        texts["samples"] = chain(
+            texts.get("samples", []),
+            later(times, lambda block: _rounded(_answers(bare, motion, block, sampled)["samples"])),
+        )
         moments = [] if body.given_tensor(options) is None else [
             Line(f"I{i}", f"principal, about {axes_text([axis])}", f"{moment:.{TABLE_DIGITS}g}", "inertia")
             for i, (moment, axis) in enumerate(zip(body_given.moments, body_given.axes, strict=True), 1)
@@ -347,6 +352,17 @@ class Question:
             for head in s.heading
         ]
         return Printout(described.title + case, [*lines, *more_lines], ("t", *heading), rows(), notes())
+
+
+def later(times: Sequence[float], recorded_at: Callable[[Sequence[float]], Any]) -> Iterator[dict[str, Any]]:
+    """Yield the records of times after the first ones by blocks: a table prints while the next block is computed."""
+    for start in range(AT_ONCE, len(times), AT_ONCE):
+        yield from recorded_at(times[start : start + AT_ONCE])
+
+
+def _rounded(record: Any) -> Any:
+    """Return a record with its numbers as texts of a table."""
+    return mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
 
 
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:

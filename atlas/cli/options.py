@@ -1,13 +1,13 @@
 """Options that several commands share: numbers, the times, the form of the output, files."""
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.typed import REAL, check_units
+from atlas.cli.typed import REAL, Steps, Typed, check_units
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -132,13 +132,13 @@ def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
     return {name: options[name] for name in names if options.get(name) is not None}
 
 
-def chosen_times(options: dict[str, Any]) -> list[float]:
-    """Return the times of --times or --grid, exact values attached; [] if neither is given.
+def chosen_times(options: dict[str, Any]) -> Sequence[float]:
+    """Return the times of --times or --grid, exact values attached; none if neither is given.
 
     Raises click.UsageError when both are given or the count is not a natural number.
     """
     if options["grid"] is None:
-        return list(options["times"] or ())
+        return options["times"] or ()
     if options["times"]:
         raise click.UsageError("give --times or --grid, not both.")
     start, step, count = options["grid"]
@@ -147,8 +147,14 @@ def chosen_times(options: dict[str, Any]) -> list[float]:
         raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
     denominator = start.exactly().denominator * step.exactly().denominator
     first_step, by = int(start.exactly() * denominator), int(step.exactly() * denominator)
-    steps = (first_step + by * i for i in range(int(count)))
+
+    def time(i: int) -> Typed:
+        t = first_step + by * i
+        return start.moved(t / denominator, text=f"{t}/{denominator}", unit="")
+
+    times = Steps(range(int(count)), time)
     try:
-        return [start.moved(t / denominator, text=f"{t}/{denominator}", unit="") for t in steps]
+        _ = times[0], times[-1]
     except (OverflowError, ValueError):  # beyond floats, or of more digits than Python writes
-        return [start + step * i for i in range(int(count))]
+        return [start + step * i for i in times.places]
+    return times

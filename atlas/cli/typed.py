@@ -2,8 +2,10 @@
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import chain
 from typing import Any, Self
 
 import click
@@ -81,6 +83,23 @@ class Typed(float):
         return self.exact
 
 
+@dataclass(frozen=True)
+class Steps(Sequence[Typed]):
+    """Numbers of a range, each computed by `number` from its place when it is asked for."""
+
+    places: range
+    number: Callable[[int], Typed]
+
+    def __len__(self) -> int:
+        """Return the count."""
+        return len(self.places)
+
+    def __getitem__(self, index: Any) -> Any:
+        """Return one number, or the `Steps` of a slice."""
+        places = self.places[index]
+        return replace(self, places=places) if isinstance(places, range) else self.number(places)
+
+
 class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
     """Parameter type of a finite real number; `place` is its index in an option whose numbers have different units."""
 
@@ -90,9 +109,9 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         self.place = place
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the typed number, or a list for an option of any length. Raises click.UsageError for other text."""
+        """Return the typed number, or several for an option of any length. Raises click.UsageError for other text."""
         if param and param.multiple:
-            return [x for word in re.split(r"[,\s]+", value) for x in self._listed(word, param, ctx)]
+            return joined([self._listed(word, param, ctx) for word in re.split(r"[,\s]+", value)])
         return self._single(value, param, ctx)
 
     def _single(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
@@ -118,31 +137,36 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
         return number
 
-    def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> list[Typed]:
-        """Return the numbers of a range START:STOP:COUNT[:log], ends included, or a list of the single number."""
+    def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> Sequence[Typed]:
+        """Return the numbers of a range START:STOP:COUNT[:log], ends included, or the single number."""
         fields = word.split(":")
         log = fields[3:] == ["log"]
         if len(fields) != 3 + log:
-            return [self._single(word, param, ctx)]
+            return (self._single(word, param, ctx),)
         start, stop, count = (self._single(item, param, ctx) for item in fields[:3])
         check_units(param.opts[0], (start, stop))
-        unit = str(WANTED[str(param.name)]) if start.unit or stop.unit else ""
         if not count.is_integer() or not 2 <= count <= MAX_RANGE_LENGTH:
             raise click.UsageError(f"the count of {word} is a whole number from 2 to {MAX_RANGE_LENGTH}.")
         if log and start * stop <= 0:
             raise click.UsageError(
                 f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}."
             )
-        last_place = int(count) - 1
-        if log:
-            steps: Iterable[float] = (start * (stop / start) ** (i / last_place) for i in range(last_place + 1))
-        else:
-            ends = start.exactly(), stop.exactly()
-            denominator = math.lcm(*(end.denominator for end in ends)) * last_place
-            first, last = (int(end * denominator) for end in ends)
-            step = (last - first) // last_place  # whole, so that each place is one division, rounded once
-            steps = ((first + i * step) / denominator for i in range(last_place + 1))
-        return [self._single(repr(x) + unit, param, ctx) for x in steps]
+        name, places = str(param.name), range(int(count))
+        unit, last_place = str(WANTED[name]) if start.unit or stop.unit else "", places[-1]
+        ends = start.exactly(), stop.exactly()
+        denominator = math.lcm(*(end.denominator for end in ends)) * last_place
+        first, last = (int(end * denominator) for end in ends)
+        step = (last - first) // last_place  # whole, so that each place is one division, rounded once
+
+        def number(i: int) -> Typed:
+            if log and i not in (0, last_place):
+                low, high = math.log10(abs(start)), math.log10(abs(stop))
+                x = math.copysign(10.0 ** (low + (high - low) * i / last_place), start)
+            else:
+                x = (first + i * step) / denominator
+            return Typed(f"{x!r}{unit}", name, self.place) if unit else start.moved(x, text=repr(x))
+
+        return Steps(places, number)
 
     def _with_sigma(
         self, text: str, match: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
@@ -193,8 +217,15 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
         return new
 
 
+def joined(numbers: Sequence[Sequence[Typed]]) -> Sequence[Typed]:
+    """Return the numbers of several words in a row, a range alone as it is."""
+    return numbers[0] if len(numbers) == 1 else tuple(chain.from_iterable(numbers))
+
+
 def parts_of(value: Any) -> tuple[Any, ...]:
-    """Return the numbers of an option as a tuple."""
+    """Return the numbers of an option as a tuple, of a range the ends."""
+    if isinstance(value, Steps):
+        return value[0], value[-1]
     return value if isinstance(value, tuple) else (value,)
 
 
@@ -215,6 +246,6 @@ def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 def exactly(value: Any, options: dict[str, Any]) -> Any:
     """Return typed numbers for certified classes: doubles, or with --decimal exact fractions."""
-    if isinstance(value, tuple | list):
+    if isinstance(value, tuple | list | Steps):
         return [exactly(item, options) for item in value]
     return value.exactly() if options["decimal"] and isinstance(value, Typed) else value

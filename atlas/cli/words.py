@@ -10,7 +10,7 @@ import click
 from click.core import augment_usage_errors
 
 from atlas.cli.options import given
-from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, check_units, parts_of
+from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, check_units, joined, parts_of
 from atlas.measured import WANTED
 
 OTHERS = {
@@ -176,7 +176,7 @@ class Command(click.Command):
         options = {str(param.name): param for param in self.params}
         for name, option in options.items():
             if option.multiple and option.type is REAL:
-                ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
+                ctx.params[name] = joined(ctx.params[name])
             if name not in {"grid", "heavy"}:  # whose numbers have several units
                 check_units(option.opts[0], ctx.params.get(name))
         check_bare_numbers(ctx.params)

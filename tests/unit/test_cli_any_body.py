@@ -1,5 +1,6 @@
 """Bodies with three moments in units of their own: point masses from a file, B in tesla with a charge and a mass."""
 
+import gc
 import json
 import re
 from fractions import Fraction
@@ -15,11 +16,12 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.cli.app import atlas as command
+from atlas.cli.app import main
 from atlas.cli.body_request import COMMANDS, ByOptions
 from atlas.cli.body_request import asked as page_asked
 from atlas.cli.explore import started
 from atlas.cli.points import oblique_tensor
-from atlas.cli.typed import REAL
+from atlas.cli.typed import REAL, Typed
 from atlas.errors import NearlySymmetricWarning
 from atlas.motions.register import FAMILIES as REGISTER
 from atlas.sweeps.families import FAMILIES
@@ -372,8 +374,35 @@ def test_a_long_range_is_read_by_one_division_each(monkeypatch: pytest.MonkeyPat
     expected = [float(start + i * step) for i in range(2001)]
     sums, add = list[Fraction](), Fraction.__add__
     monkeypatch.setattr(Fraction, "__add__", lambda x, y: sums.append(x) or add(x, y))
-    assert REAL.convert("1/3:-13/3:2001", option, None) == expected
+    assert [*REAL.convert("1/3:-13/3:2001", option, None)] == expected
     assert len(sums) < 10
+
+
+def test_decades_are_whole_numbers() -> None:
+    """Even steps of the logarithm have both ends as typed, and powers of ten between these."""
+    option = click.Option(["--times"], multiple=True, type=REAL)
+    assert [*REAL.convert("1:1000:4:log", option, None)] == [1, 10, 100, 1000]
+    assert [*REAL.convert("-3e-300:-3e300:3:log", option, None)] == pytest.approx([-3e-300, -3, -3e300], rel=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("start", ["--omega 0 0.7 1", "--omega 0 0.7 1 --attitude 0 0 0 1"])
+@pytest.mark.parametrize("times", ["--times 0:10:200000", "--grid 0 1e-3 200000"])
+def test_the_first_row_waits_for_few_others(monkeypatch: pytest.MonkeyPatch, start: str, times: str) -> None:
+    """A reader who goes after the first rows, as head does, had nothing computed that is not printed."""
+    printed, numbers_there = list[str](), list[int]()
+
+    def echo(text: str = "", **_: bool) -> None:
+        printed.append(text)
+        if len(printed) == 3:  # the title, quantities, and the first rows
+            numbers_there.append(sum(isinstance(x, Typed) for x in gc.get_objects()))
+            raise BrokenPipeError
+
+    monkeypatch.setattr(click, "echo", echo)
+    with pytest.raises(SystemExit):
+        main(f"motion --ratio 1.5 --field 0 1 2 {start} {times}".split())
+    assert printed[2].lstrip().startswith("t ")
+    assert numbers_there[0] < 3000
 
 
 TENSOR = "--tensor 2 1.5 1 0.1 0.05 0.2 --field 0.3 0 1 --spin 3"
