@@ -444,16 +444,21 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
-    """Return the angle in rad by which rounded inputs turn the body until the latest time; {} below ROUNDING."""
-    error = _turn_by_rounding(family, motion, times) if times else None
+    """Return the largest angle in rad by which rounded inputs turn the body at the times; {} below ROUNDING."""
+    error = _turn_by_rounding(family, motion, times)[0] if times else None
     return {"input_error": error} if error is not None and error > ROUNDING else {}
 
 
-def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> float | None:
-    """Return the bound of the angle by which rounded inputs turn the body; None where no derivatives are at hand."""
+def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> tuple[float | None, float]:
+    """Return the largest bound of the angle by which rounded inputs turn the body, and its time.
+
+    Where no derivatives are at hand the bound is None and the time the latest one.
+    """
+    moments = [*map(float, times)]
     with suppress(AtlasError):
-        return float(motion.input_error(max(map(float, times), key=abs))) if family.is_sensitive else None
-    return None
+        if family.is_sensitive:
+            return max(zip(map(float, motion.input_error(moments)), moments, strict=True))
+    return None, max(moments, key=abs)
 
 
 def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
@@ -468,12 +473,12 @@ def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float]
     rounded = options["digits"] is None and not options["decimal"] and (family.is_sensitive or family.in_given_axes)
     if not rounded or not times or _is_short(options, times):
         return
-    error = _turn_by_rounding(family, motion or _kernel(family, options), times)
+    error, t = _turn_by_rounding(family, motion or _kernel(family, options), times)
     if error is None or error > ROUNDING:
         turn = "an angle that is not known" if error is None else f"up to {error:.1g} rad"
         yield (
-            f"Rounding the inputs to floats turns the body by {turn} at t = {max(map(float, times), key=abs):g}; "
-            "--digits with --decimal takes them as typed."
+            f"Rounding the inputs to floats turns the body by {turn} at t = {t:g}; --digits with --decimal takes them "
+            "as typed."
         )
 
 

@@ -212,8 +212,9 @@ def test_the_error_of_rounded_inputs_bounds_the_effect_of_an_ulp() -> None:
             moved += Rotation.from_matrix(other @ R.T).magnitude()
     assert 1e-12 < moved <= 1.01 * bound <= 4 * moved
     words = [
-        "motion", "--ratio", repr(RATIO), "--field", *map(repr, FIELD), "--omega", *map(repr, OMEGA), "--times", "30",
+        "motion", "--ratio", repr(RATIO), "--field", *map(repr, FIELD), "--omega", *map(repr, OMEGA), "--times", "30", "145",
     ]  # fmt: skip
+    assert m.input_error(145.0) < 1e-12  # far from the start, where neighbours meet again
     said = [CliRunner().invoke(command, [*words, *more]).stdout for more in ([], ["--json"])]
     assert said[0].count("Rounding the inputs to floats turns the body by up to 2e-09 rad at t = 30;") == 1
     assert json.loads(said[1])["input_error"] == bound
