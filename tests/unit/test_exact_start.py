@@ -212,7 +212,8 @@ def test_the_error_of_rounded_inputs_bounds_the_effect_of_an_ulp() -> None:
             moved += Rotation.from_matrix(other @ R.T).magnitude()
     assert 1e-12 < moved <= 1.01 * bound <= 4 * moved
     words = [
-        "motion", "--ratio", repr(RATIO), "--field", *map(repr, FIELD), "--omega", *map(repr, OMEGA), "--times", "30", "145",
+        "motion", "--ratio", repr(RATIO), "--field", *map(repr, FIELD), "--omega", *map(repr, OMEGA),
+        "--times", "30", "145",
     ]  # fmt: skip
     assert m.input_error(145.0) < 1e-12  # far from the start, where neighbours meet again
     said = [CliRunner().invoke(command, [*words, *more]).stdout for more in ([], ["--json"])]

@@ -23,7 +23,7 @@ from atlas.errors import NotCertifiedError
 from atlas.lazy import cached_property
 from atlas.motions.torus.approximate_lattice import Lattice, lattice
 from atlas.motions.torus.approximate_periods import Integrals, nearest, real_periods
-from atlas.motions.torus.certified_flow import CYCLE, Arrival, Flow, jacobian
+from atlas.motions.torus.certified_flow import CYCLE, MAX_STEPS, Arrival, Flow, jacobian
 
 PERIOD_BITS, FIRST_FLOW_BITS = 320, 200
 """Bits to which periods are proved at once from where they start, and those of a first flow that improves them."""
@@ -101,7 +101,10 @@ class Torus:
             if bits <= failed_bits:  # a long way, which no fewer bits go
                 raise NotCertifiedError(reason)
             try:
-                period_1, period_2 = (self._enclosed(start, bits) for start in self._approximate())
+                starts = self._approximate()
+                if any(self.flow.length(*start) > 2 * MAX_STEPS for start in starts):  # of almost equal moments
+                    raise NotCertifiedError("not certified: a period of the motion's torus is too long for a proof.")
+                period_1, period_2 = (self._enclosed(start, bits) for start in starts)
             except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
                 if bits >= PERIOD_BITS:
                     self._failure = bits, str(why)
