@@ -101,10 +101,7 @@ class Torus:
             if bits <= failed_bits:  # a long way, which no fewer bits go
                 raise NotCertifiedError(reason)
             try:
-                starts = self._approximate()
-                if any(self.flow.length(*start) > 2 * MAX_STEPS for start in starts):  # of almost equal moments
-                    raise NotCertifiedError("not certified: a period of the motion's torus is too long for a proof.")
-                period_1, period_2 = (self._enclosed(start, bits) for start in starts)
+                period_1, period_2 = (self._enclosed(start, bits) for start in self._starts_of_proof())
             except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
                 if bits >= PERIOD_BITS:
                     self._failure = bits, str(why)
@@ -164,6 +161,13 @@ class Torus:
                 raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
             self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in rows]
         return self._starts
+
+    def _starts_of_proof(self) -> list[tuple[fmpq, fmpq]]:
+        """Return approximate periods. Raises NotCertifiedError where two moments are so equal that one is endless."""
+        starts = self._approximate()
+        if any(self.flow.length(*start) > 2 * MAX_STEPS for start in starts):
+            raise NotCertifiedError("not certified: a period of the motion's torus is too long for a proof.")
+        return starts
 
     @cached_property
     def lattice(self) -> Lattice:
