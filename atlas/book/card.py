@@ -54,13 +54,21 @@ def has_card(family: Family) -> bool:
 def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
     """Return the numbers of the card that a body has, in doubles, by key."""
     motion = family.kernels()(*arguments.values())
-    found = dict[str, float]()
-    for one in ENTRIES:
-        try:
-            found[one.key] = float(_number(one.key, family, motion, arguments, math))
-        except (DomainError, ZeroDivisionError, OverflowError):
-            continue
-    return {key: value for key, value in found.items() if math.isfinite(value)}
+    found = {one.key: _in_doubles(one.key, family, motion, arguments)[0] for one in ENTRIES}
+    return {key: value for key, value in found.items() if value is not None}
+
+
+def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> tuple[float | None, str]:
+    """Return a number of the card in doubles, or None and the reason, in words, for which there is none."""
+    try:
+        value = float(_number(key, family, motion, arguments, math))
+    except DomainError as reason:
+        return None, str(reason).rstrip(".")
+    except ZeroDivisionError:
+        return None, "the axis does not go round"
+    except OverflowError:
+        return None, "it is beyond the largest double"
+    return (value, "") if math.isfinite(value) else (None, "the motion has no period")
 
 
 def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
@@ -160,38 +168,36 @@ class Balls:
 def card(request: Asked) -> dict[str, dict[str, Any]]:
     """Return the card: for each key a record with value, digits as text, unit, sigma, proven digits, equation, reason.
 
-    A double that is not within its proven digits gives way to them: squares of tiny or huge rates are no doubles.
+    A value is the double nearest to the proven number; one that is not proven is computed in doubles.
     """
     item = thing_of(request)
     names = [p.name for p in request.family.parameters]
     exact, floats = dict(zip(names, item.exact, strict=True)), dict(zip(names, item.floats, strict=True))
-    there, motion = numbers(request.family, floats), request.family.kernels()(*item.floats)
-    centre = centre_of(request)
-    made = dict[str, dict[str, Any]]()
+    motion, centre, made = item.kernels(), centre_of(request), dict[str, dict[str, Any]]()
+    try:
+        twin = item.balls()
+    except AtlasError:
+        twin = None
     for one in ENTRIES:
-        text = _proven(one.key, item, exact, request.digits)
+        value, text = _proven(one.key, item, twin, exact, request.digits)
+        reason = None
+        if value is None:
+            value, reason = _in_doubles(one.key, request.family, motion, floats)
         equation = one.equation if request.family.takes("ratio") else ""
         entry: dict[str, Any] = {
             "says": one.says.replace("the field", centre) + _pole(one.key, floats), "letter": one.letter,
-            "value": _value(there.get(one.key), text), "unit": _unit(one.unit, request.time),
+            "value": value, "unit": _unit(one.unit, request.time),
             "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
             "equation": equation or None, "reason": None,
         }  # fmt: skip
-        if entry["value"] is None:
-            entry |= {"unit": None, "reason": reason_of(one.key, request.family, motion, floats)}
+        if value is None:
+            entry |= {"unit": None, "reason": reason}
         else:
-            entry |= {"digits": text or f"{entry['value']:.10g}", "proven_digits": significant(text)}
+            entry |= {"digits": text or f"{value:.10g}", "proven_digits": significant(text)}
         if entry["sigma"] == math.inf:
             entry |= {"sigma": None, "proven_digits": 0, "reason": "the errors of the inputs tell no deviation of it"}
         made[one.key] = entry
     return made
-
-
-def _value(value: float | None, text: str) -> float | None:
-    """Return a double, or that of its proven digits where they differ."""
-    if text and not (value and math.isclose(value, float(text), rel_tol=10.0 ** (1 - significant(text)))):
-        return float(text)
-    return value
 
 
 def significant(text: str) -> int:
@@ -204,32 +210,24 @@ def _unit(unit: str, time: str) -> str:
     return unit.replace("time", "s" if time in {"s", "1/s"} else time)
 
 
-def reason_of(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> str:
-    """Return the reason, in words, for which the card lacks a number."""
-    try:
-        _number(key, family, motion, arguments, math)
-    except DomainError as reason:
-        return str(reason).rstrip(".")
-    except ZeroDivisionError:
-        return "the axis does not go round"
-    except OverflowError:
-        return "it is beyond the largest double"
-    return "the motion has no period"
+def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: int) -> tuple[float | None, str]:
+    """Return the double nearest to a number of the card, and its proven digits; None where there is no proof."""
 
-
-def _proven(key: str, item: Thing, exact: Mapping[str, Any], digits: int) -> str:
-    """Return the proven digits of a number of the card, none where there is no proof."""
-    try:
-        made = item.balls()
+    def number() -> Any:
         if key == "ratio" and hasattr(exact.get("ratio"), "I2"):
             from atlas.bodies.certified_body import ratio_of
 
-            number = quantity(certified(lambda: ratio_of(exact["ratio"]), digits), digits)
-        else:
-            number = quantity(certified(lambda: _number(key, item.family, made, exact, Balls()), digits), digits)
+            return ratio_of(exact["ratio"])
+        return _number(key, item.family, twin, exact, Balls())
+
+    try:
+        value = certified(number, digits)
     except (AtlasError, TypeError, AttributeError, ZeroDivisionError):
-        return ""
-    return number.digits.removesuffix(MARK) if number.proven else ""
+        return None, ""
+    from atlas.arithmetic.numbers import nearest
+
+    shown = quantity(value, digits)
+    return (nearest(Balls.ball(value)), shown.digits.removesuffix(MARK)) if shown.proven else (None, "")
 
 
 def thing_of(request: Asked) -> Thing:

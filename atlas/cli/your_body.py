@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from atlas.book.parts import Asked
 
 FORMATS = ("html", "pdf")
+FIGURE = "```{figure}"
+"""How a figure begins in the source of a report."""
 
 
 def built(
@@ -41,7 +43,7 @@ def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, fo
     from atlas import processes
 
     file = out / f"{name}.md"
-    if not file.exists():  # its figures are to be drawn: their libraries are loaded meanwhile
+    if not file.exists() and FIGURE in sources[file.name]:  # their libraries are loaded meanwhile
         processes.prepare(processes.DRAWING)
     from atlas.book.building.report import build_report
     from atlas.book.parts import edited
