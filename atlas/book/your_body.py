@@ -187,7 +187,8 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
         "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
         "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed),
         "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
-        "setting": "".join(map(fenced, setting_of(request))), "again": reproduced(request, motion) if "elsewhere" in request.parts else "",
+        "setting": "".join(map(fenced, setting_of(request))),
+        "again": reproduced(request, motion) if "elsewhere" in request.parts else "",
         "neighbours": [[words, f"`{other.command}`"] for words, other in near(request)],
     }  # fmt: skip
 

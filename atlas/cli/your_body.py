@@ -43,7 +43,7 @@ def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, fo
     from atlas import processes
 
     file = out / f"{name}.md"
-    if not file.exists() and FIGURE in sources[file.name]:  # their libraries are loaded meanwhile
+    if not file.exists() and sources[file.name].count(FIGURE) > 1:  # workers load their libraries meanwhile
         processes.prepare(processes.DRAWING)
     from atlas.book.building.report import build_report
     from atlas.book.parts import edited
