@@ -80,11 +80,11 @@ def case_title(case: str) -> str:
 
 
 class Item(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A row of the record; reading an unknown key is an error."""
+    """Base class of the records below: immutable, and decoding refuses a key that is no attribute."""
 
 
 class Machine(Item, frozen=True):
-    """The machine: the processor's name, the cores this process may use, whether NumPy finds AVX-512, the system."""
+    """Machine of a record: processor's name, usable cores, whether NumPy uses AVX-512, and operating system."""
 
     processor: str
     cores: int
@@ -112,9 +112,9 @@ class Run(Item, frozen=True):
 class Cost(Item, frozen=True):
     """Time for ``count`` rotation matrices, in ``nanoseconds`` each.
 
-    ``to_fill`` is the ratio to the time of filling the same memory, ``to_plain`` to that of the plain formula,
-    ``to_times`` of a grid to that of `rotation` at the same times; all three are with one thread. ``error`` is the
-    largest among a few matrices.
+    ``to_fill`` is the ratio to the time of filling the same memory, ``to_plain`` the ratio to the plain formula's time,
+    ``to_times`` that of a grid to the time of `rotation` at the same times; all three are with one thread. ``error`` is
+    the largest error in an entry, among a few of the matrices.
     """
 
     method: str
@@ -130,7 +130,7 @@ class Cost(Item, frozen=True):
 
 
 class Limit(Item, frozen=True):
-    """A limit of speed: its meaning, the limit in words, the measured value or None, and the verdict."""
+    """A limit of speed: its meaning and the limit as texts, the measured value or None, and the verdict."""
 
     says: str
     wanted: str
@@ -190,32 +190,36 @@ def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
 
 
 def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
-    """Return points (x, y) of the items, shape (N, 2), raised to 1e-18: a logarithmic axis cannot show zero."""
+    """Return the points (x(item), y(item)), shape (N, 2); values below 1e-18 become 1e-18, for logarithmic axes."""
     points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
     return np.asarray(np.maximum(points, 1e-18))
 
 
 def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
-    """Return the curve of a method, with its title, and dots at the measured points."""
+    """Return the pair (`Curve` of a method with its role and title, `Points` at the measured points (N, 2))."""
     return Curve(points, role(method), title(method)), Points(points, "sample")
 
 
 def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tuple[float, float]:
-    """Return the two limits of a logarithmic axis, `start` decades below and `end` decades above the values."""
+    """Return the limits (low, high) of a logarithmic axis: `start` decades below the values, `end` decades above."""
     logs = np.log10(np.fromiter(values, dtype=float))
     return float(10.0 ** (logs.min() - start)), float(10.0 ** (logs.max() + end))
 
 
 def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
-    """Return a panel of layers on logarithmic axes that hold `every` layer, with margins `room` in decades: (x, y)."""
+    """Return a `Plane` of layers on logarithmic axes whose limits hold the points of all layers in `every`.
+
+    `labels` are the texts of both axes, `name` is the title. `room` has two pairs of decades, of margins in x and in y.
+    """
     x, y = np.concatenate([layer.points for layer in every]).T
     return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
 
 
 def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
-    """Return one panel a case, all on the same axes; only the lowest row names the horizontal axis.
+    """Return one `Plane` for each case, all with the same limits; only the lowest row labels the horizontal axis.
 
-    One panel alone has no letter.
+    `cases` maps names of cases to layers, `columns` is the number of panels in a row. Titles have letters (a), (b), ...
+    where there are several cases.
     """
     every, upper = [layer for runs in cases.values() for layer in runs], len(cases) - columns
     letters = [f"({letter}) " for letter in "abcdefgh"] if len(cases) > 1 else [""]
@@ -234,6 +238,6 @@ def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> 
 
 
 def power(value: float) -> str:
-    """Return a power of ten as TeX, any other number as plain text."""
+    """Return TeX "10^{n}" for an exact power of ten, and "%g" text for any other number."""
     exponent = np.log10(value)
     return f"10^{{{exponent:.0f}}}" if exponent == round(exponent) else f"{value:g}"

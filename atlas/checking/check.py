@@ -100,7 +100,7 @@ class Check:
         return asdict(self)
 
     def column_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return the heading and the rows, as texts, of the table of columns."""
+        """Return (heading, rows) of the table of columns: five texts, and five texts for each column."""
         heading = ["column", "median digits", "worst digits", "at t", f"below {self.threshold:g} digits from t"]
         rows = [
             [
@@ -115,7 +115,7 @@ class Check:
         return heading, rows
 
     def drift_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return the heading and the rows, as texts, of the table of conserved quantities."""
+        """Return (heading, rows) of the table of conserved quantities: six texts, and six texts for each quantity."""
         heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
         rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
         return heading, rows
@@ -260,9 +260,9 @@ def check(
 
 
 def _arguments(motion: Any) -> dict[str, Any]:
-    """Return the parameters of a motion by the names of `check_file`; of one by `atlas.motion` the motion itself.
+    """Return the parameters of a motion as keywords of `check_file`; of a motion by `atlas.motion` {"motion": motion}.
 
-    Raises AtlasError for a motion of another class, and for an array of motions.
+    Raises AtlasError for a motion of another class or made by another function, and for an array of motions.
     """
     from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
 

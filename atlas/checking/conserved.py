@@ -42,7 +42,7 @@ class Drifts:
         self._deviations, self._found = deviations, dict[str, Drift]()
 
     def add(self, block: Mapping[str, FloatArray]) -> None:
-        """Take one more block of columns (m,)."""
+        """Take a block of columns (m,) by name: update the largest deviation, its time, and the last deviation."""
         for name, says, label, deviations in self._deviations(block):
             size = np.abs(deviations)
             i = int(np.argmax(size))
@@ -53,14 +53,15 @@ class Drifts:
             self._found[name] = Drift(name, says, label, worst_row, time, float(size[-1]))
 
     def drifts(self) -> tuple[Drift, ...]:
-        """Return a `Drift` for each quantity found so far: orthogonality, norm, and integrals of motion."""
+        """Return a `Drift` for each conserved quantity that the blocks so far determine."""
         return tuple(self._found.values())
 
 
 def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield the deviations that the columns determine, from the values of a certified motion of a symmetric body.
+    """Yield the deviations that a block's columns determine, from the values of a motion of a symmetric body.
 
-    They are those of the norm, of orthogonality, and of the integrals of motion.
+    First the norm of the quaternion and the orthogonality of R, then the integrals of motion; those with the field need
+    R, those with Omega its three components.
     """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
@@ -77,7 +78,10 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
 
 
 def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
-    """Yield the integrals of any inertia tensor J (3, 3), theorem-clebsch, and more; Omega, K (..., 3)."""
+    """Yield (name, meaning, equation, values, size) of H, F, (M,K), K^2 and T for an inertia tensor J (3, 3).
+
+    Omega and K have the shape (..., 3); sizes are sums of the magnitudes of the terms.
+    """
     M = (Omega + K) @ J
     H2, F, component, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
     yield "H", "Hamiltonian in Larmor's frame", "theorem-lie-poisson", H2 / 2, H2 / 2
@@ -98,7 +102,10 @@ class AnyBody:
         self._start = start
 
     def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-        """Yield the deviations of the conserved quantities in the next block."""
+        """Yield the deviations that a block of columns determines; of integrals only if it has R and Omega.
+
+        Without `start` the first row of the first block becomes the start.
+        """
         columns, R, Omega = _read(block)
         yield from _rigid(columns, R)
         if R is None or Omega is None:
@@ -111,7 +118,10 @@ class AnyBody:
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield a top's deviations: of orthogonality, of the norm, and of the constants h, M3, p in units of I2."""
+    """Yield a top's deviations: of orthogonality, of the norm, and of the constants h, M3, p in units of I2.
+
+    The constants need R, or a quaternion, and Omega among the columns of the block.
+    """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
     if R is None or Omega is None:
@@ -123,7 +133,11 @@ def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Devia
 
 
 def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> Iterable[Value]:
-    """Yield the constants of a top, Omega and b (..., 3)."""
+    """Yield (name, meaning, equation, values, size) of a top's constants h, M3 and p, for Omega and b (..., 3).
+
+    Moments, couplings k2, k3 and potentials a0 (linear), A0 (quadratic) are divided by I2; b is the unit vector of the
+    field in the body.
+    """
     w, nu = np.moveaxis(Omega, -1, 0), b[..., 2]
     M = np.stack([w[0] + k2 * b[..., 0], w[1] + k2 * b[..., 1], I * w[2] + k3 * nu], axis=-1)
     kinetic = (w[0] ** 2 + w[1] ** 2 + I * w[2] ** 2) / 2
@@ -141,7 +155,7 @@ def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
 
 
 def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
-    """Yield the norm of the quaternion and the orthogonality of R."""
+    """Yield the deviations (m,) of the quaternion's norm and of R^T R, each only if the columns determine it."""
     if QUATERNION[0] in columns:
         norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
         yield "|q|", "norm of the quaternion", "(12)", norm - 1
@@ -151,13 +165,16 @@ def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
 
 
 def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
-    """Yield the deviations of the conserved quantities from their initial values."""
+    """Yield (name, meaning, equation, (value - start)/size) for each pair of quantities; size 0 counts as 1."""
     for (name, says, label, value, _), (_, _, _, true, size) in zip(values, start, strict=True):
         yield name, says, label, (value - true) / (size or 1)
 
 
 def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> Iterable[Value]:
-    """Yield the integrals of motion that Omega and K determine, with their sizes at the start."""
+    """Yield (name, meaning, equation, values, size) of the integrals that Omega and K (m, 3) determine.
+
+    Each of Omega and K may be None. Sizes are sums of the magnitudes of the terms at the start.
+    """
     w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
     E, K2, c3, c5 = formulas.integrals(long(motion.I), w, k)
     I, B2, B3 = motion.I, abs(motion.B2), abs(motion.B3)

@@ -54,7 +54,10 @@ def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
-    """Yield (words, matrices) for the readings of quaternions; nothing where a quaternion is zero."""
+    """Yield (words, rotation matrices (N, 3, 3)) for each order and sign of quaternions q (N, 4).
+
+    Nothing is yielded where a quaternion is zero.
+    """
     from scipy.spatial.transform import Rotation
 
     if (np.linalg.norm(q, axis=-1) > 0).all():

@@ -48,7 +48,11 @@ def over_ratio(field: Field, omega2: float, cells: tuple[int, int] = (80, 54)) -
 
 
 def _mapped(x: FloatArray, ratio: float | Range, field: Field, omega2: float | Range, rows: int) -> ErrorMap:
-    """Return the `ErrorMap` over the varied parameter, a `Range` with cells between the edges x, and over time."""
+    """Return the `ErrorMap` over time and the one parameter, `ratio` or `omega2`, that is a `Range`.
+
+    x (n + 1,) are the edges of the cells of that parameter, `rows` is the number of cells in time. Raises DomainError
+    for B2 = 0.
+    """
     if field[0] == 0:
         raise DomainError("A map of errors needs B2 different from zero: (71) and (72) divide by it.")
     b = math.hypot(*field)

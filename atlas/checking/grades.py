@@ -37,11 +37,12 @@ POINTS = 2048
 
 @dataclass(frozen=True)
 class Column:
-    """Grade of one column: median and least number of correct digits, the time of the worst, and of the first failure.
+    """Grade of one column: median and least number of correct digits, time of the least, and time of the first failure.
 
     Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
     The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls. Of a body
-    with three moments errors below the bound on those of its closed form count as that bound.
+    with three moments errors below the bound on those of its closed form count as that bound. `fails_at` is None for a
+    column that does not fail.
     """
 
     name: str
@@ -52,7 +53,7 @@ class Column:
 
 
 class Errors:
-    """Errors of a trajectory's columns against the true motion, relative to `unit` for Omega.
+    """Errors of a trajectory's columns against the true motion; those of Omega are divided by `unit` in rad/time.
 
     Whole blocks are compared to within `uncertainty`; a single row by balls.
     """
@@ -63,7 +64,11 @@ class Errors:
         self.uncertainty, self.floor = truth.uncertainty, truth.floor
 
     def of_block(self, block: Block) -> dict[str, FloatArray]:
-        """Return the errors (m,) of each column of a block."""
+        """Return the magnitudes of the errors, an array (m,) by column, of a block of columns (m,).
+
+        A quaternion is compared with the true one of the nearer sign. Small errors, and times out of reach of the fast
+        evaluation, are computed by balls.
+        """
         t = block["t"]
         rows = self._truth.within(t)
         R, Omega, q = self._truth.values(np.where(rows, t, 0.0))
@@ -126,7 +131,7 @@ class Errors:
 
 
 class Grade:
-    """Summary of a column: counts of rows by correct digits, the worst row, the first row that fails."""
+    """Summary of a column's errors: counts of rows by thousandths of a digit, worst row, first row that fails."""
 
     def __init__(self, name: str, threshold: float, errors: Errors) -> None:
         self.name, self._errors, self._limit = name, errors, 10.0**-threshold
@@ -171,7 +176,10 @@ class Envelope:
         self._groups: list[str] = []
 
     def add(self, t: FloatArray, errors: Mapping[str, FloatArray]) -> None:
-        """Take the errors of one more block."""
+        """Take times (m,) and errors (m,) by column of one more block.
+
+        Where over `2 POINTS` points would be kept, the number of rows in a point doubles.
+        """
         groups = {g: [errors[name] for name in names if name in errors] for g, names in GROUPS.items()}
         self._groups = [group for group, values in groups.items() if values]
         new = np.column_stack([t, *(np.max(groups[group], axis=0) for group in self._groups)])

@@ -95,7 +95,10 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
 
 
 def _canonical(names: Sequence[str], extra_names: Sequence[str]) -> dict[int, str]:
-    """Return the canonical names of the known columns, by index."""
+    """Return the canonical names, such as "R11" or "q0", of the known columns, by index; unknown ones are left out.
+
+    `extra_names` are further known names. omega1 to omega3 in a sweep's table are parameters, not columns.
+    """
     bare = [re.sub(r"[\s_.]+", "", name).lower() for name in names]
     by_spelling = _NAMES | {name.lower(): name for name in extra_names}
     spelling = next((s.split() for s in SPELLINGS if set(s.split()) <= set(bare)), ())

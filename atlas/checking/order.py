@@ -126,7 +126,7 @@ def convergence(checks: Sequence[Any]) -> Convergence:
 
 
 def _slope(steps: Sequence[float], errors: Sequence[float]) -> float | None:
-    """Return the slope of the logarithms by least squares, None if an error is no more than rounding."""
+    """Return the slope of log(errors) over log(steps) by least squares; None if an error is at most ROUNDING."""
     if min(errors) <= ROUNDING:
         return None
     return float(np.polyfit(np.log(steps), np.log(errors), 1)[0])

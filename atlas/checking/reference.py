@@ -83,7 +83,10 @@ def reference(of_file: Mapping[str, tuple[float, ...]], overrides: Given, file: 
 
 
 def _in_given_axes(motion: Any) -> Reference:
-    """Return the `Reference` of a motion of `atlas.motion`: its arguments, and its integrals in the given axes."""
+    """Return the `Reference` of a motion of `atlas.motion`, with its integrals in the axes in which it was given.
+
+    Errors of Omega are in units of the largest component of the field in the body and Omega at t = 0.
+    """
     tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)
     arguments = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
@@ -93,7 +96,10 @@ def _in_given_axes(motion: Any) -> Reference:
 
 
 def _any_body(values: Given, start: Given, file: str) -> Reference:
-    """Return the `Reference` of any inertia tensor, certified with a start. AtlasError for omega2 or omega3."""
+    """Return the `Reference` of three moments or of six elements of a tensor, J11 J22 J33 J12 J13 J23.
+
+    Without a start only conserved quantities are known. Raises AtlasError for omega2 or omega3.
+    """
     inertia, B = values["inertia"], np.array(_parameter(values, "field", file), dtype=float)
     a, b, c, ab, ac, bc = (*inertia, 0.0, 0.0, 0.0)[:6]
     tensor, field = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]]), B if B.size == 3 else np.array([0.0, *B])

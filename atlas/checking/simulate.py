@@ -214,7 +214,11 @@ TOLERANCE = 1e-11
 def flow(
     inertia: FloatArray, W: FloatArray, K: FloatArray, a: float, g: float, times: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return W and K, (N, 3) each, along the flow of a H + g F/2 at `times` (N,), ascending from 0."""
+    """Return W and K along the flow of a H + g F/2 at times (N,), ascending from 0: two arrays (N, 3).
+
+    `inertia` are the principal moments (3,); W = Omega + K is (3,) and K, the field in the body, (3,) at time 0; H and
+    F are the integrals of `clebsch`. The equations are integrated by DOP853.
+    """
     from scipy.integrate import solve_ivp
 
     I, J, L = (float(x) for x in inertia)

@@ -127,12 +127,12 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
 
 
 def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str, Any]) -> dict[str, Any]:
-    """Return data by singular name, from keywords in either number.
+    """Return the arrays of `columns` by singular name, filled in from `plural`, such as {"rotations": R}.
 
     Raises
     ------
     TypeError
-        For another keyword.
+        For a plural name of none of the columns, in the words of Python on a call of `function`.
     AtlasError
         For data that are given in both numbers.
     """
@@ -173,7 +173,10 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_
 
 
 def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
-    """Return measured numbers as `real` does, NaN among them unless the policy is "raise"."""
+    """Return numbers as an array of floats, of any shape; NaN is allowed unless the policy is "raise".
+
+    Raises AtlasError for an unknown policy, infinities, and values that are no numbers; `name` names the value.
+    """
     if nan_policy not in POLICIES:
         raise AtlasError(f"nan_policy is {' or '.join(map(repr, POLICIES))}, not {nan_policy!r}.")
     try:
@@ -234,9 +237,10 @@ def _one_word(line: str) -> str:
 def _blocks(
     lines: Iterator[str], above: int, title: Heading, separator: str, file: str
 ) -> Iterator[dict[str, FloatArray]]:
-    """Yield blocks of rows, arrays (m,) by column, from the lines below the line of names, number `above`.
+    """Yield blocks of rows, arrays (m,) by column, from the lines below the line of names.
 
-    Raises AtlasError, which names the line, for a mistake in a row, a parameter among the rows, and no rows.
+    `above` is the number of the line of names. Raises AtlasError, which names the line, for a mistake in a row, for a
+    parameter among the rows, and where there are no rows.
     """
     first_row, empty = above + 1, True
     while block := list(islice(lines, BLOCK)):
@@ -274,7 +278,10 @@ def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatA
 
 
 def _rows(rows: Sequence[tuple[int, str]], title: Heading, separator: str, file: str) -> FloatArray:
-    """Return the numbers of lines, shape (rows, columns): parsed as JSON if possible, else cell by cell."""
+    """Return the numbers in the known columns, shape (rows, columns), from pairs (line number, text).
+
+    Lines are decoded as JSON if possible, else cell by cell. Raises AtlasError for a cell without a number.
+    """
     places = [*title.places.values()]
     lines = [",".join(line.split(None if separator == " " else separator)) for _, line in rows]
     if all(line.count(",") == title.width - 1 for line in lines):
@@ -289,7 +296,7 @@ _DECODER = msgspec.json.Decoder(list[float])
 
 
 def _cells(line: str, title: Heading, separator: str, place: str) -> list[float]:
-    """Return the numbers in the known columns of one line."""
+    """Return the numbers in the known columns of a line. Raises AtlasError for another count of cells, or a text."""
     cells = _split(line, separator)
     if len(cells) == title.width + 1 and not cells[-1].strip():
         del cells[-1]  # a separator at the end
@@ -299,7 +306,10 @@ def _cells(line: str, title: Heading, separator: str, place: str) -> list[float]
 
 
 def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
-    """Return the parameters in a # line by name; {} for a comment."""
+    """Return the parameters in a # line, tuples of floats by name; {} for a comment.
+
+    Raises AtlasError, which begins with `place`, for a wrong count of numbers and for a text in their place.
+    """
     parameters: dict[str, tuple[float, ...]] = {}
     for item in line.split(";"):
         key = re.match(r"\s*(\w+)\s*([=:])\s*", item)

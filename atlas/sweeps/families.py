@@ -25,9 +25,11 @@ MISSING = "missing"
 
 @dataclass(frozen=True)
 class Column:
-    """A quantity in a table: `of` maps a motion and the row's parameters to the value, `exact` maps a motion in balls.
+    """A quantity of a table.
 
-    `missing` is the reason why the quantity may have no value in a row; its cell there is NaN, or an empty text.
+    `of` maps a motion in doubles and the row's parameters to the value, `exact` does so for a motion in balls.
+    `certified` says whether there are certified digits. `missing` is the reason why the quantity may have no value in a
+    row; its cell there is NaN, or an empty text.
     """
 
     of: Callable[[Any, Row], Any]
@@ -71,7 +73,10 @@ class Swept:
         return columns
 
     def make(self, row: Row, *, exact: bool = False) -> Any:
-        """Return the motion, or motions, of parameters by name, numbers or arrays; with `exact` in balls."""
+        """Return the family's motion of the parameters in `row`; an array of motions where they are arrays (N,).
+
+        With `exact` the class in balls is used, else the class in doubles.
+        """
         values = []
         for p in self.family.parameters:
             components: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
@@ -83,9 +88,10 @@ class Swept:
     def columns(
         self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], exact: dict[str, Fraction]
     ) -> dict[str, NDArray[Any]]:
-        """Return the named quantities, arrays (N,) of floats or text, for parameters (N,); "missing" has reasons.
+        """Return the named quantities, arrays (N,) of floats or text, for parameters (N,) by name.
 
-        `exact` has parameters, the same in all rows, as fractions, which replace those in `parameters`.
+        If a quantity may have no value, the column "missing" has the reasons. `exact` has parameters, the same in all
+        rows, as fractions, which replace those in `parameters`.
         """
         size, at_once = next(iter(parameters.values())).size, self.family.at_once
         pieces: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
@@ -100,7 +106,10 @@ class Swept:
     def digits(
         self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int, exact: dict[str, Fraction]
     ) -> dict[str, Any]:
-        """Return the named quantities as arrays (N,) of text with certified digits, for parameters (N,)."""
+        """Return the named quantities as arrays (N,) of text with `digits` certified digits, row by row.
+
+        `parameters` are arrays (N,); `exact` replaces some of them by fractions. "missing" has reasons as in `columns`.
+        """
         from atlas.arithmetic.certified_digits import certified
 
         texts: dict[str, list[str]] = {name: [] for name in names}
@@ -116,7 +125,7 @@ class Swept:
 
     @staticmethod
     def _ball(column: Column, motion: Any, row: Row) -> Any:
-        """Return a quantity as a ball; as text where it is infinite or has no value."""
+        """Return a quantity of a motion in balls; "inf" if infinite, "" where its `missing` explains a DomainError."""
         from flint import arb
 
         try:

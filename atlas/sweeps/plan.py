@@ -102,7 +102,7 @@ class Plan:
         return plan._with_deviations(slopes) if slopes else plan
 
     def _with_deviations(self, slopes: Mapping[str, tuple[float, ...]]) -> "Plan":
-        """Return the plan with columns of standard deviations; names of cases have none."""
+        """Return the plan with the `slopes` of uncertain inputs; each quantity of floats gets a column in "_sigma"."""
         columns, is_asked = self.rows(0, 1), [name in self.quantities for name in self._names]
         asked = (name for name, wanted in zip(self.names, is_asked, strict=True) if wanted)
         return replace(self, slopes=slopes, deviating=tuple(x for x in asked if columns[x].dtype.kind == "f"))
@@ -151,7 +151,7 @@ class Plan:
         return [f"{name} [{unit}]" if unit else name for name, unit in columns]
 
     def list_of(self, start: int, stop: int) -> "Plan":
-        """Return the plan of the rows start to stop as a listed plan, small enough to be sent to a worker."""
+        """Return the plan of the rows start to stop, listed row by row: small enough to be sent to a worker."""
         parameters = self._parameters(np.arange(start, stop))
         arrays = {
             name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
@@ -276,7 +276,7 @@ class Range:
 
 @dataclass(frozen=True)
 class Tabulation:
-    """Quantities of a family over all combinations of settings, the last one varying fastest."""
+    """Quantities of a family over all combinations of settings, the last setting varying fastest."""
 
     family: str
     settings: Mapping[str, float | tuple[float, ...] | Range]
@@ -290,7 +290,7 @@ class Tabulation:
         return {name: column.reshape(sizes) for name, column in plan.rows().items()}
 
     def command(self, out: str) -> str:
-        """Return the command that writes the table into a file."""
+        """Return the `atlas sweep` command, quoted for a shell, that writes this table into the file `out`."""
         words = ["atlas", "sweep", self.family]
         for name, x in self.settings.items():
             words += ["--set", f"{name}={','.join(map(_text, x)) if isinstance(x, tuple) else _text(x)}"]

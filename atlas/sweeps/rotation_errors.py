@@ -21,7 +21,10 @@ BITS = 110
 
 
 def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
-    """Return B2/b, B3/b, k and phi, (79) and (72), of numbers or arrays, in plain floats without care for rounding."""
+    """Return (B2/b, B3/b, k, phi), where b = |B'|, k is (79) and phi (72), of floats or arrays, in plain floats.
+
+    Cancellation is not avoided. I is the ratio I3/I2.
+    """
     b = np.hypot(B2, B3)
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
     return B2 / b, B3 / b, omega2 * b / B2, phi
@@ -65,7 +68,7 @@ def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
 
 
 def _rows(motion: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
-    """Return the parameters of the rows with phases up to MAX_PHASE, and a mask of these rows."""
+    """Return the parameters, arrays (m,), of the rows with phases up to MAX_PHASE, and the mask (N,) of these rows."""
     is_near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= MAX_PHASE
     names = ("ratio", "B2", "B3", "omega2", "t", *(name for name in ("omega3",) if name in p))
     return [p[name][is_near] for name in names], is_near
@@ -80,7 +83,10 @@ def _against_balls(R: FloatArray, rows: list[FloatArray], is_near: Any) -> Float
 
 @lru_cache(maxsize=1)
 def _true(*parameters: bytes) -> FloatArray:
-    """Return the exact R of rows as two words, (2, m, 9), cached for the second error of the same rows."""
+    """Return the exact R of rows as high and low part, (2, m, 9); the latest call is cached.
+
+    Each argument holds the bytes of an array (m,): ratio, B2, B3, omega2, t and, where given, omega3.
+    """
     words = []
     for ratio, B2, B3, omega2, t, *omega3 in zip(*(np.frombuffer(x).tolist() for x in parameters), strict=True):
         motion = exact.ElementaryMotion(ratio, (B2, B3), omega2, *omega3)

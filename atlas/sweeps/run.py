@@ -176,7 +176,10 @@ def write_plan(
 def _compute(
     plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
 ) -> list[str]:
-    """Compute the missing parts, each stored as soon as it is computed; return the names of all parts in order."""
+    """Compute the missing parts, each stored as soon as it is computed; return the file names of all parts in order.
+
+    `progress` is called after each part with (rows done, rows).
+    """
     names = table.whole_parts()
     spans = Spans(plan, names, rows, workers)
     done = plan.count - spans.rows_left
@@ -251,7 +254,10 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
 
 
 def width(executor: Any, jobs: int | None) -> int:
-    """Return the number of parts computed at a time: `jobs`, the processors, or the workers of the executor."""
+    """Return the number of parts computed at a time: the cores of a Dask client, or the workers of an executor.
+
+    Without an executor it is `jobs`, by default the number of processors.
+    """
     if executor is None:
         return jobs or processors()
     if hasattr(executor, "ncores"):
@@ -309,7 +315,7 @@ def _workers_lost() -> Iterator[None]:
 
 
 def key(plan: Plan, rows: int | None) -> str:
-    """Return a digest of everything on which the rows of a plan and the size of its parts depend."""
+    """Return a digest, 16 hexadecimal digits, of the code, the plan, and `rows`, the number of rows per part."""
     sha = hashlib.sha256(json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode())
     for array in plan.parameters.values():
         sha.update(np.ascontiguousarray(array).tobytes() + b"|")
@@ -318,7 +324,7 @@ def key(plan: Plan, rows: int | None) -> str:
 
 @cache
 def code() -> str:
-    """Return the digest of the code that computes rows and of its libraries."""
+    """Return the SHA-256, in hexadecimal, of the sources in the folders of CODE and of their libraries' versions."""
     package = Path(__file__).parents[1]
     sha = hashlib.sha256(json.dumps([release(name) for name in ("numpy", "scipy", "python-flint")]).encode())
     for file in sorted(file for folder in CODE for file in (package / folder).rglob("*.py")):

@@ -167,7 +167,7 @@ class Table:
             self.lock = (own_folder() or Path(gettempdir())) / f"sweep-{name}.lock"
 
     def name(self, span: Span, data: bytes) -> str:
-        """Return the name of the part with these rows and bytes."""
+        """Return the file name of the part with the rows `span` and the contents `data`, with their digest."""
         rows = f"part-{span[0]:012d}-{span[1]:012d}-{self.key}"
         return f"{rows}-{hashlib.sha256(rows.encode() + data).hexdigest()[:32]}.{self.ending}"
 
@@ -191,7 +191,10 @@ class Table:
         return parts_by_rows
 
     def move(self, names: list[str]) -> None:
-        """Move the named parts of a data set to its place, after other parts there are removed; a file has none."""
+        """Move the named parts of a data set to its folder, after other parts there are deleted.
+
+        A table in one file is left as it is.
+        """
         if self.whole is not None:
             self.whole.clear(self.whole.names() - {*names})
             for name in sorted(self.parts.names() & {*names}):

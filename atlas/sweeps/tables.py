@@ -30,7 +30,7 @@ def head_of(sentences: Iterable[str], headings: Iterable[str]) -> str:
 
 
 def csv_part(columns: Columns, _: str = "") -> bytes:
-    """Return rows as CSV, encoded: floats with the shortest digits that read back the same, an empty cell for NaN."""
+    """Return rows of CSV as bytes: floats with the shortest digits that read back the same, an empty cell for NaN."""
     cells = [map(_quoted, x.tolist()) if x.dtype.kind == "U" else _shortest(x) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
 
@@ -41,7 +41,7 @@ def _quoted(text: str) -> str:
 
 
 def _shortest(column: NDArray[Any]) -> Iterable[str]:
-    """Return the numbers of a column as text."""
+    """Return the numbers of a column (N,) as N texts that read back the same, "" for NaN."""
     text_of = (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
     # of a parameter there are few values, each in many rows; by their bits, which tell 0.0 from -0.0
     bits, places = np.unique(np.ascontiguousarray(column).view(np.int64), return_inverse=True)
@@ -74,9 +74,9 @@ PARTS: Mapping[str, Callable[[Columns, str], bytes]] = {"csv": csv_part, "npz": 
 
 
 def write(out: Path, plan: Plan, part_files: Parts) -> Mapping[str, str]:
-    """Write a table from its parts to its path, or next to an existing file; return new names by old ones.
+    """Write a table from its parts to the path `out`; if a file is there, it may be written next to it.
 
-    See `atlas.files.settle`.
+    Returns the new names by old ones, see `atlas.files.settle`.
     """
     with unfinished(out) as file:
         WRITERS[out.suffix[1:]](file, plan, part_files)
