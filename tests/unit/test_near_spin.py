@@ -18,6 +18,7 @@ from atlas.cli.app import atlas as command
 from atlas.errors import NotCertifiedError
 from atlas.motions.start import body_of
 from atlas.motions.torus.certified_flow import Flow
+from atlas.motions.torus.certified_torus import Torus
 from tests.oracles.taylor import taylor
 
 TURN = Rotation.from_rotvec((0.4, -1.1, 0.7)).as_matrix()
@@ -86,6 +87,10 @@ def test_a_flow_for_a_time_beyond_all_bounds_is_refused_in_a_sentence() -> None:
     flow = Flow(moments, [fmpq(26, 100), fmpq(0), fmpq(-27, 100)], [fmpq(-104, 100), fmpq(-12, 10), fmpq(-117, 100)])
     with pytest.raises(NotCertifiedError, match="not certified"):
         flow.go(fmpq(-11731690416), fmpq(-12295397744), 160)
+    torus = Torus(tuple(moments), tuple(flow.start[:3]), tuple(flow.start[3:]))
+    torus._starts = [(fmpq(522), fmpq(-461)), (fmpq(-11731690416), fmpq(-12295397744))]
+    with pytest.raises(NotCertifiedError, match="too long for a proof"):  # and none of the flows is gone
+        torus.periods(160)
 
 
 @pytest.mark.parametrize("moments", [(1.5e-9, 1.0, 1.0), (0.0015, 1.0, 1.001), (1e-5, 1.0, 1.0000001), (0.3, 0.9, 1.1)])
