@@ -13,11 +13,13 @@ from flint import fmpq
 from scipy.spatial.transform import Rotation
 
 import atlas
+from atlas.arithmetic.numbers import workprec
 from atlas.bodies.inertia import principal
 from atlas.cli.app import atlas as command
 from atlas.errors import NotCertifiedError
 from atlas.motions.start import body_of
 from atlas.motions.torus.certified_flow import Flow
+from atlas.motions.torus.certified_placed import PlacedMotion
 from atlas.motions.torus.certified_torus import Torus
 from tests.oracles.taylor import taylor
 
@@ -61,6 +63,12 @@ def test_a_slender_body_has_the_moments_and_axes_of_its_tensor(least: float) -> 
     m, several = atlas.motion(J, B, w), atlas.motion(np.array([J, J]), B, w)
     assert abs(m.rotation(7.5) - _by_series(J, B, w, 7.5)).max() < 2e-15
     assert np.array_equal(several.rotation(7.5), [m.rotation(7.5)] * 2)
+    six = [fmpq(*float(J[i]).as_integer_ratio()) for i in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    exact = [[fmpq(*x.as_integer_ratio()) for x in v.tolist()] for v in (B, w)]
+    with workprec(200):
+        certified = PlacedMotion(six, *exact).rotation(fmpq(15, 2))
+        assert max(float(x.rad()) for row in certified for x in row) < 1e-30
+    assert abs(m.rotation(7.5) - np.array(certified, float)).max() < 2e-15
 
 
 @pytest.mark.slow

@@ -1,15 +1,19 @@
 """Any motion in given axes, from any attitude, as balls: the attitude and the inertia tensor exactly as they are given.
 
 The principal moments and axes of a tensor T are algebraic numbers. A body near it, T~ = P^T diag(I) P with rational
-moments and a rational rotation P, moves almost alike. Euler's equations with the torque of the charge are
+moments and a rational rotation P, moves almost alike. With W = Omega + K, and S the rotation as seen from Larmor's
+frame, Euler's equations with the torque of the charge are, along principal axes,
 
-    T Omega' = [T Omega, Omega] + 2 [Omega, g K],    g = (tr T)/2 - T,    R' = R Omega^,    K = R^T B',
+    W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k),    K' = [K, W],    S' = S W^.
 
-with |Omega| <= w by the energy and |K| = b. For two bodies in the same state at t = 0, whose tensors differ by e, with
-moments from I_min to I_max, k = I_max/I_min, Omega differs by x and R by a turn y,
+As |I_j - I_k| <= I_i, two neighbouring states part at a rate of at most L = 2 (|W| + b), b = |K|, whatever the body. For
+two bodies in the same state at t = 0, whose tensors differ by e, with moments from I_min to I_max and |Omega| <= w,
+W and K together differ by at most x, and S by a turn of at most x |t|,
 
-    x + (w + b) y <= n t exp(L |t|),    L = (2 k + 1)(w + b),
-    n = e (I_max w^2 + 2 I_max w b)/I_min^2 + e (w^2 + 5 w b)/I_min.
+    x = n |t| exp(L |t|),    n = e (I_max w^2 + 2 I_max w b)/I_min^2 + e (w^2 + 5 w b)/I_min.
+
+With I1 >= I2 >= I3, H = (I1 (W1^2 + K1^2) + ...)/2 bounds W1^2 + W2^2 by u^2 = 2 H/I2 and |W3| by sqrt(2 H/I3); on a
+thin rod |W3| <= |W(0)| + (I1 - I2)/I3 (u^2 + b^2) |t|/2 is less.
 """
 
 from collections.abc import Sequence
@@ -24,7 +28,6 @@ from atlas.arithmetic.numbers import dot, quaternion_products, workprec
 from atlas.bodies.certified_inertia import principal_axes
 from atlas.bodies.formula_integrals import clebsch
 from atlas.errors import DomainError, NotCertifiedError
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import matrix
 from atlas.motions.torus.certified import AsymmetricMotion
 
@@ -96,18 +99,23 @@ class PlacedMotion:
             self._bodies[bits] = motion, axes, distance
         return self._bodies[bits]
 
-    @cached_property
-    def _sizes(self) -> tuple[arb, arb, arb, arb]:
-        """Bounds for both bodies: least and largest moment, |Omega| and |K|.
+    def _sizes(self, t: arb) -> tuple[arb, arb, arb, arb]:
+        """Bounds for both bodies until t: least and largest moment, |W| and |K|.
 
         Raises NotCertifiedError where the moments differ too much in size.
         """
         motion, _, distance = self._body(LEAST_BITS)
-        least, most = min(motion.inertia) / MARGIN, max(motion.inertia) * MARGIN
-        if distance > (MARGIN - 1) / 4 * least:
+        I3, I2, I1 = sorted(motion.inertia)
+        if distance > (MARGIN - 1) / 4 * I3:
             raise NotCertifiedError("not certified: the principal moments are of too different sizes.")
-        speed = arb((dot(self.omega, times(self.tensor, self.omega)) + distance * dot(self.omega, self.omega)) / least)
-        return arb(least), arb(most), speed.sqrt(), arb(dot(self.field, self.field)).sqrt()
+        K, W = self.field, [w + k for w, k in zip(self.omega, self.field, strict=True)]
+        energy = sum((dot(v, times(self.tensor, v)) + distance * dot(v, v) for v in (W, K)), fmpq(0)) * MARGIN
+        squared = arb(energy / I2)
+        steady = arb(dot(W, W)).sqrt() + arb(min((I1 - I2 + 2 * distance) / I3 * MARGIN, 1)) * t * (
+            squared + arb(dot(K, K))
+        )
+        spin = min((steady.upper(), arb(energy / I3).sqrt().upper()), key=float)
+        return arb(I3 / MARGIN), arb(I1 * MARGIN), squared.sqrt() + spin, arb(dot(K, K)).sqrt()
 
     def _deviation(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
         """Return a motion along principal axes, these axes, and bounds on the differences of Omega and R until t.
@@ -116,8 +124,9 @@ class PlacedMotion:
         """
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
-        least, most, w, b = self._sizes
-        size, rate = arb(abs(rational(t, "the time"))), (2 * most / least + 1) * (w + b)
+        size = arb(abs(rational(t, "the time")))
+        least, most, W, b = self._sizes(size)
+        w, rate = W + b, 2 * (W + b)
         growth, bits = float((rate * size).upper()) / 0.69, LEAST_BITS
         while bits < ctx.prec + growth + 64:
             bits *= 2
@@ -129,7 +138,7 @@ class PlacedMotion:
         motion, axes, distance = self._body(bits)
         pull = distance * (most * w * (w + 2 * b) / least**2 + w * (w + 5 * b) / least)
         apart_by = pull * size * (rate * size).exp()
-        return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by / (w + b)).upper()) if w + b > 0 else arb(0)
+        return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by * size).upper())
 
     def rotation(self, t: Any) -> Matrix:
         """Return R(t) as three rows."""
