@@ -6,7 +6,7 @@ frame, Euler's equations with the torque of the charge are, along principal axes
 
     W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k),    K' = [K, W],    S' = S W^.
 
-As |I_j - I_k| <= I_i, two neighbouring states part at a rate of at most L = 2 (|W| + b), b = |K|, whatever the body. For
+As |I_j - I_k| <= I_i, neighbouring states part at a rate of at most L = 2 (|W| + b), b = |K|, whatever the body. For
 two bodies in the same state at t = 0, whose tensors differ by e, with moments from I_min to I_max and |Omega| <= w,
 W and K together differ by at most x, and S by a turn of at most x |t|,
 
