@@ -31,7 +31,7 @@ class Bibliography:
 
 
 def read(path: Path) -> Bibliography:
-    """Read a BibTeX file. Raises AtlasError if it can't be read or has no entry."""
+    """Return the `Bibliography` of a BibTeX file. Raises AtlasError if it can't be read or has no entry."""
     try:
         source = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -55,12 +55,12 @@ def read(path: Path) -> Bibliography:
 
 
 def _citation(key: str, mode: str) -> dict[str, Any]:
-    """Return pandoc's node of a citation of one work."""
+    """Return pandoc's node, a dict, of a citation of the work `key`; `mode` is pandoc's name of the form."""
     nothing: dict[str, Any] = {"citationPrefix": [], "citationSuffix": [], "citationNoteNum": 0, "citationHash": 0}
     return {"citationId": key, "citationMode": {"t": mode}, **nothing}
 
 
 def _words(nodes: list[Any]) -> str:
-    """Return the words of inlines; nested inlines come last in each."""
+    """Return the text of pandoc's inline nodes, nested ones included; a node without text is a space."""
     inner = (node.get("c", " ") for node in nodes)
     return "".join(words if isinstance(words, str) else _words(words[-1]) for words in inner)

@@ -84,7 +84,10 @@ class BodyAndField:
 
     @property
     def exact(self) -> Any:
-        """The moments without rounding: of a shape, from its dimensions."""
+        """The body's `Moments` (I2, I3) without rounding; of a shape, from its dimensions.
+
+        AtlasError without a body.
+        """
         from atlas.bodies.certified_body import Moments, shape_moments
 
         record = self.body_record
@@ -96,7 +99,7 @@ class BodyAndField:
 
     @property
     def components(self) -> tuple[float, float]:
-        """Components (B2, B3) of B' in 1/s. Raises AtlasError without a field."""
+        """Components (B2, B3) of B' in 1/s, as floats. Raises AtlasError without a field."""
         if self.field is None:
             raise AtlasError("this needs a field: name one with the key 'field'.")
         return self.field
@@ -120,7 +123,10 @@ class BodyAndField:
 
 
 def body(record: Body) -> SymmetricBody:
-    """Return the body of a record: by its ratio, its moments, or its shape and dimensions."""
+    """Return the `SymmetricBody` of a record, from its ratio, its moments, or its shape and dimensions.
+
+    Raises AtlasError unless exactly one of these is given, and for dimensions that the shape lacks or does not have.
+    """
     keys = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
     if len(keys) != 1:
         raise AtlasError(
@@ -145,20 +151,27 @@ def body(record: Body) -> SymmetricBody:
 
 
 def dimensions(record: Body) -> dict[str, float]:
-    """Return the given dimensions and mass of a body by name."""
+    """Return the given dimensions and the mass of a body's record, without its charge, by name."""
     values = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
     return {key: value for key, value in values.items() if value is not None}
 
 
 def chosen(block: Any, records: BodiesAndFields) -> tuple[BodyAndField, ...]:
-    """Return the bodies that a block names, each in the block's field; None for a missing body or field."""
+    """Return a `BodyAndField` for each body that a block names, all in the block's field.
+
+    One without a body if the block names none; `field` is None if the block names no field.
+    """
     field = records.fields[block.field] if block.field else None
     bodies = block.bodies or ((block.body,) if block.body else (None,))
     return tuple(body_and_field(records.bodies[name] if name else None, field) for name in bodies)
 
 
 def body_and_field(body_record: Body | None, field_record: Field | None) -> BodyAndField:
-    """Return a body in a field; either may be missing."""
+    """Return the `BodyAndField` of two records, either of which may be None.
+
+    A field B becomes B' by the charge-to-mass ratio of the field's record, else of the body's. Raises AtlasError for a
+    field given neither or both ways, and without such a ratio.
+    """
     symmetric_body = body(body_record) if body_record else None
     if field_record is None:
         return BodyAndField(symmetric_body, body_record)
@@ -180,7 +193,10 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
 
 
 def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fraction:
-    """Return the field's charge-to-mass ratio, or that of the body."""
+    """Return the charge-to-mass ratio of the field's record, else charge over mass of the body's.
+
+    AtlasError without.
+    """
     if field_record.charge_to_mass is not None:
         return as_float_or_fraction(rational(field_record.charge_to_mass, "charge_to_mass"))
     if body_record is None or body_record.charge is None or body_record.mass is None:
@@ -190,7 +206,7 @@ def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fr
 
 
 def parameters(known_records: BodiesAndFields) -> list[str]:
-    """Return each body and field in a line of Markdown."""
+    """Return lines of Markdown, one for each body and each field: its title and its inputs."""
     records: list[Body | Field] = [*known_records.bodies.values(), *known_records.fields.values()]
     return [f"{record.title}: {_written_out(record)}" for record in records]
 
@@ -208,7 +224,7 @@ _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": 
 
 
 def _written_out(record: Body | Field) -> str:
-    """Return the inputs of a record as text, with units."""
+    """Return the inputs of a record as text, "name = value unit", separated by commas; left out are defaults."""
     units = _UNITS[getattr(record, "system", "SI")]
     numbers = []
     for key in record.__struct_fields__:

@@ -52,7 +52,7 @@ def has_card(family: Family) -> bool:
 
 
 def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
-    """Return the numbers of the card that a body has, in doubles, by key."""
+    """Return by key, in doubles, the numbers of the card that this motion has; `arguments` are the family's inputs."""
     motion = family.kernels()(*arguments.values())
     found = {one.key: _in_doubles(one.key, family, motion, arguments)[0] for one in ENTRIES}
     return {key: value for key, value in found.items() if value is not None}
@@ -72,7 +72,10 @@ def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, A
 
 
 def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
-    """Return a number of the card by functions of doubles, `math`, or of balls. Raises DomainError with the reason."""
+    """Return the card's number `key` from a motion, in doubles if `functions` is `math`, in balls if it is `Balls`.
+
+    Raises DomainError, with the reason, where the motion has no such number.
+    """
     if not has_card(family):
         raise DomainError(f"it has the numbers of a body with an axis, and this is the {family.says}")
     if key == "ratio":
@@ -95,7 +98,10 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
 
 
 def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
-    """Return |B'|, or the angle between field and axis at the start. Raises DomainError where there is no field."""
+    """Return the magnitude |B'|, or for the key "tilt" the angle in rad between field and axis at t = 0.
+
+    Raises DomainError without a field, and for |B'| of a top.
+    """
     *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
     if not any((*across, along)):
         raise DomainError(NO_FIELD)
@@ -114,7 +120,10 @@ def _pole(key: str, arguments: Mapping[str, Any]) -> str:
 
 
 def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, Any]) -> Any:
-    """Return a frequency of the torus, f1 at place 0. Raises DomainError for a motion with a period and two rates."""
+    """Return a frequency of a motion on a torus in rad/time: f1, f2 or f3 for `place` 0, 1, 2.
+
+    Raises DomainError for a family without such frequencies, or without a field.
+    """
     if not (family.quantity("frequencies") and any(arguments["field"])):
         raise DomainError(ONE_PERIOD)
     return motion.frequencies[place]
@@ -131,7 +140,10 @@ def _ratio(arguments: Mapping[str, Any]) -> Any:
 
 
 def _nutation(family: Family, motion: Any, functions: Any) -> Any:
-    """Return the period of nutation, of small ones about a steady motion. Raises DomainError where there is none."""
+    """Return the period of nutation; of an elementary motion the period of small nutations about it.
+
+    Raises DomainError where small nutations do not oscillate.
+    """
     stability = family.quantity("stability") if family.takes("omega2") else None
     if stability is None:
         return motion.period
@@ -142,7 +154,7 @@ def _nutation(family: Family, motion: Any, functions: Any) -> Any:
 
 
 class Balls:
-    """Functions of balls and exact fractions in the place of those of `math`."""
+    """Stand-ins for functions of `math` that take balls and exact fractions and return balls."""
 
     def __init__(self) -> None:
         from flint import arb
@@ -151,7 +163,7 @@ class Balls:
 
     @staticmethod
     def ball(x: Any) -> Any:
-        """Return a fraction or a ball as a ball."""
+        """Return an int, a Fraction or a ball as a ball."""
         from flint import arb, fmpq
 
         return arb(fmpq(x.numerator, x.denominator)) if isinstance(x, Fraction | int) else arb(x)
@@ -161,7 +173,7 @@ class Balls:
         return self.ball(x).sqrt()
 
     def atan2(self, y: Any, x: Any) -> Any:
-        """Return the angle of the point (x, y)."""
+        """Return the angle of the point (x, y) in rad, as a ball."""
         return self.ball(y).atan2(self.ball(y), self.ball(x))
 
 
@@ -201,17 +213,17 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
 
 
 def significant(text: str) -> int:
-    """Return the number of significant digits in a text."""
+    """Return the number of significant digits in the text of a number, such as 3 for "-0.0120e5"."""
     return len(text.partition("e")[0].replace("-", "").replace(".", "").lstrip("0"))
 
 
 def _unit(unit: str, time: str) -> str:
-    """Return a unit of the register by the unit of time that the inputs have."""
+    """Return a unit of the register, such as "1/time", with "time" replaced by the inputs' unit of time."""
     return unit.replace("time", "s" if time in {"s", "1/s"} else time)
 
 
 def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: int) -> tuple[float | None, str]:
-    """Return the double nearest to a number of the card, and its proven digits; None where there is no proof."""
+    """Return the double nearest to a number of the card, and its proven digits as text; (None, "") without a proof."""
 
     def number() -> Any:
         if key == "ratio" and hasattr(exact.get("ratio"), "I2"):
@@ -238,7 +250,7 @@ def thing_of(request: Asked) -> Thing:
 
 
 def centre_of(request: Asked) -> str:
-    """Return the direction that the axis goes round, in words."""
+    """Return "the vertical", "the field" or "its momentum": the direction about which the body's axis precesses."""
     if request.family.takes("coupling"):
         return "the vertical"
     components = case_of(request).components if request.body else request.values.get("field", ())

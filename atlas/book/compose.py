@@ -81,7 +81,10 @@ def compose(
 
 
 def _pages_of(report: Report) -> dict[str, str]:
-    """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
+    """Return the slug of the page with the ledger entry, by the entry's name, for all ledger blocks of the report.
+
+    Raises AtlasError for a ledger block of an unknown section.
+    """
     pages: dict[str, str] = {}
     for page in report.pages:
         for place, block in enumerate(page.blocks):
@@ -94,7 +97,7 @@ def _pages_of(report: Report) -> dict[str, str]:
 
 
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
-    """Yield the views of the blocks of a page; an error names its block."""
+    """Yield the view of each block of a page, or its shorter view if `outline`. An AtlasError names the block."""
     for place, block in enumerate(page.blocks):
         composer.place, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
         try:
@@ -104,7 +107,7 @@ def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
 
 
 def _cite_formulas(composer: Composer) -> None:
-    """Take in the formulas of the equations that are cited and stand on no page of this report."""
+    """Add to `document.formulas` the formulas of equations that are cited, but displayed on no page of this report."""
     document, composer.place = composer.document, "the equations cited"
     for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
         if name in EQUATIONS and name not in document.targets and name not in document.ledger:
@@ -112,7 +115,7 @@ def _cite_formulas(composer: Composer) -> None:
 
 
 def _explain_symbols(composer: Composer) -> None:
-    """Take in the symbols of the index. AtlasError for one that is explained nowhere in this report."""
+    """Add the index's symbols, with anchors, to `document.symbols`. AtlasError for one that no page explains."""
     document, composer.place = composer.document, "the index"
     for symbol in document.report.index.symbols:
         anchors = composer.anchors(symbol.at)

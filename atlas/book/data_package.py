@@ -116,7 +116,10 @@ def _table(table: TableView, texts: Sequence[str]) -> Resource:
 
 
 def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence[str]) -> dict[str, Any]:
-    """Return the description of a column: type, unit, largest number of digits; "number" only if all cells are."""
+    """Return a column's description, a dict: name, title, type, unit, and the largest number of digits.
+
+    The type is "number" only if all cells are numbers.
+    """
     numbers = [cell for cell in cells if cell.text is None and cell.whole]
     numeric = bool(numbers) and all(cell.text is None for cell in cells)
     field: dict[str, Any] = {
@@ -130,7 +133,7 @@ def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence
 
 
 def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str]) -> Iterator[Resource]:
-    """Yield the points that the figures of a report draw; see `atlas.pictures.data`."""
+    """Yield a `Resource` of the drawn points of each figure that has CSV text in `files`, by its id."""
     views: list[FigureView] = document.listed("figure")
     for figure in views:
         if figure.id not in files:
@@ -183,7 +186,7 @@ def _parquet(resource: Resource) -> bytes:
 
 
 def value(cell: Cell, texts: Sequence[str]) -> str:
-    """Return a cell as a text: words, or the digits of a number."""
+    """Return a cell as text: words, or the digits of a number as "-1.25e-7"; "" where no digit is proven."""
     if cell.text is not None:
         return words(texts[cell.text])
     digits = f"{cell.whole}{cell.fraction}".replace(THIN, "").replace(MINUS, "-")
@@ -211,7 +214,7 @@ def ascii_name(head: str) -> str:
 
 
 def unique(names: Iterable[str]) -> list[str]:
-    """Return names made unique by a number after repeated ones."""
+    """Return the names in order; a repeated name gets a number, as in ["a", "a_2"]."""
     counts, unique = Counter[str](), []
     for name in names:
         counts[name] += 1

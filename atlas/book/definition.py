@@ -101,7 +101,10 @@ class Report(StrictStruct, frozen=True):
     source: Source = Source()
 
     def place(self, page: Page, block: int | None = None) -> str:
-        """Return the start of a message: file, line, page, and block number (argument from 0) with its kind."""
+        """Return the beginning of an error message: file, line, page, and the block's number from 1 and kind.
+
+        `block` counts from 0; without it the message is on the page.
+        """
         number = self.pages.index(page)
         line = self.source.lines.get((number,) if block is None else (number, block))
         there = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"

@@ -20,7 +20,7 @@ class Number:
 
     @classmethod
     def as_given(cls, value: float) -> "Number":
-        """Return a float as its shortest digits."""
+        """Return the `Number` with the shortest digits that read back as the float."""
         return cls(plain(value))
 
     def parts(self) -> tuple[str, str, str]:
@@ -49,7 +49,7 @@ class Number:
         return f"{mantissa}\N{MULTIPLICATION SIGN}10^{int(power)}^".replace("-", MINUS)
 
     def tex(self) -> str:
-        """Return the number as a formula."""
+        """Return the number as TeX between dollars, with a power of ten if it has one; "?" without digits."""
         mantissa, _, power = self.digits.lower().partition("e")
         mantissa = mantissa or "?"
         return f"${mantissa}$" if not int(power or 0) else rf"${mantissa}\times 10^{{{int(power)}}}$"
@@ -66,7 +66,7 @@ def plain(value: float) -> str:
 
 
 def shown(value: Any) -> str:
-    """Return an input as Markdown for small print: with a minus sign, powers of ten, and vectors in brackets."""
+    """Return an input as Markdown: floats with minus signs and powers of ten, vectors in brackets, others by `str`."""
     if isinstance(value, tuple | list):
         return f"({', '.join(shown(component) for component in value)})"
     if isinstance(value, bool) or not isinstance(value, float | int):

@@ -47,7 +47,7 @@ class PageView:
 
     @property
     def file(self) -> str:
-        """The name of its file."""
+        """Name of the page's HTML file, "slug.html"."""
         return f"{self.slug}.html"
 
     @property
@@ -108,14 +108,18 @@ class Document:
     gallery: PageView | None = None
 
     def set(self, *targets: Target) -> None:
-        """Typeset all texts for each target, in parallel threads: pandoc is a separate process."""
+        """Typeset all texts for each target into `written`, in parallel threads."""
         self.texts.read()
         with ThreadPoolExecutor(len(targets)) as threads:
             texts = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
             self.written = dict(zip(targets, texts, strict=True))
 
     def cite(self, target: Target) -> Callable[[str, str], Link]:
-        """Return the function from the name and place of a citation to its text and target."""
+        """Return the function (name, place) -> `Link` that resolves citations for a target.
+
+        Names are looked up in this report, in the related ones, in the ledger and in the bibliography. The function
+        raises AtlasError, which begins with `place`, for an unknown name.
+        """
 
         def link(name: str, place: str) -> Link:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
@@ -137,7 +141,7 @@ class Document:
         return link
 
     def from_beside(self, name: str) -> Link | None:
-        """Return the text and target of a citation from another report, None if the name is not here."""
+        """Return the `Link` with which another report cites a name of this one; None if the name is not here."""
         folder, title = f"../{self.report.name}", self.report.title
         if name == f"report:{self.report.name}":
             return Link(title, f"{folder}/index.html", "page-index")
@@ -156,9 +160,9 @@ class Document:
         return [page for page in self.pages if page.printed]
 
     def place(self, name: str, *, printed: bool = False) -> tuple[str, str, str] | None:
-        """Return the page, the anchor and the words of a name in this report: in its ledger, else where it is shown.
+        """Return (page's file, anchor, words) of a name in this report: in its ledger, else where it is shown; or None.
 
-        In print there is no anchor for what stands in the HTML alone.
+        If `printed`, file and anchor are "" for a name that only the HTML shows.
         """
         here = self.targets.get(name)
         if name in self.ledger and not (printed and here):
@@ -178,7 +182,7 @@ class Document:
         return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
     def numbered(self, name: str) -> str:
-        """Return the number of an equation; one without a number in the paper gets the report's next one."""
+        """Return an equation's number; an equation without one in the paper gets the next number of the report."""
         if not name.startswith("("):
             number = len(self.equations) - len(THEOREMS) + 1
             self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{number})")
@@ -196,13 +200,13 @@ class Document:
 
     @property
     def cover(self) -> Picture | None:
-        """The picture of the cover."""
+        """The `Picture` of the figure whose id is the report's `cover`, or None."""
         blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
         chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
         return self.pictures_of(chosen)[0] if chosen else None
 
     def listed(self, template: str) -> list[Any]:
-        """Return the views of all figures, or of all tables, by the name of their template."""
+        """Return the views of all blocks with this template, "figure" or "table", in order."""
         return [block for page in self.pages for name, block in page.placed if name == template]
 
     def flows_after(self, table: Any) -> bool:

@@ -12,7 +12,10 @@ from atlas.errors import DomainError
 
 
 def near(request: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield (words, request) for neighbouring objects."""
+    """Yield (words, request) for neighbouring objects: other starts, other bodies, and all motions of the body.
+
+    Nothing is yielded without a body.
+    """
     values, name = request.values, request.family.name
     if not request.body:
         return
@@ -55,7 +58,7 @@ def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
 
 
 def reproduced(request: Asked, motion: Any) -> str:
-    """Return fenced lines of the shell and of Python that print the same numbers."""
+    """Return Markdown with the shell command and the lines of Python that print the numbers of this motion."""
     family = request.family
     kernels = family.kernels()
     values = zip(
@@ -76,7 +79,10 @@ def reproduced(request: Asked, motion: Any) -> str:
 
 
 def _is_printed(quantity: Any, motion: Any) -> bool:
-    """Return whether a quantity of the motion, without its own getter, has digits to print."""
+    """Return whether a quantity is a readable attribute of the motion with digits to print.
+
+    False for a quantity with a getter of its own, and where reading raises DomainError.
+    """
     if quantity.get or not (quantity.certified or quantity.printed):
         return False
     try:
@@ -87,7 +93,7 @@ def _is_printed(quantity: Any, motion: Any) -> bool:
 
 
 def _python(request: Asked, name: str) -> str:
-    """Return a parameter as it is written in Python, nothing for one that is left out."""
+    """Return the parameter `name` as Python source, such as "atlas.SymmetricBody(1.0, 1.5)"; "" if it is left out."""
     body, field = request.body or {}, request.field or {}
     if name == "ratio":
         if "shape" in body:

@@ -54,7 +54,10 @@ def on_cards(report: Report) -> set[str]:
 
 
 def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
-    """Yield (key, picture) for a figure block. Raises AtlasError for a misspelt parameter."""
+    """Yield (key, `Picture`) of a figure block: two with the renderer "both", else one.
+
+    Raises AtlasError for a parameter that the recipe lacks.
+    """
     recipe, failure = _recipe(block.recipe)
     parameters = _parameters(block, recipe, report)
     for name in parameters if recipe else ():
@@ -67,7 +70,10 @@ def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Pic
 
 
 def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
-    """Return the recipe's parameters, those of a named body and field included."""
+    """Return the recipe's parameters by name: those of the block, and those that its body and field give.
+
+    Raises AtlasError for a body or field that the recipe does not take.
+    """
     cases = chosen(block, report.parameters)
     offered: dict[str, Any] = {}
     if block.body:

@@ -49,7 +49,7 @@ def convert(raw: Any, kind: type[T], place: str = "") -> T:
 
 
 def _check(raw: Any, kind: inspect.Type, place: str, key: str) -> None:
-    """Check a value against its type, and raise for the innermost mistake."""
+    """Raise SchemaError for the innermost value in `raw` that does not have the type `kind`."""
     match kind:
         case inspect.UnionType():
             _check_union(raw, kind, place, key)
@@ -69,7 +69,7 @@ def _check(raw: Any, kind: inspect.Type, place: str, key: str) -> None:
 
 
 def _check_finite(raw: Any, place: str, key: str) -> None:
-    """Check that a value of any type holds no nan and no inf."""
+    """Raise SchemaError if a value, or one nested in its lists and tables, is nan or infinite."""
     for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
         _check_finite(item, place, key)
     if isinstance(raw, float) and not math.isfinite(raw):
@@ -77,7 +77,10 @@ def _check_finite(raw: Any, place: str, key: str) -> None:
 
 
 def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> None:
-    """Check a value that may be of several types: a block of some kind, or a value that may be left out."""
+    """Check a value that may be of several types: a block, by its key "kind", or a value that may be left out.
+
+    Raises SchemaError for a block without a known kind, and as `_check` does.
+    """
     kinds = {
         str(kind_of_record.tag): kind_of_record
         for kind_of_record in union.types
@@ -98,7 +101,7 @@ def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> No
 
 
 def _check_record(raw: dict[str, Any], kind: inspect.StructType, place: str) -> None:
-    """Check the keys of a table and their values."""
+    """Raise SchemaError for an unknown key, a missing key, or a value of another type in a table."""
     fields = {field.encode_name: field for field in kind.fields if not isinstance(field.type, inspect.DataclassType)}
     for key, value in raw.items():
         if key in fields:
@@ -111,7 +114,7 @@ def _check_record(raw: dict[str, Any], kind: inspect.StructType, place: str) -> 
 
 
 def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> None:
-    """Check the items of a list; pages are named by their slugs."""
+    """Check each item of a list; SchemaError names pages by their slugs, other items by their number from 1."""
     for place, (value, kind) in enumerate(zip(raw, kinds, strict=True), 1):
         name = repr(value["slug"]) if isinstance(value, dict) and "slug" in value else place
         try:
@@ -122,7 +125,7 @@ def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: 
 
 
 def _fits(raw: Any, kind: inspect.Type) -> bool:
-    """Return whether a scalar value has a type."""
+    """Return whether a number, boolean or text has the type and lies within the limits or pattern of `kind`."""
     match kind:
         case inspect.FloatType():
             number = isinstance(raw, int | float) and not isinstance(raw, bool) and math.isfinite(raw)

@@ -16,7 +16,10 @@ from atlas.surfaces import formula as quadric
 
 
 def nutation(_: Any, I: Any, B2: Any, B3: Any, *omega: Any) -> tuple[Any, ...]:
-    """Return the coefficients of (dOmega3/dt)^2 in Omega3 - omega3, the constant one first."""
+    """Return the coefficients of (dOmega3/dt)^2 as a polynomial in Omega3 - omega3, the constant one first.
+
+    `I` is I3/I2, (B2, B3) the field and `omega` the angular velocity in the body at t = 0.
+    """
     momenta = (omega[1] + B2, I * (omega[2] + B3))
     return from_start(I, (B2, B3), omega, momenta, (1, 1), I - 1)
 
@@ -89,7 +92,10 @@ class Term:
 
 
 def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
-    """Return a function of JavaScript that evaluates a formula, whose first argument, I2, is 1."""
+    """Return the source of a JavaScript function `name` that evaluates a formula whose first argument, I2, is 1.
+
+    `arguments` are the names of its other arguments, separated by spaces.
+    """
     lines, names = list[str](), arguments.split()
     value = formula(1, *(Term(argument, lines) for argument in names))
     result = f"[{', '.join(map(str, value))}]" if isinstance(value, tuple) else str(value)
@@ -98,7 +104,7 @@ def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
 
 
 def script(name: str) -> str:
-    """Return a script of the pages."""
+    """Return the source of a script of the pages; formulas and colours are put before the script named FORMULAIC."""
     text = (folder("templates") / "html" / name).read_text(encoding="utf-8")
     if name != FORMULAIC:
         return text

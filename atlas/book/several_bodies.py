@@ -35,7 +35,7 @@ class Row:
 
 
 def value_of(entry: Mapping[str, Any]) -> str:
-    """Return a number of a card in Markdown, with its standard deviation and unit; a dash where there is none."""
+    """Return a number of a card as Markdown, "value(deviation) unit"; a dash if it has no value."""
     if entry["value"] is None:
         return "\N{EN DASH}"
     digits = concise(entry["value"], entry["sigma"]) if entry["sigma"] else entry["digits"]
@@ -43,7 +43,10 @@ def value_of(entry: Mapping[str, Any]) -> str:
 
 
 def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
-    """Return the files of an index by name: its Markdown, which links each report, and its CSV."""
+    """Return the index of many reports: texts by file name, a Markdown page with links and a CSV table.
+
+    `table` is the name of the file of bodies, `command` the command that made the reports.
+    """
     made = [row for row in rows if not row.fault]
     blocks = list[str]()
     if made:
@@ -97,7 +100,7 @@ def row_of(line: int, words: Sequence[str], request: Asked, made: Card) -> Row:
 
 
 def titled(request: Asked, made: Card) -> str:
-    """Return the title of the report of a body."""
+    """Return the title of a body's report: the requested one, else one made of the card `made` and the verdict."""
     return request.title or title_of(request, made, verdict(thing_of(request)))
 
 
@@ -122,7 +125,7 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
 
 
 def _rows(first: Card, second: Card) -> Iterator[list[str]]:
-    """Yield words, letter, both values, their difference and the equation of each number of two cards."""
+    """Yield six texts for each number that one of two cards has: words, letter, both values, difference, equation."""
     for key, a in first.items():
         b = second[key]
         if a["value"] is None and b["value"] is None:

@@ -84,7 +84,7 @@ class Texts:
         return len(self.texts) - 1
 
     def __getitem__(self, number: int) -> Text:
-        """Return the text of that number."""
+        """Return the `Text` at this index."""
         return self.texts[number]
 
     def read(self) -> None:
@@ -184,7 +184,7 @@ class _Checked:
         self.anchors = dict(text.anchors)
 
     def tree(self, nodes: Tree) -> Tree:
-        """Return a list of nodes, all that is inside them included."""
+        """Return pandoc's nodes checked and replaced by `node`, nested lists included."""
         problem: Tree = []
         for node in nodes:
             if isinstance(node, list):
@@ -196,7 +196,7 @@ class _Checked:
         return _tied(problem) if all(isinstance(node, dict) for node in problem) else problem
 
     def node(self, kind: str, content: Any) -> Tree:
-        """Return the replacement of a node."""
+        """Return the list of nodes that replaces a node of pandoc. Raises AtlasError for pictures and raw text."""
         if kind in {"Image", "RawInline", "RawBlock"}:
             raise AtlasError(f"{self.text.where}: a text holds no pictures; make a figure block of it.")
         if kind == "Cite":
@@ -243,7 +243,10 @@ class _Checked:
         return works == {True}
 
     def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
-        """Return the nodes of one link of a citation, with an anchor at the first citation of the name."""
+        r"""Return the nodes of one citation's link; the first citation of a name in `anchors` gets its id.
+
+        For LaTeX figures and tables become \ref, and table cells \atlascell.
+        """
         name = work["citationId"]
         words = self.tree(_words(link.bracketed if bracketed and link.bracketed else link.words))
         if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
@@ -257,11 +260,14 @@ class _Checked:
         return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
 
     def around(self, work: Any) -> dict[str, Tree]:
-        """Return the words before and after a name in brackets."""
+        """Return {"citationPrefix": nodes, "citationSuffix": nodes}, the words before and after a name in brackets."""
         return {key: self.tree(work[key]) for key in ("citationPrefix", "citationSuffix")}
 
     def address(self, url: str) -> str:
-        """Return the address that a link may lead to."""
+        """Return the URL of a link, "doi:" expanded.
+
+        Raises AtlasError unless it is outside or a page beside this one.
+        """
         if _OUTSIDE.fullmatch(url):
             return url.replace("doi:", "https://doi.org/", 1) if url.startswith("doi:") else url
         if not _INSIDE.fullmatch(url):
@@ -301,7 +307,7 @@ def _element_text(node: Any) -> str:
 
 
 def _words(text: str) -> Tree:
-    """Return words as nodes, a number tied to its word and a formula set; words between two carets are raised."""
+    """Return words as pandoc's nodes: $formulas$ as mathematics, ^text^ raised, "Figure 3" without a line break."""
     text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
     nodes: Tree = []
     for k, piece in enumerate(_FORMULA.split(text)):

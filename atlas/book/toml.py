@@ -15,7 +15,7 @@ def loads(text: str) -> dict[str, Any]:
 
 
 def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
-    """Yield values as lines of TOML, dictionaries as tables after the other values."""
+    """Yield lines of TOML for the values by key; dictionaries follow as tables, and None is left out."""
     for key, value in values.items():
         if not isinstance(value, dict) and value is not None:
             yield f"{key} = {written(value)}\n"
@@ -28,7 +28,7 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
 
 
 def written(value: Any) -> str:
-    """Return a value as TOML; a string of JSON is one of TOML."""
+    """Return a value as TOML source: a dict as an inline table, a text with line breaks between triple quotes."""
     if isinstance(value, dict):
         return f"{{ {', '.join(f'{key} = {written(item)}' for key, item in value.items() if item is not None)} }}"
     if isinstance(value, list | tuple):

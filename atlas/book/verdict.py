@@ -14,7 +14,7 @@ NEAR_BALL = 0.01
 
 
 def stands(ratio: float) -> str:
-    """Return where a body stands between a needle and a disk, in words."""
+    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" over "a ball" to a disk or a loop."""
     if ratio == 1.0:
         return "a ball: every axis is like every other"
     if ratio == 2.0:
@@ -27,7 +27,7 @@ def stands(ratio: float) -> str:
 
 
 def verdict(item: Thing) -> str:
-    """Return what kind of motion it is, and whether a small push stays small, in words."""
+    """Return words on the kind of an object's motion and, where known, its stability against small nutations."""
     family, motion = item.family, item.kernels()
     if not family.sampled:
         return "no start was given, so that all motions are shown and none is followed"
@@ -42,7 +42,7 @@ def verdict(item: Thing) -> str:
 
 
 def is_stable(item: Thing) -> bool | None:
-    """Return whether a motion whose axis keeps its angle stays so after a push; None where no push is decided on."""
+    """Return whether a motion whose axis keeps its angle is stable against small nutations; None where undecided."""
     family, motion = item.family, item.kernels()
     if family.takes("coupling"):
         return getattr(motion, "stable", None)
@@ -81,7 +81,7 @@ def spins_on(moments: Sequence[Fraction], field: Sequence[Fraction], omega: Sequ
 
 
 def place_of(family: Family, motion: Any) -> str:
-    """Return where the start lies beside the curve of motions without nutation, in words."""
+    """Return a sentence on whether the start lies on the curve of motions without nutation."""
     if not family.sampled:
         return "Any other start makes the axis nod."
     if family.takes("omega2"):

@@ -76,7 +76,7 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
 
 
 def sign_of(request: Asked) -> str:
-    """Return a sentence on the field of a negative charge, none for another."""
+    """Return a sentence on the direction of B' if charge or charge-to-mass ratio is negative, else ""."""
     record = {**(request.body or {}), **(request.field or {})}
     if not any(Fraction(record.get(name) or 0) < 0 for name in ("charge", "charge_to_mass")):
         return ""
@@ -84,7 +84,7 @@ def sign_of(request: Asked) -> str:
 
 
 def shape_of(request: Asked) -> dict[str, Any] | None:
-    """Return radius and height of the body for its picture, None where it is no cylinder and no ball."""
+    """Return parameters of the body's picture: {"is_ball": True}, or radius and height in m; None for other shapes."""
     body = request.body or {}
     if "shape" not in body or body["shape"] == "spheroid":
         return None
@@ -94,7 +94,7 @@ def shape_of(request: Asked) -> dict[str, Any] | None:
 
 
 def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
-    """Return the parameters of the figures of all motions of a symmetric body in its field, by recipe."""
+    """Return the parameters of the figures on all motions of the body, by recipe; {} without a body or field."""
     if not request.body:
         return {}
     case = case_of(request)
@@ -110,7 +110,7 @@ def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
 
 
 def evaluated(request: Asked) -> dict[str, Any]:
-    """Return the inputs as they are evaluated, by name: two ways to type one body have the same."""
+    """Return the inputs as evaluated, a dict for JSON: equal for two ways to type one body."""
     records = {"body": request.body, "field": request.field}
     bare = {name: {k: v for k, v in one.items() if k != "title"} for name, one in records.items() if one}
     sigma = {"sigma": {key: float(f"{x:.6g}") for key, x in request.sigma.items()}} if request.sigma else {}
@@ -121,12 +121,12 @@ def evaluated(request: Asked) -> dict[str, Any]:
 
 
 def digest_of(request: Asked) -> str:
-    """Return eight characters that stand for the evaluated inputs."""
+    """Return eight hexadecimal digits of the SHA-256 of the evaluated inputs."""
     return sha256(json.dumps(evaluated(request), sort_keys=True).encode()).hexdigest()[:8]
 
 
 def name_of(request: Asked) -> str:
-    """Return the name of the report: the given one, or your_body, and the digest of the inputs."""
+    """Return the report's name: the given name, or "your_body", then "-" and the digest of the inputs."""
     return f"{request.called or NAME}-{digest_of(request)}"
 
 
@@ -167,7 +167,7 @@ def files_of(request: Asked) -> dict[str, str]:
 
 
 def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values that the template sees: words, rows, and blocks in their fences."""
+    """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks."""
     family, shape, item, ratio = request.family, shape_of(request), thing_of(request), made["ratio"]["value"]
     motion, beside, left_out = item.kernels(), list(disturbances_of(request, made)), list[str]()
     figures, closed = figures_by_part(request, left_out), list[str]()
@@ -228,7 +228,7 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
 
 
 def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
-    """Yield what is left out, in numbers, of a body whose shape, mass and field B in SI were given."""
+    """Yield the neglected effects, a `Disturbance` each, of a body with shape, mass or density, and a field B in SI."""
     body, field = request.body or {}, request.field or {}
     if "shape" not in body or not {"mass", "density"} & request.options.keys() or field.get("system") != "SI":
         return
@@ -243,18 +243,18 @@ def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> It
 
 
 def outweighed(beside: Sequence[Disturbance]) -> str:
-    """Return a sentence on the effects that outweigh what is shown, none where there is none."""
+    """Return a sentence on the neglected effects that outweigh the computed motion; "" if there are none."""
     names = [one.says.partition(",")[0] for one in beside if one.outweighs]
     return f"What is shown is outweighed by {' and by '.join(names)}." if names else ""
 
 
 def _row_of(one: Disturbance) -> list[str]:
-    """Return the row of an effect that is left out: words, letter, number, unit, formula, verdict."""
+    """Return a neglected effect as six texts: words, letter, number, unit, formula, verdict."""
     return [one.says, one.letter, Number(f"{one.value:.2e}").words(), one.unit, one.formula, one.verdict]
 
 
 def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> Iterator[str]:
-    """Yield sentences on parts that this report does not have, with the reason."""
+    """Yield sentences on parts that this report lacks, with the reason of each."""
     is_top, parts = request.family.takes("coupling"), request.parts
     if not shape and not is_top and "card" in parts:
         yield "A picture of the body: no cylinder, ring, disk, rod or ball was given as its shape."
