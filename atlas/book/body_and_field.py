@@ -106,7 +106,7 @@ class BodyAndField:
 
     @property
     def exact_components(self) -> tuple[float | Fraction, ...]:
-        """Components (B2, B3) of B': exact if B lies in the plane of e2 and e3, else rounded."""
+        """Components (B2, B3) of B' in 1/s: exact if B is in the plane of e2 and e3, else rounded to floats."""
         if self.field_record and self.field_record.prime is not None:
             return tuple(as_float_or_fraction(rational(x, "prime")) for x in self.field_record.prime)
         field, frame = self.physical, self.frame

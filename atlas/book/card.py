@@ -113,7 +113,7 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
 
 
 def _pole(key: str, arguments: Mapping[str, Any]) -> str:
-    """Return words on a rate whose two limits differ: that of an axis which nutates through the field's direction."""
+    """Return words on the rates of an axis that passes through the direction of the field, "" for other motions."""
     (*across, along), (W1, W2, *_) = arguments.get("field") or (0.0,), arguments.get("omega") or (0.0, 0.0)
     through = key in {"turn", "spin"} and "ratio" in arguments and along and not any(across) and any((W1, W2))
     return ", by the mean of the rates on both sides of the pole, through which the axis goes" * bool(through)

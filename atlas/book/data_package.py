@@ -200,7 +200,7 @@ def digits(number: str) -> int:
 
 
 def ascii_name(head: str) -> str:
-    """Return the head of a column as a name: Greek letters spelt out, indices on the line, all else a low line."""
+    """Return a column's heading as an ASCII name: Greek letters spelt out, other signs replaced by "_"."""
     letters = []
     for letter in unicodedata.normalize("NFKC", head).replace("′", "_prime").replace("'", "_prime"):
         matched = _LETTER.match(unicodedata.name(letter, ""))

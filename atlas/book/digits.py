@@ -38,7 +38,7 @@ class Number:
         return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
 
     def words(self) -> str:
-        """Return the number for a sentence; with a power of ten, as ``10^5^``, only if it is far from 1."""
+        """Return the number as text for a sentence: "?" without digits, "1.2×10^5^" if far from 1, else a decimal."""
         mantissa, _, power = self.digits.lower().partition("e")
         if not self.digits:
             return "?"
@@ -56,7 +56,7 @@ class Number:
 
 
 def room(text: str) -> float:
-    """Return the room to leave for digits, points, spaces and minus signs in a page, in widths of a digit."""
+    """Return the width of a number's text in widths of a digit; points and thin spaces count 0.5, minus signs 1.4."""
     return sum({".": 0.5, THIN: 0.5, MINUS: 1.4}.get(character, 1.0) for character in text)
 
 

@@ -57,7 +57,7 @@ class PageView:
 
     @property
     def floated(self) -> list[tuple[str, Any]]:
-        """Pairs (template, view), each figure moved before the prose that discusses it, to float onto that page."""
+        """Pairs (template, view) of the blocks; a figure is moved before the prose above, to float onto that page."""
         floated: list[tuple[str, Any]] = []
         for template, view in self.placed:
             place = len(floated)
@@ -178,7 +178,7 @@ class Document:
         return self.ledger.get(name, page)
 
     def number(self, name: str) -> str:
-        """Return the citation of an equation: its printed number, the report's own number, or its name."""
+        """Return an equation's citation: its number in the paper, "(72)", the report's own number, or "(name)"."""
         return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
     def numbered(self, name: str) -> str:
@@ -210,7 +210,7 @@ class Document:
         return [block for page in self.pages for name, block in page.placed if name == template]
 
     def flows_after(self, table: Any) -> bool:
-        """Whether the next table stands at its place in the text."""
+        """Return whether the table after this one `flows`: it stands at its place in the text. False after the last."""
         return any(table_after.flows for table_after in self.listed("table")[table.number : table.number + 1])
 
     @property

@@ -108,7 +108,7 @@ def mapped(value: Any, function: Callable[[str], Any]) -> Any:
 
 
 def sentence_of(error: Exception) -> str:
-    """Return the message of an error in a template, without its full stop. Raises a MemoryError again."""
+    """Return the message of an error without its full stop, or the error's class. Raises a MemoryError again."""
     if isinstance(error, MemoryError):
         raise error
     return str(error).rstrip(".") or type(error).__name__
@@ -151,7 +151,7 @@ def sandbox() -> Any:
 
 
 def main() -> None:
-    """Answer the request on standard input, within the limits."""
+    """Read a request for `fill`, JSON on standard input, and write the answer, within limits of time and memory."""
     resource.setrlimit(resource.RLIMIT_CPU, (MAX_SECONDS, MAX_SECONDS))
     resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
     sys.stdout.write(json.dumps(fill(**json.loads(sys.stdin.read()))))

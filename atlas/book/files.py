@@ -13,7 +13,7 @@ SUFFIXES = (".md", ".toml")
 
 
 def files() -> dict[str, Path]:
-    """Return the reports of the folder ``reports/`` by name; Markdown without a head of TOML is none."""
+    """Return the paths of the reports in ``reports/`` by name: TOML files, and Markdown files with a head of TOML."""
     paths = sorted(path for suffix in SUFFIXES for path in folder("reports").glob(f"*{suffix}"))
     return {path.stem: path for path in paths if path.suffix == ".toml" or text_of(path).startswith(RULE)}
 
@@ -24,7 +24,7 @@ def names() -> list[str]:
 
 
 def find(name: str) -> Path:
-    """Return the file of a report, given its name or its path. Raises AtlasError if there is none."""
+    """Return the path of a report, given its name or its path. Raises AtlasError if there is none."""
     path = Path(name)
     if path.suffix in SUFFIXES:
         if path.is_file():
@@ -39,7 +39,7 @@ def find(name: str) -> Path:
 
 
 def beside(name: str, folder: Path) -> Path | None:
-    """Return a file in or below the report's folder; None if it is missing or a link that leads out."""
+    """Return the path of a file in or below the report's folder; None if it is missing or a link that leads out."""
     file = folder / name
     return file if file.resolve().is_relative_to(folder.resolve()) and file.is_file() else None
 
@@ -53,7 +53,7 @@ def text_of(path: Path) -> str:
 
 
 def head(path: Path) -> dict[str, Any]:
-    """Return the keys above the pages of a report. Raises AtlasError for a file that is no TOML."""
+    """Return the keys of a report's head, or all keys of a report in TOML. AtlasError for a file that is no TOML."""
     text = text_of(path)
     try:
         return toml.loads(head_of(text) if path.suffix == ".md" else text)
@@ -62,7 +62,7 @@ def head(path: Path) -> dict[str, Any]:
 
 
 def head_of(text: str) -> str:
-    """Return the head of a report in Markdown."""
+    """Return the TOML text between the rules at the beginning of a report in Markdown."""
     return text.partition(f"\n{RULE}")[0].removeprefix(RULE)
 
 

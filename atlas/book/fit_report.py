@@ -66,7 +66,7 @@ class Fitted:
 
     @property
     def words(self) -> list[str]:
-        """Options of the command, as typed words."""
+        """Options of the command as a list of words, as they were typed."""
         return [word for name, texts in self.options.items() for word in (f"--{name}", *texts)]
 
     @property
@@ -76,7 +76,7 @@ class Fitted:
 
     @property
     def name(self) -> str:
-        """Name of its files, from the typed words, with a digest if it is long."""
+        """Name of the page's files: the given name, else made from the typed words, cut and with a digest if long."""
         words = ["fit", PurePath(self.words[1]).stem, *self.words[2:]]
         name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
         short = f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
@@ -95,7 +95,7 @@ class Fitted:
         }
 
     def head(self) -> dict[str, Any]:
-        """Return the keys of the report's head."""
+        """Return the keys of the report's head by name: title, subtitle, and the records of body and field."""
         return {
             "title": self.title or f"The motion in {self._file}",
             "subtitle": f"{self.fit.family} motion, {self.fit.t.size} times of {self.fit.kind.replace('_', ' ')}",
@@ -119,7 +119,7 @@ class Fitted:
         }  # fmt: skip
 
     def _quality(self) -> str:
-        """Return sentences on the quality of the fit."""
+        """Return a text of sentences on reduced chi square and standard error; lines end after each subject."""
         fit = self.fit
         expected = f"where 1 ± {(2 / fit.nfree) ** 0.5:.2g} is expected"
         says = (
@@ -131,7 +131,7 @@ class Fitted:
         return says if fit.warnings else f"{says}\nNothing in the residuals speaks against this motion."
 
     def _parameters(self) -> list[list[str]]:
-        """Return name, meaning, value with its standard error, and unit of each parameter."""
+        """Return four texts for each parameter: name, meaning, value with its standard error or a remark, unit."""
         rows = []
         for name, value, error, note in self.fit.rows()[1]:
             meaning, unit = MEANINGS.get(name) or MEANINGS[name.rstrip("123")]
@@ -146,7 +146,7 @@ class Fitted:
         return rows
 
     def _correlations(self) -> Iterator[list[str]]:
-        """Yield the names and the correlation of pairs of parameters, the strongest first."""
+        """Yield [names, correlation] as texts for pairs of parameters above `MIN_CORRELATION`, the strongest first."""
         pairs = {
             frozenset((name, partner)): size
             for name, p in self.fit.parameters.items()
@@ -157,7 +157,7 @@ class Fitted:
             yield [", ".join(f"`{name}`" for name in self.fit.names if name in pair), f"{size:.3f}".replace("-", MINUS)]
 
     def _horizons(self) -> list[list[str]]:
-        """Return errors of a prediction and the times up to which they are smaller."""
+        """Return rows of texts: an error of a prediction, its meaning, and the time until which errors are smaller."""
         fit = self.fit
         unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
         return [
@@ -167,7 +167,7 @@ class Fitted:
         ]
 
     def _recipe(self) -> str:
-        """Return the recipe that draws data, curve and residuals."""
+        """Return the source of a recipe that fits the data again and draws data, curve and residuals."""
         return "\n".join(
             [
                 f'"""Data, fitted motion and residuals, of data with the digest {self.digest}."""', "",
@@ -181,5 +181,5 @@ class Fitted:
 
 
 def _marked(sentence: str) -> str:
-    """Return a sentence for the terminal as Markdown."""
+    """Return a sentence of the terminal as Markdown: options as code, and ± for +-."""
     return re.sub(r"(--\w+)", r"`\1`", sentence).replace("+-", "±")

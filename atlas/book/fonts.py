@@ -45,7 +45,7 @@ FACES: Mapping[str, Face] = MappingProxyType(
 
 
 def source(face: Face) -> Path:
-    """Return the file of a face, found without importing the package that carries it."""
+    """Return the path of a face's font file, without importing its package. Raises AtlasError if it is missing."""
     path = carried(face.package, face.file)
     if path is None:
         raise AtlasError(f"the package {face.package} has no font {face.file}: install the locked dependencies.")
@@ -53,7 +53,7 @@ def source(face: Face) -> Path:
 
 
 def characters(pages: Iterable[str]) -> tuple[str, str]:
-    """Return the characters that the pages show outside and inside formulas."""
+    """Return two sorted texts: the characters that the HTML pages show outside and inside formulas."""
     text: set[str] = set()
     formulas: set[str] = set()
     for page in pages:
@@ -65,7 +65,7 @@ def characters(pages: Iterable[str]) -> tuple[str, str]:
 
 
 def subset(face: Face, letters: str) -> bytes:
-    """Return a face reduced to some characters, as WOFF; equal characters give equal bytes.
+    """Return a font of the characters `letters` only, as the bytes of a WOFF file; equal characters give equal bytes.
 
     WOFF2 would be a quarter smaller, a hundredth of a page with figures, and takes three times as long.
     """

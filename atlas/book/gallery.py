@@ -27,12 +27,12 @@ class Plate:
 
     @property
     def anchor(self) -> str:
-        """Return the anchor of the large figure."""
+        """Id of the large figure in the page, "figure-NAME"."""
         return f"figure-{Path(self.picture.recipe).stem}"
 
     @property
     def python(self) -> str:
-        """Return the call that returns the figure."""
+        """Source of the call of `atlas.figure` that draws the figure, with its parameters."""
         settings = (f", {key}={value!r}" for key, value in self.picture.parameters.items() if value is not None)
         return f'atlas.figure("{self.picture.called}"{"".join(settings)})'
 

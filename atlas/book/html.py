@@ -50,7 +50,10 @@ class Card(NamedTuple):
 
 
 def pages(document: Document) -> dict[str, str]:
-    """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
+    """Return the files of a document by name: its HTML pages, their stylesheet, their scripts and the search index.
+
+    The texts must be typeset before. A page's section links are added only to a report of one page.
+    """
     environment = templates("html", plain=plain, title_words=title_words)
     texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
@@ -108,12 +111,15 @@ def _with_sections(page: str) -> str:
 
 
 def _figures(document: Document) -> list[Card]:
-    """Return a card for every figure, in order."""
+    """Return a `Card` for each figure of the document, in order."""
     return [Card(page, block) for page in document.pages for block in page.blocks if isinstance(block, FigureView)]
 
 
 def cards(document: Document) -> list[Card]:
-    """Return the cards of the front page, one for each page with a drawn figure."""
+    """Return a `Card` for each page with a drawn figure: the figure of its thumbnail, else its first one.
+
+    Raises AtlasError for a thumbnail whose figure is not drawn in this report.
+    """
     figures, cards = _figures(document), []
     cuts = {card.slug: card.thumbnail for card in document.report.pages}
     for page in document.pages:
@@ -130,7 +136,7 @@ def cards(document: Document) -> list[Card]:
 
 
 def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
-    """Return a detail of a PNG as WebP of `CARD` pixels."""
+    """Return a detail of a PNG, on white, as the bytes of a WebP of `CARD` pixels: `cut` has its centre and zoom."""
     from PIL import Image
 
     with Image.open(BytesIO(png)) as picture:
@@ -147,7 +153,10 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
 
 
 def _drawn(document: Document, name: str, key: str) -> Card | None:
-    """Return the figure that a key of the report names, None if it could not be drawn."""
+    """Return the `Card` of the figure `name`; None if the figure failed.
+
+    AtlasError, with the `key`, if there is none.
+    """
     if f"fig:{name}" not in document.targets:
         raise AtlasError(f"{key}: {unknown('figure', name, document.citable)}")
     candidates = (card for card in _figures(document) if card.figure.id == f"fig-{name}" and not card.figure.failure)
@@ -196,7 +205,7 @@ def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, s
 
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
-    """Return the formulas by the names in their anchors: of the ledger, of displays, and other cited ones."""
+    """Return the HTML of formulas by the slug of the equation: in the ledger, displayed, or only cited."""
     equations = {slug(name): texts[number] for name, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
@@ -220,7 +229,7 @@ def linear(mathml: str) -> str:
 
 
 def _line(node: ET.Element) -> str:
-    """Return a node of MathML in words."""
+    """Return a node of MathML as plain text: "(a+b)/2" for a fraction, "x^2" for a power, "sqrt(x)" for a root."""
     tag = node.tag.rpartition("}")[2]
     if tag in {"annotation", "annotation-xml", "mspace"}:
         return ""

@@ -46,7 +46,7 @@ class Input(StrictStruct, frozen=True):
 
     @property
     def takes(self) -> str:
-        """Kind, unit, range and choices in words."""
+        """Text of the kind, unit, range and choices, such as "number, in T, from 0 to 2"."""
         parts = [self.kind if self.count is None else f"{self.count} numbers"]
         parts += [f"in {self.unit}"] * bool(self.unit)
         parts += [f"from {self.range[0]:g} to {self.range[1]:g}"] if self.range else []
@@ -55,12 +55,12 @@ class Input(StrictStruct, frozen=True):
 
 
 def declared(path: Path) -> dict[str, Input]:
-    """Return the inputs of a report by name; {} where its head declares none.
+    """Return the `Input` declarations of a report by name; {} where its head declares none.
 
     Raises
     ------
     AtlasError
-        For a head that is no TOML, and for a malformed declaration.
+        For a head that is no TOML, a malformed declaration, and a name that is no word or that templates use.
     """
     tables = files.head(path).get("inputs", {})
     try:
@@ -159,12 +159,12 @@ def line_of(path: Path, name: str) -> int:
 
 
 def digest(values: Mapping[str, Any]) -> str:
-    """Return eight characters that stand for the values of inputs."""
+    """Return eight hexadecimal digits of the SHA-256 of the inputs' values."""
     return sha256("".join(toml.lines(dict(sorted(values.items())))).encode()).hexdigest()[:8]
 
 
 def name_of(path: Path, values: Mapping[str, Any]) -> str:
-    """Return the name of the report made from these inputs: with a digest unless all are defaults."""
+    """Return the report's name: that of its file, with "-" and the digest of the values unless all are defaults."""
     inputs = declared(path)
     defaults = {name: read(one, text_of(one.default)) for name, one in inputs.items() if one.default is not None}
     return path.stem if dict(values) == defaults else f"{path.stem}-{digest(values)}"
@@ -194,6 +194,6 @@ def filled(text: str, values: Mapping[str, Any], *, markdown: bool) -> tuple[dic
 
 
 def records(path: Path) -> Iterator[dict[str, Any]]:
-    """Yield name, kind, unit, range, choices, default and help of each input of a report."""
+    """Yield a dict for each input of a report, with name, kind, unit, range, choices, default and help."""
     for name, one in declared(path).items():
         yield {"name": name} | {key: getattr(one, key) for key in one.__struct_fields__}

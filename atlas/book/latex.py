@@ -82,7 +82,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
 
 
 def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
-    """Yield the numbers of a computed table, keyed by table, row and, if there are several, column."""
+    """Yield a `Numeral` for each proven number of a computed table; its key is table/row, or table/row/column."""
     heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
     numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]
     places = {name: place for place, name in enumerate(heads)}
@@ -119,7 +119,7 @@ def _with_unit(number: str, unit: str) -> tuple[str, str]:
 
 
 def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
-    """Return a figure as a LaTeX environment, one column wide or two."""
+    """Return a figure's LaTeX environment, `figure*` over two columns if one of its pictures is wider than a column."""
     name = figure.id.removeprefix("fig-")
     files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
     kind = "figure*" if any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures) else "figure"
@@ -131,7 +131,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
 
 
 def _references(document: Document) -> str:
-    """Return the bibliography: the works that the report cites, and the atlas."""
+    """Return the BibTeX source of the report's bibliography, and an entry for the atlas."""
     key = f"""@software{{atlas,
   author  = {{{{The atlas developers}}}},
   title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
@@ -194,12 +194,12 @@ def _in_lines(tex: str) -> str:
 
 
 def _heading(text: str, title: str) -> str:
-    """Return a title that is set; in a bookmark its formulas are in plain words."""
+    """Return a title in LaTeX; one with formulas has a bookmark in plain words."""
     return rf"\texorpdfstring{{{text}}}{{{_escaped(title_words(title))}}}" if r"\(" in text else text
 
 
 def _escaped(text: str) -> str:
-    """Escape plain text for LaTeX."""
+    """Return plain text with LaTeX's special characters escaped."""
     return text.translate(_ESCAPES)
 
 
@@ -269,7 +269,7 @@ NARROW = r"\resizebox{\ifdim\width>\columnwidth\columnwidth\else\width\fi}{!}{"
 
 
 def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
-    """Return the column type of some cells: of siunitx with room for their numbers, or l for words."""
+    """Return the column type of cells: siunitx's S[table-format=...] with room for their numbers, or "l" for words."""
     numbers = [value(cell, markdown) for cell in cells if cell.text is None and cell.whole not in {"", "?"}]
     if not numbers:
         return "l"
@@ -283,7 +283,7 @@ def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
 
 
 def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
-    """Yield the share of the page's width for each column of long words in too wide a table; 0 for other columns."""
+    """Yield the share of the page's width for each column of long words, if the table is too wide; else 0."""
     long = [place for place, count in enumerate(letters) if count > MAX_CELL_LETTERS and formats[place] == "l"]
     remaining = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)
     total = sum(letters[place] for place in long)
@@ -300,13 +300,13 @@ def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
 
 
 def _plain_head(column: ColumnView, markdown: Sequence[str]) -> str:
-    """Return the head of a column with its unit, as the letters that are printed."""
+    """Return a column's heading and unit as plain text, whose letters are counted."""
     unit = "" if column.unit is None else words(markdown[column.unit])
     return words(markdown[column.head]) + f" {unit}" * (unit != "1")
 
 
 def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
-    """Return a cell: words, in braces in a column of numbers, or digits; uncertified values are starred."""
+    """Return a cell's LaTeX: words, in braces if the column is `numeric`, or digits, starred if not proven."""
     if cell.text is not None:
         return f"{{{texts[cell.text]}}}" if numeric else texts[cell.text]
     number = value(cell, ())

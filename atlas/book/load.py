@@ -64,7 +64,7 @@ def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) 
 
 
 def _consistent(report: Report, folder: Path) -> Report:
-    """Check that names are unique and that every name refers to an existing item, which types cannot."""
+    """Return the report. Raises SchemaError for a repeated name, and for a name or file that does not exist."""
     blocks = [((k, place), block) for k, page in enumerate(report.pages) for place, block in enumerate(page.blocks)]
     _unique((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
     _unique(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")
@@ -114,7 +114,7 @@ def _filled(report: Report, folder: Path) -> Report:
 
 
 def _check_reference(block: Block, report: Report, path: tuple[int, int]) -> None:
-    """Raise for a body, a field or a set of parameters that a block names and that is not there."""
+    """Raise SchemaError if a block names a body, a field or a set of parameters that [parameters] lacks."""
     records = report.parameters
     for kind, names_there, key, words in (
         ("body", records.bodies, "body", (getattr(block, "body", None),)),
@@ -138,7 +138,7 @@ def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key:
 
 
 def _in_file(line: int, lines: Sequence[int]) -> int:
-    """Return the line of the file from which a line of a filled template came."""
+    """Return the line in the file for a line of the filled template; `lines` maps them, both counted from 1."""
     return lines[min(line, len(lines)) - 1] if lines and line else line
 
 

@@ -42,7 +42,7 @@ class Piece:
 
     @property
     def text(self) -> str:
-        """The lines without empty ones before and after."""
+        """The lines as one text, without empty lines before and after."""
         return "\n".join(self.lines).strip("\n")
 
     def values(self) -> dict[str, Any]:
@@ -57,7 +57,10 @@ class Piece:
 
 
 def split(text: str) -> tuple[Piece, Iterator[Piece]]:
-    """Return the head of a report and the pieces below. Raises LineError for a head or block that does not end."""
+    """Return the head of a report, and an iterator over the pieces below it.
+
+    Raises LineError for a head or block that does not end.
+    """
     lines = text.split("\n")
     end = next((number for number, line in enumerate(lines[1:], 1) if line.rstrip() == RULE), None)
     if lines[0].rstrip() != RULE or end is None:
@@ -149,14 +152,14 @@ def _block(piece: Piece) -> dict[str, Any]:
 
 
 def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]:
-    """Return the values. Raises LineError for one of `keys`, which Markdown gives outside the TOML."""
+    """Return the values unchanged. Raises LineError if one of `keys` is among them."""
     for key in values.keys() & {*keys}:
         raise LineError(piece.line, f"this block takes no key {key!r}: the file says it outside of the TOML.")
     return values
 
 
 def fenced(block: Mapping[str, Any]) -> str:
-    """Return the Markdown of a block: its values as TOML in a fence."""
+    """Return the Markdown of a block, TOML in a fence ```{kind}; values None are left out."""
     keys = {key: value for key, value in block.items() if key != "kind" and value is not None}
     lines = "".join(f"{key} = {toml.written(value)}\n" for key, value in keys.items())
     return f"```{{{block['kind']}}}\n{lines}```\n"

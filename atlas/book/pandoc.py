@@ -80,19 +80,22 @@ def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
 
 
 def document(blocks: Tree) -> str:
-    """Return a document of some blocks as pandoc reads it."""
+    """Return pandoc's JSON of a document of these blocks."""
     return json.dumps({"pandoc-api-version": api(), "meta": {}, "blocks": blocks})
 
 
 @cache
 def api() -> list[int]:
-    """Return the version of pandoc's document trees."""
+    """Return the version of pandoc's document trees, a list of integers."""
     version: list[int] = json.loads(run(["-f", "markdown", "-t", "json"], ""))["pandoc-api-version"]
     return version
 
 
 def run(arguments: Sequence[str], source: str) -> str:
-    """Return pandoc's output. Raises AtlasError for its first warning, and for a text that takes too long."""
+    """Return pandoc's standard output for `source`.
+
+    Raises FormulaError for an unreadable formula, and AtlasError for any other warning and for too much time or memory.
+    """
     with TemporaryDirectory() as folder:
         log = Path(folder) / "log.json"
         command = [_program(), "+RTS", f"-M{MEMORY}", "-RTS", *arguments, f"--log={log}"]
@@ -115,7 +118,7 @@ def run(arguments: Sequence[str], source: str) -> str:
 
 @cache
 def _program() -> str:
-    """Return the path of the program that its package carries."""
+    """Return the path of pandoc in its package. Raises AtlasError if it is missing."""
     program = libraries.carried("pypandoc", "files/pandoc*")
     if program is None:
         raise AtlasError("the package pypandoc_binary with its pandoc is not there: install the locked dependencies.")

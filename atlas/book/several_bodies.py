@@ -135,7 +135,10 @@ def _rows(first: Card, second: Card) -> Iterator[list[str]]:
 
 
 def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
-    """Return the second number less the first, to the digits that both have; a dash where that means nothing."""
+    """Return the second number less the first as Markdown, to the digits of both; a dash for other units.
+
+    A dash also stands where one of the numbers is missing.
+    """
     if a["value"] is None or b["value"] is None or a["unit"] != b["unit"]:
         return "\N{EN DASH}"
     sigma = math.hypot(a["sigma"] or 0.0, b["sigma"] or 0.0)

@@ -215,7 +215,7 @@ def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
 
 
 def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
-    """Yield the rows of the card: words, letter, value with its error, unit, proven digits, equation."""
+    """Yield six texts for each number of the card: words, letter, value with its error, unit, digits, equation."""
     for entry in made.values():
         if entry["value"] is None:
             continue

@@ -93,9 +93,10 @@ def command(
 
 
 def through(text: str) -> tuple[str, list[Any]]:
-    """Read KEY=START:STOP:COUNT, numbers, or lists of numbers of one length, at equal steps; or KEY=a,b,c, numbers.
+    """Return (key, list of values) from KEY=START:STOP:COUNT or KEY=a,b,c.
 
-    Raises click.UsageError for anything else.
+    START and STOP are numbers, or lists of numbers of one length, and the values equal steps between them. Raises
+    click.UsageError for anything else.
     """
     import numpy as np
 

@@ -126,7 +126,7 @@ spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about 
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the given options of body and field, by name."""
+    """Return the given options of body and field by name; with --magnetic also the system of units."""
     names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
     parameters = given(options, names)
     parameters |= {"points": str(options["points"])} if "points" in parameters else {}
@@ -162,7 +162,10 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
 
 
 def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed | None) -> Any:
-    """Return the body of a shape from the typed dimensions; its mass is 1 if none was given."""
+    """Return the body of a shape from the typed dimensions; its mass is 1 without --mass and --density.
+
+    Raises click.UsageError for an unknown shape, for other dimensions, and for sizes beyond 1e150.
+    """
     from atlas.bodies.body import from_shape
 
     shapes_by_name = shapes()
@@ -208,7 +211,10 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
 
 
 def exact_tensor(options: dict[str, Any]) -> Any:
-    """Return the inertia tensor, I11 I22 I33 I12 I13 I23, or principal moments, for the certified floor."""
+    """Return the typed inertia tensor I11 I22 I33 I12 I13 I23 for certified classes; without one, the moments.
+
+    Raises click.UsageError for --decimal with --points.
+    """
     tensor = given_tensor(options)
     if tensor is None:
         return exact_moments(options)
@@ -241,7 +247,10 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> st
 
 
 def exact_moments(options: dict[str, Any]) -> Any:
-    """Return the moments of `chosen_moments` for the certified floor."""
+    """Return the moments (I1, I2, I3) for certified classes; with --decimal from the typed decimals, unrounded.
+
+    Raises click.UsageError for --decimal with --points.
+    """
     if options["decimal"] and options["points"] is not None:
         raise click.UsageError("--decimal goes with --inertia, not with --points.")
     if options["inertia"] is None and options["points"] is None:
@@ -316,7 +325,7 @@ def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return the names of the units of times and rates where known, else {}."""
+    """Return {"time": "s", "1/time": ...} as `SECONDS` if a unit or a system of units is known, else {}."""
     has_units = options.get("magnetic") is not None and system_of(options) != "natural"
     return SECONDS if has_units or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
@@ -341,7 +350,10 @@ def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> 
 
 
 def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fraction, float | Fraction]:
-    """Return (charge, mass) as typed; (mu, 1) where the ratio mu is given."""
+    """Return (charge, mass) as typed; (mu, 1.0) if --mu or --points gives the ratio mu.
+
+    Raises click.UsageError for missing or contradicting options; `needs` names the option that requires the ratio.
+    """
     mass = mass_of(options)
     option_names = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
     if options.get("points") is not None:
@@ -430,7 +442,10 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
-    """Return the initial angular velocity, (3,), from --omega or --spin; None if neither is given nor `needed`."""
+    """Return the initial angular velocity, three numbers, from --omega or from --spin as (0, 0, W3).
+
+    None if neither is given and it is not `needed`; click.UsageError for both, and for none if `needed`.
+    """
     omega, spin = options["omega"], options["spin"]
     if (needed or spin is not None) and (omega is None) == (spin is None):
         if spin is not None:

@@ -106,7 +106,10 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
 
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
-    """Grade trajectories against the motion with these parameters; show the grades, and return the exit status."""
+    """Grade trajectories, print the grades, and return the status: 1 if a column fails, else 0.
+
+    `parameters` are those of the motion, to which start and field of the options are added.
+    """
     from atlas.checking.check import check_file
     from atlas.checking.comparison import Comparison
     from atlas.checking.order import convergence

@@ -104,7 +104,7 @@ def command(file: Path, **options: Any) -> int:
 
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
-    """Return the fit that the options ask for."""
+    """Return the `Fit` of a file with these options of the command."""
     from atlas.fitting import fit_file
 
     return fit_file(file, **arguments(options))
@@ -125,7 +125,7 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """Return the prediction and its horizon, as plain data and as lines of text."""
+    """Return the predictions at the times --predict and the horizon: a dict for JSON, and lines of text."""
     record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):
         value, error = result.predict(time)

@@ -83,14 +83,17 @@ def curve_of(options: dict[str, Any]) -> Any:
 
 
 def sampled(curve: Any, count: int) -> list[float]:
-    """Return omega2 at points of both branches; for B3 = 0 on the line omega3 = 0, except at the pole."""
+    """Return `count` or more values of omega2 on both branches of (67); for B3 = 0 on the line omega3 = 0.
+
+    The pole is left out.
+    """
     if curve.B3:
         return [float(x) for x in curve.sample(count)[0]]
     return [float(x) for x in curve.branches(2 * count)[0][0] if x != curve.pole]
 
 
 def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
-    """Return the pole, the unstable band and the points."""
+    """Return a dict with "pole", "unstable_band" and "points", a list of dicts with the keys of COLUMNS."""
     rows = [dict(zip(COLUMNS, row, strict=True)) for row in zip(points, *columns, strict=True)]
     return {"pole": curve.pole, "unstable_band": curve.unstable_band, "points": rows}
 

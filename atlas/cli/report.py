@@ -24,12 +24,12 @@ class ReportCommand(Command):
     """A command whose help also lists the inputs of the reports that are named beside --help."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Note the words that may be reports: click obeys --help before it reads them."""
+        """Keep the arguments that may name reports in `ctx.obj`, since click obeys --help before they are read."""
         ctx.obj = Words(args).loose
         return super().parse_args(ctx, args)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the inputs of each report, and the options."""
+        """Write a section on the inputs of each named report, then the options."""
         for name in ctx.obj:
             from atlas.book.files import find
             from atlas.book.inputs import declared
@@ -48,7 +48,7 @@ SEVERAL = {"--each": "each", "--against": "against"}
 
 
 def _of_your_body(words: Words) -> click.Command | None:
-    """Return the command of the report your_body where that is its name."""
+    """Return the command of the report your_body, or of several bodies, if that is the name; else None."""
     if "your_body" not in words.loose:
         return None
     if words.names & set(SEVERAL):

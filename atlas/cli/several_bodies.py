@@ -63,7 +63,7 @@ def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> in
 
 
 def _built(line: int, words: list[str], out: Path, jobs: int | None) -> "tuple[Row, bool]":
-    """Return the row of a report after it is built, or with its fault, and whether all of it was drawn."""
+    """Build the report of one row; return its `Row`, with the fault if it failed, and whether all was drawn."""
     from atlas.book.several_bodies import Row, row_of
 
     try:

@@ -75,7 +75,7 @@ def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the typed parameters and, under "top", the parameters of the top by these names."""
+    """Return the typed options by name, and under "top" a dict of the computed top's attributes `names`."""
     top = chosen_top(options)
     typed_options = top_parameters(options) | given(options, ("omega", "spin", "direction"))
     return typed_options | {"top": {name: getattr(top, name) for name in names}}
@@ -98,7 +98,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 
 
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
-    """Return the heavy top; `direction` points upwards."""
+    """Return the `TopMotion` of a heavy top; `direction` (n2, n3) points upwards, omega has three components."""
     from atlas.motions.nutation.kernel_top import TopMotion
 
     if options["points"] is None:
@@ -109,7 +109,7 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
 
 
 def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
-    """Return the charged top; it may be held at a point, with its weight along the field."""
+    """Return the `TopMotion` of a charged top; with --heavy it is held at a point, with its weight along the field."""
     from atlas.bodies.body import SymmetricBody
     from atlas.motions.nutation.kernel_top import TopMotion
 
@@ -128,7 +128,7 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
 
 
 def _body(options: Mapping[str, Any]) -> Any:
-    """Return the body of --inertia, --shape or --points."""
+    """Return the `SymmetricBody` of --inertia, --shape or --points. Raises click.UsageError for options of another."""
     from atlas.bodies.body import SymmetricBody, from_shape
 
     one_of(options, "body", BODY)
@@ -163,7 +163,7 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
 
 
 def _points(path: Path) -> dict[str, Any]:
-    """Return the columns of a file of point masses and charges."""
+    """Return the columns x, y, z, mass and charge of a CSV file by name. Raises click.UsageError for other columns."""
     columns = columns_of(path)
     if set(columns) != {"x", "y", "z", "mass", "charge"}:
         raise click.UsageError(f"{path} must have the columns x, y, z, mass, charge; it has {', '.join(columns)}.")

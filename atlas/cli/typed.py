@@ -69,7 +69,7 @@ class Typed(float):
         return number
 
     def moved(self, value: float, **attributes: Any) -> Self:
-        """Return another value with the attributes of this number."""
+        """Return a copy with another value; `attributes` replace some of its text, sigma, unit and exact."""
         number = float.__new__(type(self), value)
         vars(number).update(vars(self) | attributes)
         return number
@@ -95,7 +95,7 @@ class Steps(Sequence[Typed]):
         return len(self.places)
 
     def __getitem__(self, index: Any) -> Any:
-        """Return one number, or the `Steps` of a slice."""
+        """Return the number at an index, or the `Steps` of a slice."""
         places = self.places[index]
         return replace(self, places=places) if isinstance(places, range) else self.number(places)
 
@@ -171,7 +171,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
     def _with_sigma(
         self, text: str, match: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
     ) -> Typed:
-        """Return a number with its standard deviation. Fails where uncertainties are not carried."""
+        """Return the number of a text such as 1.20(5), with its standard deviation in `sigma`.
+
+        Fails for a command or an option that carries no uncertainties.
+        """
         is_carried = getattr(ctx.command if ctx else None, "carries", False)
         if not is_carried or (param and param.name in {"times", "grid", "least"}):
             self.fail(
@@ -198,7 +201,10 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
     parts: tuple[Typed, Typed]
 
     def __new__(cls, strength_and_angle: tuple[Typed, Typed], unit: str = "") -> Self:
-        """Take the strength and the angle to the axis, degrees without rounding, and the unit of the components."""
+        """Return (strength sin(angle), strength cos(angle)), each rounded once; an angle in degrees is exact before.
+
+        `unit` is the unit of the components.
+        """
         from flint import arb, fmpq
 
         from atlas.arithmetic.numbers import rounded
@@ -218,12 +224,12 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
 
 
 def joined(numbers: Sequence[Sequence[Typed]]) -> Sequence[Typed]:
-    """Return the numbers of several words in a row, a range alone as it is."""
+    """Return the numbers of several words as one tuple; of a single word as they are, `Steps` for a range."""
     return numbers[0] if len(numbers) == 1 else tuple(chain.from_iterable(numbers))
 
 
 def parts_of(value: Any) -> tuple[Any, ...]:
-    """Return the numbers of an option as a tuple, of a range the ends."""
+    """Return the numbers of an option as a tuple: of a range its two ends, of a single number one."""
     if isinstance(value, Steps):
         return value[0], value[-1]
     return value if isinstance(value, tuple) else (value,)
@@ -240,7 +246,7 @@ def check_units(option: str, value: Any) -> None:
 
 
 def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
-    """Return (option, number) for each number typed with a unit."""
+    """Return pairs (name of the option, number) for all numbers typed with a unit."""
     return [(name, x) for name, value in options.items() for x in parts_of(value) if isinstance(x, Typed) and x.unit]
 
 

@@ -81,7 +81,10 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
 
 
 def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int:
-    """Show verdicts, at length for entries given by name, and differences from the record; return the exit status."""
+    """Print verdicts, as JSON or a table, and on standard error each difference from the record.
+
+    With `named` the parts of each verdict follow. Returns 1 for a difference, unless they are recorded, else 0.
+    """
     from atlas.trial.proofs.recorded import differs
 
     different = differs(verdicts)
@@ -114,7 +117,7 @@ def _script(verdict: Any) -> int:
 
 
 def _table(verdicts: Any) -> None:
-    """Show the verdicts, a line each."""
+    """Print the verdicts as a table with one line each."""
     heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
     rows = [
         [
@@ -146,7 +149,7 @@ def _details(verdict: Any, *, named: bool) -> str:
 
 
 def _reading(phrase: str, line: str) -> str:
-    """Return the fate of a phrase of the formula that is more than a relation."""
+    """Return a sentence on a phrase of the formula: as which equation it was tried, or that it was supposed."""
     sentence = " ".join(plain(f"${phrase}$").split())
     return f"{sentence}: {f'tried as {line}' if line else 'supposed, or tried in a further line'}"
 
@@ -163,7 +166,7 @@ def _proof(verdict: Any) -> list[str]:
 
 
 def _totals(verdicts: Any) -> None:
-    """Print how many verdicts and slips of each kind there are."""
+    """Print the count of each verdict, the time of all trials, and the count of each kind of slip."""
     from atlas.trial.proofs.verdict import slips
 
     totals = Counter(verdict.verdict for verdict in verdicts)

@@ -44,7 +44,11 @@ def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
 
 
 def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dict[str, Any]:
-    """Return picture, numbers and command; the numbers are certified if `proven`, else of doubles."""
+    """Return the answer to the page as a dict: "scene", "size", "alt", "numbers" and "command".
+
+    "scene" is None for a picture that is not in space; "numbers" is empty for recipes. The numbers are certified if
+    `proven`, else doubles.
+    """
     with DRAWING:
         from atlas.pictures.drawing import viewer
 
@@ -56,7 +60,7 @@ def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dic
 
 
 def turning(scene: Scene) -> Scene:
-    """Return a scene with only its panels in space, without titles, over its full width."""
+    """Return a scene with only its panels in space, without titles; the height is that of the remaining rows."""
     panels = tuple(replace(panel, title="") for panel in scene.panels if isinstance(panel, Space))
     columns, rows = min(scene.columns, len(panels)), -(-len(scene.panels) // scene.columns)
     width, height = scene.size
@@ -65,7 +69,7 @@ def turning(scene: Scene) -> Scene:
 
 
 def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
-    """Return the picture as a file of a kind of `FILES`."""
+    """Return the picture as the bytes of a file of this kind, such as "svg"."""
     from atlas.pictures.drawing import save
 
     with DRAWING, TemporaryDirectory() as folder:
@@ -75,7 +79,10 @@ def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
 
 
 def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
-    """Yield the quantities as texts with their certainty, from balls where `proven` and available."""
+    """Yield for each quantity a dict of texts: name, says, value, sure (its certainty) and unit.
+
+    Values come from balls where `proven` and available, else from doubles; "none", with the reason, for DomainError.
+    """
     family, kernels = subject.family, subject.kernels(values)
     case = family.case(kernels)
     balls = family.balls()(*subject.arguments(values).values()) if proven else None
@@ -94,7 +101,7 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
 
 
 def _has(balls: Any, q: Quantity) -> bool:
-    """Return whether a quantity has a certified value."""
+    """Return whether the motion in balls has a certified value of this quantity."""
     return bool(q.certified or q.printed or q.checked) and bool(q.exact or q.get or hasattr(balls, q.name))
 
 
@@ -115,14 +122,14 @@ def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
 
 
 def _joined(q: Quantity, value: Any) -> str:
-    """Return the texts of a quantity as one."""
+    """Return the values of a quantity as one text, "none" for None; lines are separated by semicolons."""
     if value is None:
         return "none"
     return "; ".join(map(str, map(q.text, value))) if q.lines else str(q.text(value))
 
 
 def _number_text(value: Any) -> Any:
-    """Return the text of a number, of each of several; a name stays."""
+    """Return a number as text of six digits, a sequence as a list of such texts; text and None are unchanged."""
     if isinstance(value, complex):
         return [_number_text(value.real), _number_text(value.imag)]
     if isinstance(value, tuple | list) or np.ndim(value):

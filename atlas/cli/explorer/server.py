@@ -76,13 +76,13 @@ class Explorer(ThreadingHTTPServer):
         self.hosts = {f"{name}:{self.server_address[1]}" for name in (HOST, "localhost")}
 
     def ticket(self) -> str:
-        """Return a new address that opens the explorer, once."""
+        """Return a new URL that opens the explorer once."""
         new = secrets.token_urlsafe(24)
         self.tickets.add(new)
         return f"http://{HOST}:{self.server_address[1]}/{new}"
 
     def admits(self, ticket: str) -> bool:
-        """Return whether an address opens the explorer; it does not again."""
+        """Return whether a ticket is valid, and invalidate it."""
         used = {one for one in [*self.tickets] if _same(one, ticket)}
         self.tickets -= used
         return bool(used)
@@ -103,7 +103,7 @@ class Handler(BaseHTTPRequestHandler):
     server: Explorer
 
     def do_GET(self) -> None:
-        """Answer, or refuse."""
+        """Answer a request with a page or data, or with status 400, 403 or 404 for one that is refused."""
         try:
             url = urlsplit(self.path)
         except ValueError:  # as `http://[::1/`
@@ -131,7 +131,10 @@ class Handler(BaseHTTPRequestHandler):
             self._send(HTTPStatus.OK, *content)
 
     def _refused(self, folder: str) -> str:
-        """Return why a request for the first part of an address is refused, or nothing."""
+        """Return the reason why a request is refused, "" if it is not; `folder` is the first part of its path.
+
+        Refused are another host or origin, and a request with neither the session's cookie nor a valid ticket.
+        """
         if self.headers.get("Host", "") not in self.server.hosts:
             return "this server answers at 127.0.0.1 only"
         origin = self.headers.get("Origin")
@@ -160,16 +163,16 @@ class Handler(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def log_message(self, *_: Any) -> None:
-        """Keep the terminal quiet: an address may be one that opens the explorer."""
+        """Log nothing: an address in the terminal may be one that opens the explorer."""
 
 
 def _same(one: str, other: str) -> bool:
-    """Compare two texts in constant time."""
+    """Return whether two texts are equal, compared in constant time."""
     return hmac.compare_digest(one.encode(), other.encode())
 
 
 def _requested_subject(server: Explorer, query: dict[str, str]) -> Subject:
-    """Return the subject named in a query: the one given at the start, or a listed one; never another file."""
+    """Return the subject named in a query: the explorer's start, which may be a file, or a listed family or figure."""
     name = query.pop("subject", "")
     return subject_or_file(name) if name == server.start else subject(name)
 

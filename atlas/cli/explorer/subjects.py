@@ -25,7 +25,7 @@ class OfFamily:
 
     @property
     def name(self) -> str:
-        """Its name in the register."""
+        """Name of the family in the register."""
         return self.family.name
 
     @property
@@ -35,7 +35,7 @@ class OfFamily:
 
     @property
     def moves(self) -> bool:
-        """Return whether the subject has a rotation matrix, so that a body can be shown at a time."""
+        """Return whether the family has a rotation matrix R(t), so that a body can be drawn at a time."""
         return any(sampled.name == "R" for sampled in self.family.sampled)
 
     @cached_property
@@ -67,7 +67,7 @@ class OfFamily:
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
 
     def command(self, values: Mapping[str, float]) -> str:
-        """Return the command line that gives the same numbers."""
+        """Return the command line of the same numbers, as text; --times is added only if the family has R."""
         arguments, words = self.arguments(values), ["atlas", *self.family.words]
         for p in self.family.parameters:
             value = arguments[p.name]
@@ -94,7 +94,7 @@ class OfRecipe:
 
     @cached_property
     def sliders(self) -> list[Slider]:
-        """The sliders of all numbers and lists of numbers that have a default."""
+        """Sliders of the recipe's parameters whose defaults are numbers or tuples of numbers."""
         return [slider for key, default in self.recipe.parameters.items() for slider in self._slider(key, default)]
 
     def _slider(self, key: str, default: Any) -> Iterator[Slider]:
@@ -115,7 +115,7 @@ class OfRecipe:
             yield Slider(name, MEANINGS.get(key, key), low, high, step, start, letters(name))
 
     def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
-        """Return the recipe's parameters by name, numbers from the sliders and other values by default."""
+        """Return the parameters that have sliders, by name, from the sliders' values; integers stay integers."""
         parameters: dict[str, Any] = {}
         for key, default in self.recipe.parameters.items():
             parts = default if isinstance(default, tuple) else (default,)
@@ -130,7 +130,7 @@ class OfRecipe:
         return self.recipe.scene(**self.parameters(values))
 
     def command(self, values: Mapping[str, float]) -> str:
-        """Return the command line that draws the same."""
+        """Return the command line that draws the same figure, as text."""
         from atlas.pictures.parameters import typed
 
         settings = [f"{key}={typed(value)}" for key, value in self.parameters(values).items()]
