@@ -20,11 +20,8 @@ from atlas.errors import AtlasError
 WRITTEN = ".written"
 """The list of a folder's files as they were written, in it: lines of digest and name, as `sha256sum` has them."""
 
-IGNORED = f"# notes of atlas, which it makes again\n.gitignore\n{WRITTEN}\n*.costs.json\n"
-"""The file .gitignore of a folder that files are written to."""
-
-EXCLUDED = f"# notes of atlas, which it makes again\n/{WRITTEN}\n/*.costs.json\n"
-"""What a repository's own exclusions have where files are written to its root."""
+EXCLUDED = f"# notes of atlas, which it makes again\n{WRITTEN}\n*.costs.json\n"
+"""Lines in the exclusions of a git repository that files are written to."""
 
 MAX_LINE_LENGTH = 1 << 20
 """Characters of a line that is read."""
@@ -191,19 +188,19 @@ def listed(lines: Iterable[str]) -> str:
 
 
 def hide_notes(folder: Path) -> None:
-    """Let git see no notes of ours in a user's repository.
-
-    In a folder below its root by a .gitignore, unless the folder has one; at the root by the file of its exclusions,
-    which git shows nobody.
-    """
-    ignore, here = folder / ".gitignore", folder.resolve()
-    if (here / ".git" / "info").is_dir():
-        exclude = here / ".git" / "info" / "exclude"
+    """Let git see no notes of ours in a user's repository: by its own exclusions, which it shows nobody."""
+    here = folder.resolve()
+    git = next((top / ".git" for top in (here, *here.parents) if (top / ".git").exists()), None)
+    if git is None:
+        return
+    if git.is_file():  # of a worktree or a submodule: the repository's folder stands in it
+        git = git.parent / git.read_text(encoding="utf-8").removeprefix("gitdir:").strip()
+    common = git / "commondir"
+    exclude = git / (common.read_text(encoding="utf-8").strip() if common.exists() else "") / "info" / "exclude"
+    with suppress(OSError):  # of a repository that we may only read
         text = exclude.read_text(encoding="utf-8") if exclude.exists() else ""
         if EXCLUDED not in text:
             write(exclude, f"{text.rstrip()}\n{EXCLUDED}".lstrip())
-    elif not os.path.lexists(ignore) and any((above / ".git").exists() for above in here.parents):
-        write(ignore, IGNORED)
 
 
 def edited(folder: Path, name: str, lines: set[str]) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from packaging.requirements import Requirement
+from tests_support import names
 
 from atlas import files
 from atlas.book.building import publish
@@ -125,24 +126,27 @@ def test_the_locks_have_every_dependency_in_its_range() -> None:
 
 
 def test_git_sees_requested_files_and_no_internal_records(tmp_path: Path) -> None:
-    """In a repository of the user's; a .gitignore of their own stays as it is, and elsewhere none is made."""
-    theirs, plain = tmp_path / "theirs", tmp_path / "plain"
-    git = [str(shutil.which("git")), "-C", str(theirs)]
-    theirs.mkdir()
-    subprocess.run([*git, "init", "-q"], check=True, capture_output=True)
+    """In a repository of the user's and a worktree of it, beside a .gitignore of their own; nothing else is made."""
+    theirs, tree, plain = (tmp_path / name for name in ("theirs", "tree", "plain"))
+    git = [str(shutil.which("git")), "-c", "user.name=A", "-c", "user.email=a@b", "-C"]
+
+    def said(folder: Path, *words: str) -> str:
+        return subprocess.run([*git, folder, *words], check=True, capture_output=True, text=True).stdout
+
+    (theirs / "own").mkdir(parents=True)
+    said(theirs, "init", "-q")
+    (theirs / "own" / ".gitignore").write_text("*.log\n")
+    said(theirs, "add", ".")
+    said(theirs, "commit", "-qm", "first")
+    said(theirs, "worktree", "add", "-q", str(tree))
     for _ in range(2):
-        for folder in (theirs, theirs / "made", theirs / "a" / "b", plain):
-            with files.keeping(folder / "t.csv") as part:
-                part.write_text("1")
-            files.write(folder / "t.costs.json", "{}")
-        publish.replace(theirs / "pages", {"index.html": b"page", "s/a.css": b""})
-        listed = subprocess.run([*git, "status", "--short", "-uall"], check=True, capture_output=True, text=True).stdout
-        there = {line.split()[1] for line in listed.splitlines()}
-        assert there == {"t.csv", "a/b/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
-    assert not any((folder / ".gitignore").exists() for folder in (theirs, plain))
-    own = theirs / "own"
-    own.mkdir()
-    (own / ".gitignore").write_text("*.log\n")
-    with files.keeping(own / "t.csv") as part:
-        part.write_text("1")
-    assert (own / ".gitignore").read_text() == "*.log\n"
+        for top in (theirs, tree):
+            for folder in (top, top / "made", top / "own", plain):
+                with files.keeping(folder / "t.csv") as part:
+                    part.write_text("1")
+                files.write(folder / "t.costs.json", "{}")
+            publish.replace(top / "pages", {"index.html": b"page", "s/a.css": b""})
+            there = {line.split()[1] for line in said(top, "status", "--short", "-uall").splitlines()}
+            assert there == {"t.csv", "own/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
+    assert names(plain) == ["t.costs.json", "t.csv"]
+    assert (theirs / "own" / ".gitignore").read_text() == "*.log\n"
