@@ -4,6 +4,7 @@ import webbrowser
 from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Thread
 from urllib.parse import urlencode
 
 import click
@@ -60,7 +61,8 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
                 page = Path(folder, "explore.html")
                 page.write_text(OPENS.format(escape(server.ticket())), "utf-8")
                 page.chmod(0o600)
-                webbrowser.open(page.as_uri())
+                # a browser of the variable BROWSER may return only when it is closed
+                Thread(target=webbrowser.open, args=[page.as_uri()], daemon=True).start()
             server.serve_forever()
         except KeyboardInterrupt:
             click.echo("ended", err=True)

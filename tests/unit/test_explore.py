@@ -293,14 +293,17 @@ def test_a_name_that_a_page_sends_is_never_a_file(server: Explorer, tmp_path: Pa
 @pytest.mark.slow
 @pytest.mark.skipif(os.getuid() != 0 or not which("setpriv"), reason="needs root, to become another user")
 def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
-    """The arguments of all processes, the file that the browser is given, and the socket tell another user nothing."""
+    """The arguments of all processes, the file that the browser is given, and the socket tell another user nothing.
+
+    The server answers while the browser runs, which the variable BROWSER without & waits for.
+    """
     browser = tmp_path / "browser"
     browser.write_text(
         f"#!/bin/sh\nprintf '%s' \"$1\" >{tmp_path}/given.new\nmv {tmp_path}/given.new {tmp_path}/given\nexec sleep 60"
     )
     browser.chmod(0o755)
     words = [sys.executable, "-m", "atlas", "explore", "ball"]
-    environment = os.environ | {"BROWSER": f"{browser} %s &", "DISPLAY": ""}
+    environment = os.environ | {"BROWSER": f"{browser} %s", "DISPLAY": ""}
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as program:
         try:
             address = program.stdout.readline().strip()
