@@ -261,7 +261,8 @@ def width(executor: Any, jobs: int | None) -> int:
     if executor is None:
         return jobs or processors()
     if hasattr(executor, "ncores"):
-        return max(1, int(sum(executor.ncores().values())))
+        with _workers_lost(executor, Exception):
+            return max(1, int(sum(executor.ncores().values())))
     return int(getattr(executor, "_max_workers", processors()))
 
 
@@ -284,14 +285,16 @@ def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, worke
             return
     remote_plan, engine, waiting = None, cast("Any", executor or processes), deque[Future[Made]]()
     if hasattr(executor, "get_executor"):
-        engine = executor.get_executor(pure=False)
-        # the plan itself goes there once: a client keeps its last 1000 messages
-        remote_plan = None if plan.listed else executor.submit(replace, plan, pure=False)
-    with processes or nullcontext(), _workers_lost():
+        with _workers_lost(executor, Exception):
+            engine = executor.get_executor(pure=False)
+            # the plan itself goes there once: a client keeps its last 1000 messages
+            remote_plan = None if plan.listed else executor.submit(replace, plan, pure=False)
+    with processes or nullcontext(), _workers_lost(executor, BrokenExecutor, CancelledError):
         try:
             for start, stop in spans:
                 rows = (remote_plan, start, stop) if remote_plan else (plan.list_of(start, stop), 0, stop - start)
-                waiting.append(engine.submit(make, *rows, table))
+                with _workers_lost(executor, Exception):
+                    waiting.append(engine.submit(make, *rows, table))
                 if len(waiting) > PARTS_AHEAD * workers:
                     yield waiting.popleft().result()
             while waiting:
@@ -302,15 +305,16 @@ def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, worke
 
 
 @contextmanager
-def _workers_lost() -> Iterator[None]:
-    """Context in which a sudden end of workers, or of a client's scheduler, is raised as an AtlasError."""
+def _workers_lost(executor: Any, *faults: type[BaseException]) -> Iterator[None]:
+    """Context in which these faults, the end of workers or of a client's scheduler, are raised as an AtlasError."""
     try:
         yield
-    except (BrokenExecutor, CancelledError) as error:
+    except faults as error:
         reason = " ".join(str(error).split()).removesuffix(".") or type(error).__name__
+        call = "the same call" if executor is None else "a call with a new executor or client"
         raise AtlasError(
-            f"The processes that compute the table came to a sudden end ({reason}); parts that were made are kept: the "
-            "same call goes on from them."
+            f"The processes that compute the table came to a sudden end ({reason}); parts that were made are kept: "
+            f"{call} goes on from them."
         ) from error
 
 

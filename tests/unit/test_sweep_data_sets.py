@@ -1,7 +1,13 @@
 """Tables of a sweep as Parquet data sets, here, at an address, and on Dask."""
 
 import gc
-from concurrent.futures import ProcessPoolExecutor
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -113,3 +119,53 @@ def test_dask_keeps_no_parameters_of_parts_that_are_done(tmp_path: Path, out: st
     with dask_client(1) as client:
         atlas.sweep("elementary", GRID, NAMES, f"{tmp_path}/{out}", rows=8, executor=client)
         assert plans() < before + 5
+
+
+@contextmanager
+def scheduler_and_worker(folder: Path) -> Iterator[tuple[Any, str]]:
+    """Give a scheduler of Dask in a process of its own, with a worker, and its address."""
+    file = folder / "scheduler.json"
+    begin = [sys.executable, "-m"]
+    common = ["--scheduler-file", str(file), "--no-dashboard"]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with (
+        subprocess.Popen([*begin, "distributed.cli.dask_scheduler", "--port", "0", *common], **quiet) as scheduler,
+        subprocess.Popen([*begin, "distributed.cli.dask_worker", "--no-nanny", *common], **quiet) as worker,
+    ):
+        try:
+            while not file.exists() or not file.read_text():
+                time.sleep(0.05)
+            yield scheduler, json.loads(file.read_text())["address"]
+        finally:
+            scheduler.kill()
+            worker.kill()
+
+
+@pytest.mark.slow
+def test_a_lost_scheduler_is_told_and_another_client_goes_on(tmp_path: Path) -> None:
+    """Lost in the midst of the table, and before it: one sentence each, and no part is made again."""
+    distributed = pytest.importorskip("distributed")
+    out, made = tmp_path / "t.csv", list[int]()
+
+    def lose(done: int, _: int) -> None:
+        made.append(done)
+        if len(made) == 3:
+            scheduler.kill()
+
+    told = "came to a sudden end .*a call with a new executor or client goes on"
+    with scheduler_and_worker(tmp_path) as (scheduler, address), distributed.Client(address, timeout=5) as client:
+        for _ in range(2):  # at the second call the scheduler is gone
+            with pytest.raises(AtlasError, match=told):
+                atlas.sweep("elementary", GRID, NAMES, out, rows=8, executor=client, progress=lose)
+    with dask_client(1) as client:
+        client.close()
+        with pytest.raises(AtlasError, match=told):
+            atlas.sweep("elementary", GRID, NAMES, out, rows=8, executor=client)
+    with ThreadPoolExecutor(1) as ended:
+        ended.shutdown()
+        with pytest.raises(AtlasError, match=told):
+            atlas.sweep("elementary", GRID, NAMES, out, rows=8, executor=ended)
+    first = list[int]()
+    atlas.sweep("elementary", GRID, NAMES, out, rows=8, progress=lambda done, _: first.append(done))
+    assert first[0] > 8 * 3
+    assert out.read_bytes() == atlas.sweep("elementary", GRID, NAMES, tmp_path / "u.csv").read_bytes()
