@@ -2,6 +2,7 @@
 
 import _signal as signal  # type: ignore[import-not-found]
 import sys
+from types import FrameType
 
 import atlas  # noqa: F401  lets Ctrl-C end the process at once while the imports below run
 
@@ -13,9 +14,21 @@ ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Signals that end a command in order, unless the process that started it had them ignored."""
 
 
-def interrupt(number: int, _: object) -> None:
-    """Raise KeyboardInterrupt with the number of the signal."""
-    raise KeyboardInterrupt(number)
+DELAY, delays = 0.001, iter(range(2000))
+"""Seconds for which a signal waits while a module is loaded, and how often at most."""
+
+
+def interrupt(number: int, frame: FrameType | None) -> None:
+    """Raise KeyboardInterrupt with the number of the signal.
+
+    While a module is loaded the signal comes again later: code of a library might take the exception for its own.
+    """
+    while frame is not None and "importlib" not in frame.f_code.co_filename:
+        frame = frame.f_back
+    if frame is None or next(delays, None) is None:
+        raise KeyboardInterrupt(number)
+    signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(number))
+    signal.setitimer(signal.ITIMER_REAL, DELAY)
 
 
 def main() -> None:
@@ -28,6 +41,7 @@ def main() -> None:
     except KeyboardInterrupt as error:  # in the first or last instructions of the command line
         sys.exit(128 + error.args[0])
     finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
         for number in heeded:
             signal.signal(number, signal.SIG_DFL)
 

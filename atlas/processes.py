@@ -2,18 +2,20 @@
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from signal import SIG_BLOCK, SIG_DFL, SIG_SETMASK, SIGHUP, SIGINT, SIGTERM, getsignal, pthread_sigmask, signal
-from threading import Thread, current_thread, main_thread
+from threading import Thread, Timer, current_thread, main_thread
 from typing import Any
 
 SAFE = "PYTHONSAFEPATH"
 """As the option -P of Python, which a process inherits."""
 ENDING = (SIGINT, SIGTERM, SIGHUP)
 """Signals that end a command in order."""
+PATIENCE = 1.0
+"""Seconds for which calls in progress are waited for after an error or Ctrl-C, before their processes are ended."""
 DRAWING = "atlas.book.building.loaded"
 """Module that imports the libraries that draw figures."""
 
@@ -87,13 +89,24 @@ class _Pool(ProcessPoolExecutor):
                 process.kill()
         super().shutdown(wait, cancel_futures=cancel_futures)
 
-    def __exit__(self, *_: object) -> None:
-        """Cancel the calls that have not begun, and wait for the others.
+    def __exit__(self, fault: type[BaseException] | None, *_: object) -> None:
+        """Cancel the calls that have not begun, and wait for the others; where nobody wants these, not for long.
 
         The executor's thread cancels these calls. `Future.cancel` called from here while a worker dies would stop that
         thread by an InvalidStateError, and nothing would end the waiting.
         """
+        end = Timer(PATIENCE, self._kill, ([*(self._processes or {}).values()], vars(self)["_call_queue"]))
+        if fault is not None:
+            end.start()
         self.shutdown(cancel_futures=True)
+        end.cancel()
+
+    @staticmethod
+    def _kill(running: Sequence[Any], calls: Any) -> None:
+        """End processes in the midst of their calls; nobody reads any more of the queue of calls."""
+        calls.cancel_join_thread()
+        for process in running:
+            process.kill()
 
 
 @contextmanager

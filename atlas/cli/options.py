@@ -150,7 +150,8 @@ def chosen_times(options: dict[str, Any]) -> Sequence[float]:
 
     def time(i: int) -> Typed:
         t = first_step + by * i
-        return start.moved(t / denominator, text=f"{t}/{denominator}", unit="")
+        moved: Typed = start.moved(t / denominator, text=f"{t}/{denominator}", unit="")
+        return moved
 
     times = Steps(range(int(count)), time)
     try:

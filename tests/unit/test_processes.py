@@ -57,7 +57,10 @@ def test_a_signal_to_the_group_ends_a_sweep(tmp_path: Path, number: signal.Signa
 @pytest.mark.parametrize("module", ["typing", "click", "flint"])
 def test_ctrl_c_while_libraries_are_loaded_prints_no_traceback(tmp_path: Path, module: str) -> None:
     """At the start of the package, of the command line, and in the midst of a command; by file, module and script."""
-    (tmp_path / f"{module}.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    (tmp_path / f"{module}.py").write_text(
+        "import os, signal, sys\nos.kill(os.getpid(), signal.SIGINT)\n"
+        f"sys.path.remove(os.path.dirname(__file__))\ndel sys.modules[__name__]\nimport {module}\n"
+    )
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1".split()
     environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
     script = tmp_path / "atlas"  # as pip writes it
@@ -68,6 +71,47 @@ def test_ctrl_c_while_libraries_are_loaded_prints_no_traceback(tmp_path: Path, m
         )
         assert done.stdout == ""
         assert (done.returncode, done.stderr.strip()) in {(-signal.SIGINT, ""), (130, "atlas: interrupted")}
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("interrupts")
+def test_ctrl_c_is_not_lost_in_a_library(tmp_path: Path) -> None:
+    """One that is loaded and takes the exception for its own; one that never ends its loading is ended."""
+    (tmp_path / "flint.py").write_text(
+        "import os, signal, time\ntry:\n    os.kill(os.getpid(), signal.SIGINT); time.sleep(0.05)\n"
+        "except BaseException: pass\nwhile os.environ['ENDLESS'] == 'yes': time.sleep(0.01)\n"
+        "def __getattr__(name): return time.sleep(9)\n"
+    )
+    for endless in ("yes", "no"):
+        begun = time.monotonic()
+        done = subprocess.run(
+            [sys.executable, MAIN, *"motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1".split()],
+            env=os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}", "ENDLESS": endless},
+            capture_output=True, text=True, check=False, timeout=60,
+        )  # fmt: skip
+        assert (done.returncode, done.stderr.strip(), done.stdout) == (130, "atlas: interrupted", "")
+        assert time.monotonic() - begun < 8
+
+
+@pytest.mark.slow
+def test_an_error_waits_for_no_long_call() -> None:
+    """A row of many digits takes a minute: its process is ended, also with more in the queue than a pipe holds."""
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        _give_up()
+    assert time.monotonic() - begun < 15
+
+
+def _give_up() -> None:
+    with processes.pool(2) as pool:
+        for _ in range(9):
+            pool.submit(_wait, 30.0, bytes(1 << 20))
+        time.sleep(1.0)
+        raise KeyboardInterrupt
+
+
+def _wait(seconds: float, _: bytes) -> None:
+    time.sleep(seconds)
 
 
 def test_workers_are_never_interrupted() -> None:
