@@ -48,7 +48,7 @@ def layers() -> Data:
 
 
 def _explained(start: str, kinds: Mapping[str, type], end: str, says: str) -> Data:
-    """Return a table of classes: name, first sentence, and attributes, the required ones in bold."""
+    """Return a `Data` with a row for each class: name, first sentence of its docstring, keys (required ones bold)."""
     rows = [(name, _first_sentence(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
     return Data(heads(start, "What it is", end), tuple(rows), says)
 
@@ -60,7 +60,7 @@ def _first_sentence(kind: type) -> str:
 
 
 def _keys(kind: Any) -> Iterator[str]:
-    """Yield the keys of a record with their defaults, or the fields of a layer, as Markdown."""
+    """Yield the keys of a record, or the fields of a dataclass, as Markdown with defaults; required ones are bold."""
     if is_dataclass(kind):
         for field in fields(kind):
             yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"

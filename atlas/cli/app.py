@@ -82,7 +82,10 @@ class Atlas(click.Group):
             raise click.exceptions.Exit(_reader_gone()) from error
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        """Return the command; name the new place of a removed one. `help NAME` is the help of a command, or of all."""
+        """Return (name, command, arguments) as click does; `help NAME` is NAME --help, `help` alone prints the help.
+
+        Raises click.UsageError for an unknown command, and for a removed one with its new place.
+        """
         if args[0] == "help":
             if len(args) == 1:
                 click.echo(ctx.get_help())
@@ -177,7 +180,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def explained(error: click.ClickException) -> str:
-    """Return the message of an error; of one of click's parser with the option's help and the place of the rest."""
+    """Return the message of an error; to an error of click's parser are added the option's help and "see --help"."""
     message = error.format_message()
     if not isinstance(error, click.UsageError) or error.ctx is None or not message.startswith(CLICK):
         return message
@@ -188,13 +191,13 @@ def explained(error: click.ClickException) -> str:
 
 
 def _reader_gone() -> int:
-    """Let no more be written to a pipe whose reader has gone; return the exit status of who dies by SIGPIPE."""
+    """Redirect standard output to nothing, after its reader has gone; return the status of an end by SIGPIPE, 141."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 128 + SIGPIPE
 
 
 def show_warning(otherwise: Callable[..., None], message: Any, category: type[Warning], *place: Any) -> None:
-    """Print a warning of the atlas as one line, any other as Python does."""
+    """Print a warning of the atlas as one line on standard error; pass any other to the function `otherwise`."""
     if issubclass(category, AtlasWarning):
         complain(str(message), 0)
     else:
@@ -202,7 +205,7 @@ def show_warning(otherwise: Callable[..., None], message: Any, category: type[Wa
 
 
 def complain(sentence: str, status: int) -> int:
-    """Print one line on standard error, without control characters, and return the exit status."""
+    """Print one line on standard error, long words cut, without control characters; return `status`."""
     words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
     from atlas.trial.ledger.plain import printable
 
@@ -218,7 +221,7 @@ NEAR: Mapping[str, str] = {
 
 
 def write_plainly() -> None:
-    """Let standard output and standard error never fail over a letter, and write each line when it ends.
+    """Set standard output and error to replace characters that their encoding lacks, and to write line by line.
 
     Where the encoding is ASCII, click writes through a stream of its own, which would overtake lines that wait.
     """
@@ -230,7 +233,10 @@ def write_plainly() -> None:
 
 
 def _replaced(error: UnicodeError) -> tuple[str, int]:
-    """Return the replacement of characters that the console cannot show."""
+    """Return the nearest ASCII text for characters that the console cannot show, and the position after them.
+
+    A handler for `codecs.register_error`; raises the error again unless it is of encoding.
+    """
     if not isinstance(error, UnicodeEncodeError):
         raise error
     from unicodedata import normalize

@@ -53,7 +53,10 @@ def report_options(out: str) -> Callable[[Any], Any]:
 
 
 def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str:
-    """Return parts in their order, "" for all. Raises AtlasError for an unknown one."""
+    """Return the names of parts, separated by commas, in the report's order; "" if all are named or none.
+
+    Raises AtlasError for an unknown name.
+    """
     chosen = text.split(",") if text else []
     for name in chosen:
         if name not in PARTS:
@@ -62,7 +65,7 @@ def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str
 
 
 def command_of(family: Family) -> click.Command:
-    """Make the command of a family, which returns the request that its options are, and these."""
+    """Return the command of a family, which returns the pair (request, options by name)."""
     more = [
         report_options("build/report"),
         click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
@@ -83,7 +86,7 @@ COMMANDS: dict[str, click.Command] = {one.page: command_of(one) for one in FAMIL
 
 
 def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
-    """Return a request with the standard deviations of the numbers of its card, and its options."""
+    """Return (request, options); for uncertain options the request has deviations of the card's numbers in `sigma`."""
     from atlas.book.card import numbers
 
     family, names = wanted.family, [p.name for p in wanted.family.parameters]
@@ -123,12 +126,12 @@ class ByOptions(click.Group):
 
 
 def typed_in(option: str, file: str = "") -> list[str]:
-    """Return the words that a file of inputs holds, one of the gallery by its name alone.
+    """Return the words of a command that a file of inputs holds; `file` is a path or a name in the gallery.
 
     Raises
     ------
     click.UsageError
-        For another file.
+        For another file; `option` is the option named in the message.
     """
     gallery = {path.name.removesuffix(ENDING): path for path in (folder("reports") / "bodies").glob(f"*{ENDING}")}
     if file and not Path(file).suffix and not Path(file).exists() and file not in gallery:
@@ -143,7 +146,10 @@ def typed_in(option: str, file: str = "") -> list[str]:
 
 
 def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
-    """Return the arguments of a motion in given axes as those along the own axes of its class; none if the same."""
+    """Return the command and the arguments that give a motion along the principal axes; [] if no axes are given.
+
+    A note on the change is printed on standard error.
+    """
     with COMMANDS[args[0]].make_context(args[0], args[1:], parent) as context:
         options = context.params
         motion = motion_in_given_axes(options)
@@ -168,7 +174,7 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
 
 
 def best(words: Words) -> str:
-    """Return the command that fits the options: with fewest unknown, then fewest missing options."""
+    """Return the name of the command that fits the options: with fewest unknown, then fewest missing options."""
     known = {name for one in COMMANDS.values() for param in one.params for name in param.opts}
     option_by_name = {next(iter(get_close_matches(x.name, known, 1)), x.name): x for x in words.options}
 
@@ -187,7 +193,7 @@ def best(words: Words) -> str:
 
 
 def asked(family: Family, options: dict[str, Any]) -> "Asked":
-    """Return the request of a report from the options of its command."""
+    """Return the request, an `Asked`, of a report from the options of its command by name."""
     from atlas.book.parts import Asked
 
     body.check_speeds(options)
@@ -235,7 +241,7 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
 
 
 def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
-    """Return quantities, symbols, values with standard deviations in brackets and units, a row each; and notes."""
+    """Return rows of four texts, quantity, symbol, value with deviation, unit, and a list of notes."""
     spread = spread_of(family, options | {"decimal": False})
     lines = lines_of_quantities(family, spread.texts(), options, family.command.named if family.command else "")
     rows = [
@@ -247,7 +253,7 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
 
 
 def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
-    """Return the options typed at the command line among `names`, each with its words."""
+    """Return the words of each option among `names` that was typed, by the option's name without dashes."""
     context = click.get_current_context()
     words_by_option: dict[str, tuple[str, ...]] = {}
     for param in context.command.params:
@@ -285,7 +291,7 @@ def _exact(x: Any) -> float | str:
 
 
 def _body(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the body as a report file has it."""
+    """Return the body's record for a report file, a dict of its title and its typed inputs as plain numbers."""
     of_field = {"field", "magnetic", "mu", "units"}
     parameters = {
         name: _plain(value)
@@ -326,7 +332,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _field_words(field: Any, unit: str = "") -> str:
-    """Return a field in words: strength and angle if so typed, else components."""
+    """Return a field as text: "strength at angle" as typed, else its components in brackets, with a unit."""
     if isinstance(field, Inclined):
         return " at ".join(x.text for x in field.parts)
     return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"

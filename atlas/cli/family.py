@@ -98,7 +98,7 @@ def command(name: str) -> click.Command:
 
 
 def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
-    """Return one command for several families: it has all their options, and calls the family they belong to."""
+    """Return one command for several families, with all their options, that hands over to the family they belong to."""
     params = dict[str, click.Parameter]()
     for param in (copy(param) for command in commands.values() for param in command.params):
         option = params.setdefault(str(param.name), param)
@@ -198,7 +198,7 @@ class Question:
 
     @cached_property
     def near(self) -> list[Any]:
-        """Quaternions in doubles at the times, whose signs the certified ones take; None where no sign is certified."""
+        """List of quaternions in doubles at the times, for the signs of certified ones; None where no sign is known."""
         try:
             motion = motion_in_given_axes(self.options) if self.family.in_given_axes else None
             return list(along((motion or _kernel(self.family, self.options)).quaternion, self.times))
@@ -218,7 +218,7 @@ class Question:
         return self.named | _quantities(quantities, motion, times, columns, exact=True)
 
     def show(self) -> None:
-        """Print the answers."""
+        """Print the result as JSON, or as a table with later times in blocks, or in a form of `shown_otherwise`."""
         family, options, times = self.family, self.options, self.times
         parameters = _parameters(family, options)
         if self.shown_otherwise(parameters):
@@ -241,7 +241,7 @@ class Question:
             show_lines(spectrum_of(motion, options), _units(family, options).get(RATE, RATE))
 
     def digits(self, spare: int, times: Sequence[float]) -> Any:
-        """Return the certified records of some times."""
+        """Return the records of some times, dicts with certified digits as texts."""
         from atlas.arithmetic.certified_digits import certified
 
         block = partial(self.balls, times, replace(self.family, quantities=()))
@@ -270,7 +270,10 @@ class Question:
         return motion is not None
 
     def with_sigma(self, parameters: dict[str, Any]) -> None:
-        """Print the results of numbers with uncertainties."""
+        """Print the results with standard deviations, as JSON or as a table.
+
+        Raises click.UsageError for --digits, --decimal and --spectrum.
+        """
         family, options = self.family, self.options
         if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
             raise click.UsageError(
@@ -290,7 +293,7 @@ class Question:
         show(replace(printout, notes=chain(filter(None, printout.notes), answers.notes)))
 
     def in_doubles(self, motion: Any, parameters: dict[str, Any]) -> None:
-        """Print a motion in given axes, in doubles."""
+        """Print the quantities and samples of a motion in given axes, in doubles, as JSON or as a table."""
         from atlas.motions.start import body_of
 
         options, times, family = self.options, self.times, FAMILIES[motion.family]
@@ -355,7 +358,10 @@ class Question:
 
 
 def later(times: Sequence[float], recorded_at: Callable[[Sequence[float]], Any]) -> Iterator[dict[str, Any]]:
-    """Yield the records of times after the first ones by blocks: a table prints while the next block is computed."""
+    """Yield the records of the times after the first `AT_ONCE`, which `recorded_at` returns for a block of times.
+
+    So a table prints while the next block is computed.
+    """
     for start in range(AT_ONCE, len(times), AT_ONCE):
         yield from recorded_at(times[start : start + AT_ONCE])
 
@@ -366,7 +372,10 @@ def _rounded(record: Any) -> Any:
 
 
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
-    """Write the samples at all times as a table, and print its path."""
+    """Write the samples at all times into the file --out, and print its path.
+
+    Raises click.UsageError for --digits, --decimal, --json and uncertain numbers.
+    """
     if options["digits"] is not None or options["decimal"] or options["as_json"] or uncertain(options):
         raise click.UsageError("--out writes doubles: leave out --digits, --decimal, --json and uncertainties.")
     motion = motion_in_given_axes(options) if family.in_given_axes else None
@@ -375,7 +384,10 @@ def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]
 
 
 def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, Any]) -> None:
-    """Print the spectral curve of a motion on a torus."""
+    """Print the spectral curve of a motion on a torus, as JSON or as lines "name = value".
+
+    Raises click.UsageError for uncertain numbers, a tensor and an attitude.
+    """
     from atlas.motions.torus.certified_spectral_curve import SpectralCurve
 
     if uncertain(options) or body.given_tensor(options) is not None or options["attitude"] is not None:
@@ -433,7 +445,7 @@ def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
-    """Return the given parameters by name, for the record."""
+    """Return the given options of a family's object by name, for the record in JSON."""
     if family.takes("coupling") and given_otherwise(options):
         return parameters_of_top([p.name for p in family.parameters], options)
     parameters = body.body_parameters(options) if in_field(family) else {}
@@ -469,7 +481,7 @@ def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
 
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
-    """Yield the sentence on the error from rounded inputs, if there is one."""
+    """Yield at most one sentence: the angle by which rounded inputs turn the body, if it may exceed `ROUNDING`."""
     rounded = options["digits"] is None and not options["decimal"] and (family.is_sensitive or family.in_given_axes)
     if not rounded or not times or _is_short(options, times):
         return
@@ -483,7 +495,7 @@ def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float]
 
 
 def _kernel(family: Family, options: dict[str, Any]) -> Any:
-    """Return the object of kernels that the options say."""
+    """Return the family's object in doubles, made from the options."""
     return family.kernels()(*values_of(family, options, exact=False))
 
 
@@ -617,9 +629,9 @@ def _quaternion(motion: Any, t: Any, R: Any, quaternion_near: Any) -> Any:
 def _quantities(
     family: Family, motion: Any, times: Sequence[float], columns: Mapping[str, Any], *, exact: bool
 ) -> dict[str, Any]:
-    """Return the quantities and samples by name.
+    """Return quantities by name, and under "samples" a list of records for the times, from arrays by name.
 
-    One that may be missing is left out then; of others without a value the reason stands under their name.
+    A quantity that may be missing is left out where it has no value; of others the reason stands under "missing".
     """
     values, reasons = dict[str, Any](), dict[str, str]()
     for q in family.quantities:
@@ -640,7 +652,7 @@ def _quantities(
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
-    """Return the names of units where they are known, by dimension; else {}."""
+    """Return other names of units by the register's names, such as {"1/time": "1/s"}; {} where no unit is known."""
     if family.takes("coupling"):
         return top_units(options)
     if family.takes("c"):
@@ -649,7 +661,10 @@ def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
 
 
 def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterator[Line]:
-    """Yield the line of a quantity, or one for each of its components."""
+    """Yield the `Line` of a quantity, or one for each component; "-" for a value None.
+
+    `case` selects words and equation, `units` replaces names of units.
+    """
     says, equation = q.cases.get(case, (q.says, q.equation))
     count = len(q.lines)
     components = [texts] if not q.lines else [None] * count if texts is None else texts

@@ -21,12 +21,12 @@ class FigureCommand(Command):
     """A command whose help also lists the parameters of the recipes that are named beside --help."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Note the words that may be recipes: click obeys --help before it reads them."""
+        """Keep the words that may name recipes in `ctx.obj`, since click obeys --help before they are read."""
         ctx.obj = [word for word in args if not word.startswith("-")]
         return super().parse_args(ctx, args)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the options, and before them the parameters of each recipe."""
+        """Write the parameters of each named recipe, then the options."""
         for name in ctx.obj:
             self._parameters(name, formatter)
         super().format_options(ctx, formatter)

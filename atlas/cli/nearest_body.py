@@ -102,7 +102,7 @@ def _ask_for_order(param: click.Parameter, value: Sequence[Typed]) -> None:
 
 
 def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed quaternion, normalised if its length differs from 1 by rounding of the typed digits."""
+    """Return a typed quaternion; normalised, with a line on standard error, if its length is 1 up to typed digits."""
     if value is None or not ROUNDED < abs((length := math.hypot(*value)) - 1) < LENGTH:
         return value
     new = tuple(_with_value(x, float(x) / length, None) for x in value)
@@ -126,12 +126,12 @@ def _unit(x: Typed) -> Fraction:
 
 
 def _with_value(x: Typed, value: float, exact: Fraction | None) -> Typed:
-    """Return a typed number with the given value, other attributes unchanged."""
+    """Return a typed number with another value, without unit; its text is the fraction `exact`, or of the float."""
     exact = Fraction(value) if exact is None else exact
     return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
 
 
 def _tell(param: click.Parameter, numbers: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
-    """Return a line that names the body that replaces the typed one."""
+    """Print on standard error that the body of the numbers `new` replaces the typed one."""
     was, text = " ".join(x.text for x in numbers), " ".join(f"{float(x):.10g}" for x in new)
     click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {text}", err=True)

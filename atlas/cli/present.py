@@ -45,7 +45,7 @@ class Printout:
 
 
 def explained(reasons: Sequence[Sequence[str]]) -> Printout:
-    """Return a table of reasons why each part of a build was made or taken from the cache."""
+    """Return a `Printout` of rows (part, name, reason): why each part of a build was made or taken from the cache."""
     return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
 
 
@@ -71,7 +71,7 @@ def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
 
 
 def show(printout: Printout) -> None:
-    """Print a printout in the terminal's width, or wider where digits would be cut; in a pipe in its natural width."""
+    """Print a printout in the terminal's width, or wider if numbers would be cut; in a pipe as wide as needed."""
     from rich.console import Console
 
     console = Console(emoji=False, highlight=False, soft_wrap=True)
@@ -81,7 +81,7 @@ def show(printout: Printout) -> None:
 
 
 def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the title, and the table of single quantities."""
+    """Yield the texts of the title and of the table of single quantities, each only if there is one."""
     from rich.table import Table
     from rich.text import Text
 
@@ -99,7 +99,7 @@ def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _tables(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the table as texts, some hundred rows at a time."""
+    """Yield the text of the table of rows, `PIECE` rows at a time, with columns that never become narrower."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -124,7 +124,7 @@ def _notes(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _text(console: "Console", count: Any, **how: Any) -> str:
-    """Return a renderable as the text that this console would print."""
+    """Return the text that this console prints for a renderable of Rich."""
     with console.capture() as printed:
         console.print(count, **how)
     return printed.get()
@@ -141,7 +141,7 @@ def _uncut_table(console: "Console", table: "Table") -> str:
 
 
 def dump(record: dict[str, Any]) -> None:
-    """Print JSON: floats with the shortest digits that read back the same.
+    """Print a record as JSON: floats with the shortest digits that read back the same.
 
     JSON has no infinity and no NaN: such a float becomes null, and the reason stands under its place in "missing".
     """
@@ -209,7 +209,7 @@ def answer(
 
 
 def certificate(options: dict[str, Any]) -> str:
-    """Return the sentence under a table on the certainty of its digits."""
+    """Return the sentence below a table: all digits are proven, for the inputs of `_inputs`."""
     return f"All digits printed are proven; inputs: {_inputs(options)}."
 
 
@@ -229,7 +229,7 @@ NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 
 def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
-    """Return the values of a kernel's method at all times, in one call."""
+    """Return the result of a kernel's method for an array of all times, in one call."""
     import numpy as np
 
     return method(np.array([float(t) for t in times]))
@@ -288,7 +288,7 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
 
 
 def _lines(title: str, every: float) -> Progress:
-    """Return a function that prints a line at most once in `every` seconds, none at first."""
+    """Return the function (done, total, _) that prints progress, at most one line in `every` seconds."""
     start = last_time = monotonic()
 
     def tell(done: int, total: int, _: str) -> None:
@@ -304,7 +304,7 @@ def _lines(title: str, every: float) -> Progress:
 
 
 def status_of(built: Any) -> int:
-    """Tell the notes of a report and the figures that failed; return the status to end with."""
+    """Print a report's notes and failed figures on standard error; return 0 if all was built, else 1."""
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:

@@ -20,7 +20,7 @@ spectrum_options = stack(
 
 
 def check_spectrum(options: dict[str, Any]) -> None:
-    """Raise click.UsageError for lines of a motion with proven digits, and for a least amplitude out of range."""
+    """Raise click.UsageError for --spectrum with --digits or --decimal, and for --least outside (0, 1)."""
     if options.get("spectrum") and not 0 < options["least"] < 1:
         raise click.UsageError(f"--least is a fraction between 0 and 1, not {options['least'].text}.")
     if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
@@ -47,7 +47,10 @@ def recorded(lines: Any) -> dict[str, Any]:
 
 
 def show_lines(lines: Any, unit: str) -> None:
-    """Print the lines with frequencies >= 0, in a unit, one a row."""
+    """Print the rates, then a row for each spectral line with a frequency >= 0: integers, frequency, amplitude.
+
+    `unit` is that of the frequencies.
+    """
     rows = [
         [*map(str, c), f"{f:.10g}", f"{size:.6g}"]
         for f, c, size in zip(lines.frequencies, lines.combinations, lines.power**0.5, strict=True)

@@ -52,7 +52,7 @@ class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since c
     name = "path"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the destination as typed. Raises click.UsageError where nothing can be written."""
+        """Return the destination as typed. Fails for a place that cannot be written, and for memory://."""
         from atlas.sweeps.store import MEMORY
 
         text = str(value)
@@ -251,7 +251,7 @@ def command(**options: Any) -> None:
 
 
 def _meant(family: str, names: set[str]) -> str:
-    """Return the family of motions that `motion` means, by the names of parameters."""
+    """Return the family: for "motion" the family that has the parameters `names`, else the name itself."""
     if family != "motion":
         return family
     if "I1" in names:
@@ -260,7 +260,7 @@ def _meant(family: str, names: set[str]) -> str:
 
 
 def _parameter_values(values: Any) -> Any:
-    """Return the values of a parameter, one or several."""
+    """Return the values of a parameter as a list or an array; a single value in a list of one."""
     return [values] if isinstance(values, float | int | Fraction) or is_uncertain(values) else values
 
 
@@ -362,13 +362,13 @@ def _once(names: Sequence[str], source: str) -> None:
 
 
 def _options(family: str) -> dict[str, tuple[str, str]]:
-    """Return (option, unit) of each parameter by column name: of the family first, then of all families."""
+    """Return (option, unit) by column name, for the parameters of all families; those of `family` come first."""
     parameters = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
     return {name: (p.name, p.unit) for p in parameters for name in p.names} | {"t": ("times", TIME)}
 
 
 def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
-    """Return the columns of a list by name, in SI where the heading has units, and the units used."""
+    """Return the columns of a CSV list by name, in SI where the heading has units, and the set of those units."""
     options = _options(family)
     plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in options.items()}
     columns, units = measured_columns(path, {name: option for name, (option, _) in options.items()}, plain)
@@ -376,7 +376,10 @@ def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
 
 
 def _values(family: str, name: str, value: Any) -> Any:
-    """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
+    """Return the values of a parameter: of text a number, a list of numbers, or an array of START:STOP:COUNT[:log].
+
+    A value that is no text is returned unchanged. Raises click.UsageError for other text.
+    """
     from atlas.sweeps.plan import Range
 
     if not isinstance(value, str):

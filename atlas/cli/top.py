@@ -54,7 +54,7 @@ def given_otherwise(options: Mapping[str, Any]) -> bool:
 
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return the units of times and rates: seconds in SI and in Gaussian units."""
+    """Return `SECONDS`, units of times and rates, for a top by --heavy or --magnetic; else those of `units_of`."""
     return SECONDS if given_otherwise(options) else units_of(options)
 
 

@@ -138,7 +138,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         return number
 
     def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> Sequence[Typed]:
-        """Return the numbers of a range START:STOP:COUNT[:log], ends included, or the single number."""
+        """Return the numbers of START:STOP:COUNT[:log], ends included, as `Steps`; of a single number a tuple."""
         fields = word.split(":")
         log = fields[3:] == ["log"]
         if len(fields) != 3 + log:

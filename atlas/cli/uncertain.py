@@ -21,7 +21,10 @@ class UncertainAnswer:
 
     @classmethod
     def of(cls, answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> "UncertainAnswer":
-        """Return the answer with its standard deviations, from options with independent uncertainties."""
+        """Return the answer to these options with the standard deviations that their independent uncertainties cause.
+
+        `answer` maps options to the answer, and is called again with moved options.
+        """
         inputs, middle = uncertain(options), answer(options)
         with bar("draws", every=10) as tell:
             deviations = spread(middle, lambda steps: answer(_moved_options(options, inputs, steps)), len(inputs), tell)
@@ -29,7 +32,7 @@ class UncertainAnswer:
 
     @property
     def notes(self) -> list[str]:
-        """Sentences on the standard deviations."""
+        """Sentences on the standard deviations: that they are of first order, and on numbers that were sampled."""
         return [FIRST_ORDER, *self.spread.notes]
 
     def texts(self) -> Any:
@@ -38,7 +41,7 @@ class UncertainAnswer:
         return mapped(self.answer, lambda x, place: concise(x, sigma.get(place, 0.0), error.get(place, 0.0)))
 
     def rates(self, names: list[str]) -> dict[str, str]:
-        """Return the texts of rates among the numbers, by name, in turns a second."""
+        """Return the named rates, divided by 2 pi, as texts with deviations, by name; others are left out."""
         rates = {(name,): self.answer[name] for name in names if isinstance(self.answer.get(name), float)}
         sigma, error = self.spread.sigma, self.spread.error
         return {
@@ -60,14 +63,14 @@ def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
 
 
 def certain(value: Any) -> Any:
-    """Return the value of an option without uncertainties."""
+    """Return the value of an option with all standard deviations set to 0."""
     if isinstance(value, tuple):
         return type(value)(map(certain, value))
     return value.moved(float(value), sigma=0.0) if getattr(value, "sigma", 0.0) else value
 
 
 def _typed_numbers(value: Any) -> tuple[Any, ...]:
-    """Return the numbers that were typed for an option."""
+    """Return the typed numbers of an option as a tuple; of a field at an angle its strength and angle."""
     return getattr(value, "parts", parts_of(value))
 
 

@@ -61,7 +61,7 @@ class Option(NamedTuple):
 
     @property
     def components(self) -> list[str]:
-        """Values of the option; a vector in one word, such as 1,2, as its components."""
+        """Values of the option, words, in one list; a vector in one word, such as 1,2, as its components."""
         return [component for word in self.values for component in apart(word)]
 
 
@@ -71,7 +71,7 @@ def apart(word: str) -> list[str]:
 
 
 def is_number(word: str, *, is_wanted: bool = True) -> bool:
-    """Whether a word is a number, not an existing file; a plain number that is a file counts only if `is_wanted`."""
+    """Whether a word is a number and no existing file; a plain number counts even as a file if `is_wanted`."""
     return bool(
         LIKE_A_NUMBER.fullmatch(word) and ((is_wanted and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK))
     )
@@ -149,7 +149,7 @@ class Command(click.Command):
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """Return the context of the command to which the words belong."""
+        """Return click's context for the words, of the command that `other` returns for them, else of this one."""
         command = self.other(Words(args))
         return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
 
@@ -166,7 +166,10 @@ class Command(click.Command):
                     formatter.write_dl(sections[title])
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse the words; with --help nothing else is parsed."""
+        """Parse the words into `ctx.params` and return the remaining ones; with --help nothing else is parsed.
+
+        A field at an angle becomes components, and a free body gets a field of zeros.
+        """
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
             return super().parse_args(ctx, [*help_names][:1])
@@ -189,7 +192,10 @@ class Command(click.Command):
 
 
 def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the field from a strength and --angle. Raises click.UsageError without a strength."""
+    """Return {"magnetic" or "field": components across and along the axis, "angle": None} from strength and --angle.
+
+    Raises click.UsageError without a strength.
+    """
     name = next((name for name in ("magnetic", "field") if options[name] is not None), "")
     if not name:
         raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
@@ -213,7 +219,10 @@ class Reader:
         self.has_settings = "settings" in {param.name for param in params}
 
     def plain(self) -> Iterator[str]:
-        """Yield the words, a vector in its components. Raises click.UsageError for words that do not fit."""
+        """Yield the words as click expects them, a vector as its components.
+
+        Raises click.UsageError for unknown options, wrong counts of numbers, and words that belong to no option.
+        """
         for option in self.words.options:
             name = option.name if option.name.startswith("--") else option.name[:2]  # -j8 is -j 8
             if name not in {*self.known, "--"}:
@@ -253,7 +262,10 @@ class Reader:
 
     @staticmethod
     def _repeated_options(option: Option, param: click.Option) -> Iterator[str]:
-        """Yield the option before each value; numbers in one word, since click's time is quadratic in words."""
+        """Yield the option before each of its values; numbers stay in one word, for click is slow with many words.
+
+        Raises click.UsageError for an option without a value.
+        """
         if not option.values:
             raise click.UsageError(f"{option.name} takes {param.metavar or 'a value'}; found none.")
         if param.type is REAL:
@@ -265,7 +277,10 @@ class Reader:
             )
 
     def _vector(self, option: Option, param: click.Option) -> tuple[list[str], list[str]]:
-        """Return (components of a vector, words after it); such words occur in commands with arguments."""
+        """Return (components of the option's vector, words after it); only commands with arguments have such words.
+
+        Raises click.UsageError for another count of numbers.
+        """
         components, words = list[str](), list(option.values)
         while words and (
             not self.places or all(is_number(x, is_wanted=len(components) < param.nargs) for x in apart(words[0]))

@@ -69,11 +69,11 @@ class YourBody(ByOptions):
     """The group of this report, with its name."""
 
     def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the usage with the name of the report."""
+        """Write the line of usage, with "atlas report your_body" as the name of the command."""
         formatter.write_usage(f"atlas report {NAME}", "[motion|top|classify] OPTIONS")
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Refuse a report of nothing, in words on what it takes."""
+        """Parse the arguments. Raises click.UsageError where no option is among them."""
         if not Words(args).names:
             raise click.UsageError(
                 f"{NAME} takes a body, a field and a start, as atlas motion does: --ratio 0.7 --field 1 2 --omega2 0.7."
@@ -88,7 +88,7 @@ OPTIONS["from"] = click.Option(["--from"])
 
 
 def words_of(name: str, value: Any, unit: str = "") -> list[str]:
-    """Return an option and its words: of a text, or of one number or several; those without a unit get this one.
+    """Return ["--name", word, ...] of a value: a text, a number or several; `unit` is put to numbers without one.
 
     Raises
     ------
@@ -115,12 +115,12 @@ def text_of(number: Any) -> str:
 
 
 def request_of(words: Sequence[str]) -> "tuple[Asked, dict[str, Any]]":
-    """Return the request that the words of a command are, and its options.
+    """Return (request, options by name) from the words of a command.
 
     Raises
     ------
     AtlasError
-        For words that no body, field and start are, in one sentence.
+        For words that give no body, field and start, in one sentence.
     """
     try:
         request: tuple[Asked, dict[str, Any]] = YourBody(NAME, commands=COMMANDS).main([*words], standalone_mode=False)
@@ -162,12 +162,12 @@ def command() -> None:
 
 @command.result_callback()
 def make(request: "tuple[Asked, dict[str, Any]]") -> int:
-    """Write the report of a request and print where its files are; return the exit status."""
+    """Write a report, of (request, options), and print its files' paths; return the status, 1 if a figure failed."""
     return told(*request, FORMATS)
 
 
 def told(wanted: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
-    """Write the report of a request in some formats and print where its files are; return the exit status."""
+    """Write the report of a request in these formats, print its files' paths; return 1 if a figure failed, else 0."""
     report, _ = built(wanted, options["out"], options["jobs"], formats)
     places = places_of(report)
     for place in [report.single, *places[1:]] if "single" in formats else places:

@@ -58,7 +58,7 @@ def arranged(scene: Scene, target: Target) -> Scene:
 
 
 def _reduced(scene: Scene) -> Scene:
-    """Return a scene without its spare panels, the others in a row with all their labels."""
+    """Return a scene with its panels that are not `spare` in one row, each with all its labels; the caption says so."""
     remaining = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
     letters = listed([scene.panels[k].title.partition(" ")[0] for k in scene.spare])
@@ -185,7 +185,7 @@ def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float])
 
 
 def _words(panel: Panel) -> tuple[float, float]:
-    """Return the millimetres beside and below a panel for labels, whose size is fixed."""
+    """Return the millimetres (beside, below) that a panel's labels take, whatever its size."""
     return _AXES if isinstance(panel, Plane) else _NAMES
 
 

@@ -41,7 +41,10 @@ def erected(points: FloatArray, upright: Sequence[float]) -> FloatArray:
 def traced_sphere(
     name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float, role: str = "field"
 ) -> Space:
-    """Return a panel with the unit sphere, an upward arrow and a path `trace` (N, 3), which is not rotated further."""
+    """Return a `Space` with the unit sphere, an upward arrow of this `label` and `role`, and the path `trace` (N, 3).
+
+    The path is not rotated; its start is marked, and circles mark its least and largest height.
+    """
     sag = tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [

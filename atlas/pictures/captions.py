@@ -10,7 +10,7 @@ MINUS = "\N{MINUS SIGN}"
 
 
 def tex(value: float) -> str:
-    r"""Return a number for a formula, six digits at most: -0.5, 1.5 \times 10^{-7}."""
+    r"""Return a number as TeX with at most six digits, such as "-0.5" or r"1.5 \times 10^{-7}"."""
     mantissa, _, exponent = f"{value + 0.0:.{DIGITS}g}".partition("e")
     if not exponent:
         return mantissa
@@ -29,22 +29,22 @@ def spelt(count: float) -> str:
 
 
 def plain(value: float) -> str:
-    """Return a number for a sentence without TeX, with a true minus sign."""
+    """Return a number as plain text with at most six digits and a true minus sign."""
     return f"{value + 0.0:.{DIGITS}g}".replace("-", MINUS)
 
 
 def tex_vector(components: Iterable[float]) -> str:
-    """Return a vector for a formula: (0, 1, -2)."""
+    """Return the components as TeX in brackets, such as "(0, 1, -2)"."""
     return "(" + ", ".join(map(tex, components)) + ")"
 
 
 def plain_vector(components: Iterable[float]) -> str:
-    """Return a vector for a sentence without TeX."""
+    """Return the components as plain text in brackets."""
     return "(" + ", ".join(map(plain, components)) + ")"
 
 
 def listed(items: Sequence[str], conjunction: str = "and") -> str:
-    """Return 'a', 'a and b', 'a, b and c'."""
+    """Return the items as one text: "a", "a and b", "a, b and c", with another `conjunction` if given."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {conjunction} {items[-1]}"
 
 

@@ -32,15 +32,15 @@ class Window:
 
     @property
     def box(self) -> tuple[FloatArray, FloatArray]:
-        """Lowest and highest corner, (2,) each."""
+        """Corners (least x, least y) and (largest x, largest y), two arrays (2,)."""
         return np.array([self.x[0], self.y[0]]), np.array([self.x[1], self.y[1]])
 
     def upright(self, omega2: float) -> FloatArray:
-        """Return the upright line at omega2, shape (2, 2)."""
+        """Return the end points (2, 2) of the vertical line at omega2 across the window."""
         return np.array([[omega2, self.y[0]], [omega2, self.y[1]]])
 
     def level(self, height: float) -> FloatArray:
-        """Return the level line at this height, shape (2, 2)."""
+        """Return the end points (2, 2) of the horizontal line at this height across the window."""
         return np.array([[self.x[0], height], [self.x[1], height]])
 
     def band(self, start: float, stop: float) -> FloatArray:
@@ -181,7 +181,7 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
 
 
 def marked(named: Sequence[Place], field: Any) -> list[Layer]:
-    """Return layers that mark and name the centre -B' and the named points, the first three of these with a label."""
+    """Return layers: points at the centre -B' and at the named places, and labels of the centre and the first three."""
     centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
     return [
         Points(centre[None], "centre"),

@@ -187,7 +187,7 @@ class Scene:
 
 
 def frame(space: Space) -> FloatArray:
-    """Return the rows right, up, towards the eye, in (e1, e2, e3); shape (3, 3)."""
+    """Return the unit vectors to the right, upwards and towards the eye, as the rows of a matrix (3, 3)."""
     a, e = np.radians(space.azimuth), np.radians(space.elevation)
     towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
     rightward = (-np.sin(a), np.cos(a), 0.0)

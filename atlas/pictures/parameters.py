@@ -156,7 +156,7 @@ def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _drawable(value: Any) -> bool:
-    """Return whether a value is a number of a size that can be drawn."""
+    """Return whether a value is 0 or a real number with a magnitude within DRAWABLE_SIZES, and no boolean."""
     return (
         isinstance(value, Real)
         and not isinstance(value, bool)

@@ -20,7 +20,7 @@ _ARC, _EVEN, _FEW = 0.2, 1.5, 3
 
 
 def quarter_pixel(extent: float, millimetres: float) -> float:
-    """Return a quarter of a pixel in the units of ``extent``, which is drawn ``millimetres`` wide."""
+    """Return the length of a quarter of a pixel, in the unit of ``extent``, a length drawn ``millimetres`` wide."""
     return 0.25 * extent * _INCH / (millimetres * _DPI)
 
 
@@ -73,7 +73,7 @@ def flat(
 def knots(
     function: Callable[[FloatArray], FloatArray], start: float, stop: float, tolerance: float, pieces: int = 8
 ) -> FloatArray:
-    """Return the parameters (N,) of the points of `curve`."""
+    """Return the parameter values (N,) at which `curve` places its points on `function`."""
     return _cut(function, start, stop, tolerance, pieces, None, 1.0)[0]
 
 

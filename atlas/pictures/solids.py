@@ -56,7 +56,7 @@ def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
 
 
 def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sphere") -> Surface:
-    """Return a sphere with a light net of parallels and meridians."""
+    """Return a sphere as a `Surface`, with parallels and meridians as wires, sampled to a tolerance."""
     e1, e2, e3 = np.eye(3)
     Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     east = around(Q, centre, radius * e1, radius * e2, tolerance)
@@ -96,7 +96,7 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
 
 
 def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
-    """Return a disk across the unit vector ``axis``, which points to its outer side."""
+    """Return a disk as a `Surface`, across the unit vector ``axis``, which points to its outer side."""
     east, north = transverse_axes(axis)
     ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
@@ -109,7 +109,7 @@ def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, 
 def cylinder(
     centre: FloatArray, axis: FloatArray, radius: float, height: float, tolerance: float, role: str = "body"
 ) -> Surface:
-    """Return the side wall of a cylinder around the unit vector ``axis``, without its lids."""
+    """Return the side wall of a cylinder as a `Surface`, around the unit vector ``axis``, without its lids."""
     east, north = transverse_axes(axis)
     form = np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)

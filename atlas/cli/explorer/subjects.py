@@ -40,7 +40,7 @@ class OfFamily:
 
     @cached_property
     def sliders(self) -> list[Slider]:
-        """The sliders of all parameters that have a start in the register, and of the time."""
+        """Sliders of all parameters with a start value in the register; also of the time for families with R(t)."""
         return sliders_of(self.family)
 
     def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
@@ -56,7 +56,7 @@ class OfFamily:
         return _instance(self.family.kernels(), tuple(self.arguments(values).values()))
 
     def scene(self, values: Mapping[str, float]) -> Scene:
-        """Return the picture: the body at the time t, or the figure."""
+        """Return the `Scene`: the body at the time t with its trace for families with R(t), else the first figure."""
         arguments = self.arguments(values)
         if self.moves:
             from atlas.pictures import any_motion
@@ -173,7 +173,7 @@ def subject_or_file(name: str) -> Subject:
 
 
 def everything() -> dict[str, list[tuple[str, str]]]:
-    """Return name and title of all families and all figures."""
+    """Return {"families": pairs, "figures": pairs} with pairs (name, title); "figure:" precedes a family's name."""
     return {
         "families": [(family.name, family.says) for family in FAMILIES.values()],
         "figures": [(FIGURE * (name in FAMILIES) + name, recipes.title(name)) for name in recipes.names()],

@@ -53,13 +53,13 @@ class Frames:
         self._placements: dict[tuple[int, tuple[float, float]], Placement] = {}
 
     def draw(self, k: int) -> None:
-        """Draw frame k into the figure, in the place of the one before."""
+        """Clear the figure and draw frame k into it; report progress."""
         self.figure.clear()
         to_figure(self._scene(k), self.style, figure=self.figure, hold=self._hold)
         self.progress(self.count + k + 1, 2 * self.count, "frames")
 
     def _scene(self, k: int) -> Scene:
-        """Return the scene of frame k, its planes with limits that hold all frames."""
+        """Return the scene of frame k, with the limits of axes that hold all frames."""
         scene = self.make(k)
         return replace(scene, panels=tuple(self._limited(i, panel) for i, panel in enumerate(scene.panels)))
 

@@ -34,7 +34,7 @@ _ALL = np.ones(3)
 
 
 def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
-    """Return the distinct quadrics, and for each surface the index of its quadric."""
+    """Return the distinct quadrics (4, 4), and for each surface the index of its quadric, two lists."""
     forms: list[FloatArray] = []
     numbers = []
     for surface in surfaces:
@@ -74,7 +74,7 @@ def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards
 
 
 def _snapped(heights: FloatArray) -> FloatArray:
-    """Return the heights, zero where they vanish up to rounding; panels and quadrics have size one."""
+    """Return the heights, zero where their magnitude is at most `_ON`, as rounding errors of panels of size one."""
     return np.where(np.abs(heights) <= _ON, 0.0, heights)
 
 
@@ -237,7 +237,7 @@ def _painted(
 
 
 def _rgb(colour: str) -> FloatArray:
-    """Return red, green and blue from 0 to 255."""
+    """Return red, green and blue of a colour's name as an array (3,), from 0 to 255."""
     return 255.0 * np.array(to_rgb(colour))
 
 

@@ -12,7 +12,7 @@ _ACROSS, _UP = 0.1, 0.35
 
 
 class Texts(RendererBase):
-    """A renderer that draws nothing and keeps each text with its box, in pixels."""
+    """Renderer of Matplotlib that draws nothing, and keeps in `texts` each text with its box in pixels."""
 
     def __init__(self, figure: Figure) -> None:
         super().__init__()
@@ -35,7 +35,7 @@ class Texts(RendererBase):
         """Draw no image."""
 
     def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
-        """Keep a text that is not blank, with its box."""
+        """Append (text, box in pixels) to `texts`, unless the text is blank."""
         if mtext is not None and s.strip():
             self.texts.append((mtext, mtext.get_window_extent(self)))
 

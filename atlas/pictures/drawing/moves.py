@@ -69,7 +69,11 @@ def _steps(path: Path, lasts: float) -> int:
 
 
 def _table(path: Path, times: FloatArray) -> list[Any]:
-    """Return [largest shift of a path, its quaternions (w, x, y, z) and relative shifts at the times in base 64]."""
+    """Return [largest |shift|, text] of a path at times (N,).
+
+    The text has seven numbers for each time in base 64: the quaternion (w, x, y, z) of R, and the shift over the
+    largest.
+    """
     R, s = path(times)
     size = float(np.abs(s).max()) or 1.0
     return [float(f"{size:.7g}"), _packed(np.concatenate([_quaternions(R), s / size], axis=1))]

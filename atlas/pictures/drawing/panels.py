@@ -96,7 +96,10 @@ def to_figure(
 
 
 def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
-    """Return a scene as a figure for a target. Raises AtlasError where texts overlap."""
+    """Return the `Figure` of a scene arranged for a target.
+
+    Raises AtlasError where texts overlap or leave the page, with the least width that would do, if there is one.
+    """
     from atlas.pictures.arrange import arranged
     from atlas.pictures.drawing.meeting import unreadable
 
@@ -123,7 +126,10 @@ def _drawing(
     figure: Figure | None = None,
     hold: Hold | None = None,
 ) -> Figure:
-    """Return a scene as a figure of its size, with the type and the lines of a target."""
+    """Return the `Figure` of a scene at its size, with the target's type and lines; `figure` is filled if given.
+
+    Panels in space are drawn by VTK if `shaded`.
+    """
     with context(style, target):
         figure, panels = laid_out(scene, figure)
         if target and isinstance(figure, SceneFigure):
@@ -149,7 +155,7 @@ def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
 
 
 def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
-    """Draw the parts of a panel that may move the axes: all but the names for two axes, the title for one in space."""
+    """Draw the parts of a panel that may move its axes: of a `Plane` all but the names, of a `Space` the title."""
     if isinstance(panel, Plane):
         draw_plane(axes, panel, number)
     else:

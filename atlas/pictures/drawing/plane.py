@@ -64,7 +64,7 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
 
 
 def _unclip_marks(axes: Axes) -> None:
-    """Draw marks that touch the frame in full; a line of marks with one outside the frame stays clipped."""
+    """Draw marks on the frame without clipping; lines of marks with a mark outside the frame stay clipped."""
     for line in axes.lines:
         away = np.abs((axes.transData - axes.transAxes).transform(line.get_xydata()) - 0.5)
         if line.get_marker() != "None" and _NEAR < np.max(away, initial=0.0) <= 0.5 + _TOUCH:
@@ -83,7 +83,7 @@ def _ticks(axes: Axes) -> None:
 
 
 def _scale(axes: Axes, panel: Plane) -> None:
-    """Set the scales of both axes."""
+    """Set the scales of both axes to those of the panel: logarithmic, symmetric logarithmic, or linear by default."""
     for column, (axis, scale) in enumerate(((axes.set_xscale, panel.x_scale), (axes.set_yscale, panel.y_scale))):
         if scale == "symlog":
             axis(scale, linthresh=_threshold(panel, column))
@@ -92,7 +92,10 @@ def _scale(axes: Axes, panel: Plane) -> None:
 
 
 def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
-    """Draw one layer and return its artist for a legend, or None; `edge` is the edge colour of dark marks."""
+    """Draw one layer other than a label; return its artist for a legend, or None.
+
+    `rise` is the order of drawing, `edge` the edge colour of dark marks. Raises AtlasError for a layer of a `Space`.
+    """
     if isinstance(layer, Label):
         return None
     if isinstance(layer, Image):
@@ -131,7 +134,7 @@ def marker(role: str, ring: str = "") -> dict[str, Any]:
 
 
 def _map(axes: Axes, image: Image) -> Any:
-    """Draw a map of values as pixels, and its colorbar if it has a label."""
+    """Draw an `Image` as pixels, with a colorbar if it has a label, and return its artist."""
     low, high = image.limits or (np.nanmin(image.values), np.nanmax(image.values))
     norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
     ends = [(edges[0], edges[-1]) for edges in (image.x, image.y)]

@@ -89,7 +89,7 @@ def _place(box: Bbox, view: View) -> list[float]:
 
 
 def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
-    """Return the layers of a panel as data; texts are indices into the list that all panels share."""
+    """Return a panel's layers as a dict for the viewer; names refer to texts by index in `texts`, which grows."""
     record: dict[str, Any] = {"frame": _list(view.frame)}
     # a glare would falsify a colour that is a class of a value
     record["matt"] = int(any(surface.role.startswith("rate_") for surface in view.surfaces))
