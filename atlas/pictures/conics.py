@@ -58,22 +58,21 @@ def _spans(
     point: Callable[[FloatArray], FloatArray], start: float, stop: float, half_spaces: FloatArray
 ) -> list[tuple[float, float]]:
     """Return the intervals of the parameter in which the curve ``point`` lies in every half space."""
+    normals, distances = half_spaces[:, :3], half_spaces[:, 3]
     s = np.linspace(start, stop, _LOOKS)
-    ends = [start, stop]
-    for *n, d in half_spaces:
-        height = point(s) @ np.array(n) - d
-        k = np.flatnonzero((height[:-1] <= 0.0) != (height[1:] <= 0.0))
-        low, high = s[k], s[k + 1]
-        for _ in range(_HALVINGS if k.size else 0):
-            middle = 0.5 * (low + high)
-            same = (point(middle) @ np.array(n) - d <= 0.0) == (height[k] <= 0.0)
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        ends += [float(v) for v in low]
+    inside = point(s) @ normals.T <= distances
+    k, side = np.nonzero(inside[:-1] != inside[1:])
+    low, high = s[k], s[k + 1]
+    for _ in range(_HALVINGS if k.size else 0):
+        middle = 0.5 * (low + high)
+        same = ((point(middle) * normals[side]).sum(axis=1) <= distances[side]) == inside[k, side]
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    ends = [start, *low.tolist(), stop]
     ends.sort()
     stretches = [(a, b) for a, b in pairwise(ends) if b - a > _FLAT * (stop - start)]
     middles = point(np.array([0.5 * (a + b) for a, b in stretches]))
-    inside = [all(x @ np.array(n) <= d for *n, d in half_spaces) for x in middles]
-    return [stretch for stretch, is_inside in zip(stretches, inside, strict=True) if is_inside]
+    kept = (middles @ normals.T <= distances).all(axis=1)
+    return [stretch for stretch, is_inside in zip(stretches, kept, strict=True) if is_inside]
 
 
 def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> list[_Arc]:

@@ -17,7 +17,7 @@ from atlas import AtlasError, ElementaryMotion
 from atlas.cli.app import atlas as command_line
 from atlas.pictures import Arrow, Curve, Label, Plane, Points, Surface, movement, recipes
 from atlas.pictures.any_motion import Upright
-from atlas.pictures.drawing import animation
+from atlas.pictures.drawing import animation, to_figure
 
 MOVING = ["escape", "film_strip", "flight", "rolling_cones", "tipping_disk"]
 
@@ -185,6 +185,24 @@ def test_frames_share_one_view() -> None:
         for one in own
     ]
     assert np.ptp(heads, axis=0).max() > 1.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rolling_cones", "tipping_disk"])
+def test_a_frame_has_the_pixels_of_a_still_figure_of_its_time(name: str) -> None:
+    """Layout and texts are kept from frame to frame: a figure made anew in the same view shows no difference."""
+    scene = recipes.load(name).scene()
+    moving = animation.Frames(lambda k: movement.scene_at(scene, 0.3 * k * scene.lasts), 3, None, lambda *_: None)
+    pictures = []
+    for k in range(3):
+        moving.draw(k)
+        still = to_figure(moving._scene(k), hold=moving._hold)
+        for figure in (moving.figure, still):
+            file = BytesIO()
+            figure.savefig(file, format="raw", dpi=60)
+            pictures.append(file.getvalue())
+    assert pictures[::2] == pictures[1::2]
+    assert len(set(pictures)) == 3
 
 
 @pytest.mark.slow

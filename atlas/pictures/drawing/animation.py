@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from atlas import files
 from atlas.arithmetic.annotations import StyleLike
@@ -50,12 +51,14 @@ class Frames:
                 raise AtlasError("the panels of this figure change, so that it can't be one that moves")
             progress(k + 1, 2 * count, "view")
         self.figure = to_figure(self._scene(0), style)
+        FigureCanvasAgg(self.figure)  # whose renderer keeps the texts that it has typeset
         self._placements: dict[tuple[int, tuple[float, float]], Placement] = {}
 
     def draw(self, k: int) -> None:
         """Clear the figure and draw frame k into it; report progress."""
+        boxes = [axes.get_position(original=True) for axes in self.figure.axes]
         self.figure.clear()
-        to_figure(self._scene(k), self.style, figure=self.figure, hold=self._hold)
+        to_figure(self._scene(k), self.style, figure=self.figure, boxes=boxes, hold=self._hold)
         self.progress(self.count + k + 1, 2 * self.count, "frames")
 
     def _scene(self, k: int) -> Scene:
@@ -245,6 +248,7 @@ def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -
     """
     check(kind, fps)
     writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
+    moving._fig.set_dpi(dpi)  # noqa: SLF001  # one renderer then measures and draws all frames
     with files.named(path), files.keeping(path) as unfinished:
         try:
             moving.save(unfinished, writer=writer, dpi=dpi)

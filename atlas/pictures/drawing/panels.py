@@ -1,7 +1,7 @@
 """A scene as a Matplotlib figure: an axes for each panel, row by row, with names beside their layers."""
 
 import reprlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from io import BytesIO
 from types import MappingProxyType
@@ -77,6 +77,7 @@ def to_figure(
     shaded: bool = False,
     target: Target | None = None,
     figure: Figure | None = None,
+    boxes: Sequence[Bbox] = (),
     hold: Hold | None = None,
 ) -> Figure:
     """Return a scene as a figure of its size, or laid out anew for a target, with one ordinary axes for each panel.
@@ -86,13 +87,13 @@ def to_figure(
     VTK with its names over it. Names are annotations. The group id of a layer's artist, ``artist.get_gid()``,
     is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
     picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for
-    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if given, and ``hold`` fixes the view of a
-    panel in space in a window. Raises AtlasError where a panel cannot hold one of its layers, and for a scene that
-    can't be read at the target.
+    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if given, ``boxes`` place its panels, in
+    fractions of the figure, and ``hold`` fixes the view of a panel in space in a window. Raises AtlasError where a
+    panel cannot hold one of its layers, and for a scene that can't be read at the target.
     """
     if target:
         return _readable(scene, style, target, shaded=shaded, figure=figure)
-    return _drawing(scene, style, shaded=shaded, figure=figure, hold=hold)
+    return _drawing(scene, style, shaded=shaded, figure=figure, boxes=boxes, hold=hold)
 
 
 def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
@@ -124,6 +125,7 @@ def _drawing(
     *,
     shaded: bool = False,
     figure: Figure | None = None,
+    boxes: Sequence[Bbox] = (),
     hold: Hold | None = None,
 ) -> Figure:
     """Return the `Figure` of a scene at its size, with the target's type and lines; `figure` is filled if given.
@@ -131,7 +133,7 @@ def _drawing(
     Panels in space are drawn by VTK if `shaded`.
     """
     with context(style, target):
-        figure, panels = laid_out(scene, figure)
+        figure, panels = laid_out(scene, figure, boxes)
         if target and isinstance(figure, SceneFigure):
             figure.kept = {**figure.kept, "savefig.dpi": target.dpi}
         for number, (axes, panel) in enumerate(panels, 1):
@@ -171,10 +173,12 @@ def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = Non
         draw_space(axes, panel, number, hold and hold(number - 1, window(axes)))
 
 
-def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[tuple[Axes, Panel]]]:
+def laid_out(
+    scene: Scene, figure: Figure | None = None, boxes: Sequence[Bbox] = ()
+) -> tuple[Figure, list[tuple[Axes, Panel]]]:
     """Return a figure (the given empty one, or a new one), and pairs (axes in position, panel).
 
-    The axes of panels in space are still empty.
+    The axes of panels in space are still empty. Without ``boxes`` the positions leave room for all texts.
     """
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
@@ -184,7 +188,10 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
     ]
     for number, (axes, panel) in enumerate(panels, 1):
         _begin(axes, panel, number)
-    if _framed(scene):
+    if boxes:
+        for (axes, _), box in zip(panels, boxes, strict=True):
+            axes.set_position(box)
+    elif _framed(scene):
         canvas = figure.canvas
         FigureCanvasSVG(figure)  # it measures texts as `atlas.pictures.drawing.text` does, and each text once
         ConstrainedLayoutEngine().execute(figure)

@@ -163,8 +163,8 @@ class _Drawing:
         points, codes = edge
         if len(points):
             path = Path(self.view.on_paper(points), codes)
-            look = {"fc": colour, "alpha": opacity, "lw": 0, "zorder": height + self.rise, "gid": next(self._names)}
-            self.axes.add_artist(PathPatch(path, **look))
+            look = {"facecolor": colour, "edgecolor": colour, "linewidth": 0, "alpha": opacity}
+            self.axes.add_artist(PathPatch(path, zorder=height + self.rise, gid=next(self._names), **look))
 
 
 def silhouette(surface: Surface, view: View) -> list[FloatArray]:
