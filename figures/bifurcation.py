@@ -127,7 +127,10 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
 def line(
     bifurcation: Bifurcation, stretch: Stretch, slope: float, x_limits: tuple[float, float], sizes: tuple[float, float]
 ) -> FloatArray:
-    """Return a stretch (N, 2) as it is drawn; ``sizes`` are millimetres to a unit of both axes."""
+    """Return a stretch as a sampled line (N, 2), less ``slope`` times its abscissa.
+
+    ``sizes`` are millimetres for a unit of both axes.
+    """
     poles = set((-bifurcation.a).tolist())
     start_gap, end_gap = (STRETCH_END if end in poles else 0.0 for end in (stretch.low, stretch.high))
 

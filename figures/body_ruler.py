@@ -68,7 +68,7 @@ def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, floa
 
 
 def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
-    """Return the layers of some of the bodies and the part of the scale on which they stand."""
+    """Return the layers of the bodies from `begin` to `end`, half-open, and of the part of the scale below them."""
     bodies = BODIES[begin:end]
     start, stop = np.floor(bodies[0][1]), bodies[-1][1]
     sag, reach = tolerance(STEP * len(bodies) / 2), REACH * float(np.hypot(*prime))

@@ -78,10 +78,10 @@ def scene() -> Scene:
 
 
 def place(column: int, row: int) -> np.ndarray:
-    """Return both ends (2, 3) of the sample in a column and a row."""
+    """Return the two ends, (2, 3), of the sample line in a column and a row."""
     return in_plane(COLUMN * column, -ROW_HEIGHT * row) + np.outer([0.0, LENGTH], E2)
 
 
 def meaning(end: np.ndarray, name: str) -> Label:
-    """Return the meaning of a sample, to the right of its end."""
+    """Return the `Label` of a sample, to the right of its end (3,)."""
     return Label(end, name, "label", (5.0, 0.0))

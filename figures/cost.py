@@ -40,7 +40,7 @@ def scene(*, columns: int = 1) -> Scene:
 
 
 def matrix_times(record: benchmark.Results) -> Plane:
-    """Draw nanoseconds a matrix on one thread."""
+    """Return panel (a), a `Plane`: nanoseconds for one matrix on one thread, over the number of matrices."""
     layers: list[Layer] = []
     for method in SHOWN:
         rows = [r for r in record.costs if r.method == method and r.threads == 1 and r.nanoseconds is not None]
@@ -54,7 +54,7 @@ def matrix_times(record: benchmark.Results) -> Plane:
 
 
 def multiples(record: benchmark.Results) -> Plane:
-    """Draw the multiples of filling the memory."""
+    """Return panel (b), a `Plane`: times in multiples of filling the memory, over the number of matrices."""
     layers: list[Layer] = []
     for method, threads in (("plain_out", 1), ("ours_out", 1), ("ours_out", 2), ("grid_out", 1), ("grid_out", 2)):
         rows = [

@@ -130,7 +130,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 
 
 def value(top: TopMotion, wells: Wells) -> FloatArray:
-    """Return p and g of a motion, formed at its start."""
+    """Return (p, g) of a top's motion, shape (2,), from its start."""
     (n2, n3), (_, omega2, _) = top.direction, top.omega
     nu, sine = n3 / np.hypot(n2, n3), n2 / np.hypot(n2, n3)
     return np.array([omega2 * sine + wells.M3 * nu, wells.energy(nu, omega2 / sine)])

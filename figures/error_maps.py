@@ -54,7 +54,7 @@ def panel(
     places: dict[float, str],
     x_scale: Literal["linear", "log"] = "linear",
 ) -> Plane:
-    """Draw one map with the names of places; both have one scale of colours, which stands beside one with a label."""
+    """Return the `Plane` of one map with named places; a map with a ``label`` has the colour bar of both."""
     image = Image(errors.x, errors.t, np.maximum(errors.plain, LIMITS[0]), label, "log", LIMITS)
     ends = (float(errors.x[0]), float(errors.x[-1])), (float(errors.t[0]), float(errors.t[-1]))
     words = [Label(np.array([x, LOW]), word) for x, word in places.items()]

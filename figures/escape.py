@@ -67,7 +67,7 @@ def scene(
 
 
 def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
-    """Return time and Omega3, shape (N, 2)."""
+    """Return the points (t, Omega3), shape (N, 2), of a motion at times t (N,)."""
     return np.stack([t, motion.angular_velocity(t)[..., 2]], axis=-1)
 
 
@@ -77,7 +77,7 @@ def dot_path(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 def courses(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> list[Plane]:
-    """Return Omega3(t) of each motion over two periods of the slowest, one panel below the other."""
+    """Return one `Plane` for each motion, Omega3 over 1.6 periods of the slowest, below one another."""
     stop = 1.6 * max(motion.period for motion in motions)
     view = ((0.0, stop), room([end for motion in motions for end in motion.turning_points], 0.12))
     panels = []
@@ -102,7 +102,7 @@ def periods(
     growth: float,
     unit: str,
 ) -> Plane:
-    """Return the last panel: the period over the push."""
+    """Return the last panel, a `Plane`: the period of nutation over the push, and its logarithmic law."""
     decades = np.arange(-12.0, 0.0)
     push = abs(field[0]) * 10.0**decades
     times = np.array([GeneralMotion(ratio, field, (omega1, *start)).period for omega1 in push])
@@ -125,6 +125,6 @@ def periods(
 
 
 def push_text(push: float) -> str:
-    """Return a push for a formula, powers of ten as such."""
+    """Return a push as TeX; a power of ten as "10^{n}"."""
     power = round(np.log10(abs(push))) if push else 0
     return f"10^{{{power}}}" if push == 10.0**power else tex(push)

@@ -70,7 +70,7 @@ def scene(
 
 
 def special(I1_values: tuple[float, ...], ratio: float) -> str:
-    """Say which of the bodies are symmetric and which are flat."""
+    """Return sentences on the panels of symmetric and of flat bodies, "" if there are none."""
     letters = {I1: f"({letter})" for letter, I1 in zip("abcdef", I1_values, strict=False)}
     symmetric = f" In {letters[1.0]} the body is symmetric, and every loop touches both." if 1.0 in letters else ""
     flat = f" In {letters[ratio - 1.0]} it is flat." if ratio - 1.0 in letters else ""
@@ -78,6 +78,6 @@ def special(I1_values: tuple[float, ...], ratio: float) -> str:
 
 
 def trace(inertia: tuple[float, ...], field: tuple[float, float], omega: tuple[float, ...], stop: float) -> FloatArray:
-    """Return R_3 (N, 3) up to a time, by SciPy's integrator."""
+    """Return R_3 (N, 3), the third axis, at N equal steps of time up to `stop`, by SciPy's integrator."""
     fastest = float(np.abs([*field, *omega]).sum())
     return simulate(inertia, field, omega, np.linspace(0.0, stop, int(STEPS * fastest * stop) + 2)).R[..., 2]

@@ -85,9 +85,9 @@ def phases_of(motion: Any) -> tuple[float, float, float]:
 
 
 def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
-    """Return the plane of z with the turn and its parts, from turn, dynamic part and area (N, 3) in turns.
+    """Return panel (b), a `Plane` over z: the turn in a period and its dynamic and geometric parts.
 
-    ``chosen`` (4,) holds z and the values of the motion shown.
+    ``phases`` (N, 3) are turn, dynamic part and area in turns, ``chosen`` (4,) z and the values of the shown motion.
     """
     lines = (("main", "turn", 0, 1), ("reference", "dynamic part", 1, 1), ("limit", "geometric part", 2, -1))
     layers: list[Layer] = [Curve(np.array([[z[0], 0.0], [z[-1], 0.0]]), "guide")]
@@ -101,7 +101,7 @@ def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
 
 
 def sphere(motion: Any, field: Any) -> Space:
-    """Return the unit sphere with the curve of K/b, hatched by arcs of great circles from the mean direction of K."""
+    """Return panel (a), a `Space`: the unit sphere with the curve of K/b, hatched by arcs from the mean of K."""
     start = vector(field, "field") / np.linalg.norm(field)
     K = motion.field_in_body(motion.period * np.linspace(0.0, 1.0, POINTS + 1))
     line, pole = K / np.linalg.norm(K[0]), K[:-1].mean(axis=0) / np.linalg.norm(K[:-1].mean(axis=0))

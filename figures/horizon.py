@@ -52,7 +52,7 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
 
 
 def panels(record: benchmark.Results, cases: tuple[str, ...], columns: int) -> tuple[Plane, ...]:
-    """Draw the runs of each case, and the limit."""
+    """Return a `Plane` for each case: error over horizon of all methods, and the limit."""
     layers = {case: tuple(run_lines(benchmark.runs_of(record, case))) for case in cases}
     planes = benchmark.panels(layers, ("time $T$", "largest error up to $T$"), ROOM, columns)
     limit = Curve(benchmark.pairs(planes[0].x_limits or (), float, lambda _: LIMIT), "limit", "four ulp of 1")
@@ -60,7 +60,7 @@ def panels(record: benchmark.Results, cases: tuple[str, ...], columns: int) -> t
 
 
 def run_lines(runs: list[benchmark.Run]) -> Iterator[Layer]:
-    """Yield the line of each method through its best run at each horizon."""
+    """Yield layers, a curve with dots, for each method: its least error at each horizon."""
     for method, group in benchmark.by_method(runs).items():
         horizons = sorted({run.horizon for run in group})
         best = [min((run for run in group if run.horizon == T), key=lambda run: run.error) for T in horizons]

@@ -55,7 +55,7 @@ def scene(
 
 
 def within(piece: FloatArray, intervals: tuple[tuple[float, float], ...]) -> list[FloatArray]:
-    """Return the parts of a polyline over the intervals of omega2, their ends put on the polyline."""
+    """Return the parts of a polyline (N, 2) over the intervals of omega2, with ends interpolated on the polyline."""
     piece = piece[np.argsort(piece[:, 0])]
     stretches = []
     for a, b in intervals:
@@ -78,7 +78,7 @@ def free_spin(ratio: float, field: tuple[float, float]) -> float:
 
 
 def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
-    """Return the caption: the curve, its special cases, and its unstable bands."""
+    """Return the caption as text: the curve, its special cases, and its unstable bands."""
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
     curve = r"Initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), of"

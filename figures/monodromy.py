@@ -70,7 +70,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
 
 
 def words(loop: Monodromy) -> str:
-    """Return the image of g3 after the loop, for a title."""
+    """Return the image of g3 after the loop as TeX, for a title."""
     terms = ""
     for number, name in zip(loop.matrix[2], ("g_1", "g_2"), strict=False):
         if number:
@@ -86,7 +86,7 @@ def plain_words(loop: Monodromy) -> str:
 
 
 def values(name: str, wells: Wells, loop: Monodromy, is_first: bool, unit: str) -> Plane:
-    """Return the critical values at one M3 with the loop."""
+    """Return a `Plane` of the critical values (p, g) at one M3, with the loop about them."""
     ends = np.array([[p, g] for p, g, D in (wells.spin(end) for end in (1, -1)) if D < 0])
     p_limit = 1.25 * max(float(np.abs(loop.p).max()), float(np.abs(ends[:, 0]).max()))
     lines = [
@@ -116,7 +116,7 @@ def smooth(points: FloatArray) -> FloatArray:
 
 
 def lattice(name: str, loop: Monodromy, is_first: bool) -> Plane:
-    """Return the periods with one nutation, in turns, and the course of g3."""
+    """Return a `Plane` of the lattice of periods, with one nutation each, in turns, and the path of g3."""
     track = smooth(-loop.turns)
     start, end = track[0], track[-1]
     middle, half = (track.min(axis=0) + track.max(axis=0)) / 2, 0.5 * float(np.ptp(track, axis=0).max()) + 0.7

@@ -80,7 +80,7 @@ def scene(
 
 
 def trace(motion: ElementaryMotion) -> Space:
-    """Panel (a): the body at t = 0, the field, and the way of the third axis on the unit sphere."""
+    """Return panel (a), a `Space`: the body at t = 0, the field, and the path of the third axis on the unit sphere."""
     is_free = not any(motion.field)
     axis = motion.angular_momentum(0.0) if is_free else np.array([0.0, *motion.field])
     size = quarter_pixel(2.6, WIDTH / COLUMNS)
@@ -101,7 +101,7 @@ def trace(motion: ElementaryMotion) -> Space:
 
 
 def marked(panel: Plane, motion: ElementaryMotion) -> Plane:
-    """Return a panel over the time with an upright line at t1, half a precession; without one as it is."""
+    """Return a panel over time with a vertical line at t1 = pi/|k|; unchanged if t1 lies beyond the panel."""
     time = np.pi / abs(motion.k) if motion.k else np.inf
     if panel.x_limits is None or panel.y_limits is None or time > panel.x_limits[1]:
         return panel

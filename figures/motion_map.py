@@ -80,7 +80,10 @@ def scene(
 
 
 def amplitudes(columns: Mapping[str, FloatArray], field: tuple[float, float]) -> FloatArray:
-    """Return the amplitude of nutation in degrees: cos theta = (c3 - Omega3)/b at the turning points."""
+    """Return the amplitudes of nutation, theta_max - theta_min, in degrees, (N,), from a table's columns (N,).
+
+    ``columns`` has omega3 and the ends of the range of Omega3; cos theta = (c3 - Omega3)/b.
+    """
     nu = (columns["omega3"] + field[1] - np.array([columns["least"], columns["largest"]])) / np.hypot(*field)
     least_angle, largest_angle = np.degrees(np.arccos(np.clip(nu, -1.0, 1.0)))
     return largest_angle - least_angle
@@ -117,13 +120,16 @@ def panel(
 
 
 def inmost(x: FloatArray, y: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """Return the middle (2,) of the cell of a region where a word has most room."""
+    """Return the point (2,) of the region farthest from its border, for a word; ``inside`` is a mask over y and x."""
     away = distance_transform_edt(np.pad(inside, 1), sampling=(WIDER, 1.0))[1:-1, 1:-1]
     row, column = np.unravel_index(np.argmax(away), inside.shape)
     return np.array([x[column], y[row]])
 
 
 def borders(x: FloatArray, y: FloatArray, inside: FloatArray) -> list[FloatArray]:
-    """Return the borders, each (N, 2), between the cells where ``inside`` is 1 and those where it is 0."""
+    """Return the border lines, (N, 2) each, of the region where ``inside``, 0 or 1 over y and x, is 1.
+
+    Lines of eight points or fewer are left out.
+    """
     lines = contour_generator(x, y, inside).lines(0.5)
     return [np.asarray(line) for line in lines if len(line) > 8]

@@ -86,7 +86,10 @@ def scene(
 
 
 def heads(path: Callable[[FloatArray], FloatArray], times: FloatArray, eye: FloatArray, role: str, name: str) -> Layers:
-    """Return arrowheads on a path over the unit sphere at some times; that nearest to the eye has a name."""
+    """Return `Arrow` layers along a path on the unit sphere at some times; the head nearest to the eye has a name.
+
+    The list is empty if the path stands still at one of the times.
+    """
     shift = 1e-6 * float(times[-1])
     tips, speed = path(times), np.linalg.norm(path(times + shift) - path(times), axis=1) / shift
     if not speed.all():

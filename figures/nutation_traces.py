@@ -56,5 +56,8 @@ def scene(
 
 
 def shape(ratio: Any, field: tuple[float, float], omega2: float, omega3: float) -> str:
-    """Return the word for the trace of an axis that starts at a turning point with these omega2 and omega3."""
+    """Return "steady", "waves", "loops" or "cusps": the trace of an axis that starts at a turning point.
+
+    The start is (0, omega2, omega3) in the field (B2, B3); omega2 = 0 gives "cusps".
+    """
     return ("steady", "waves", "loops")[int(trace_map(ratio, field, (0.0, omega2, omega3)))] if omega2 else "cusps"

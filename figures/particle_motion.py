@@ -70,7 +70,10 @@ def scene(
 
 
 def _unit_of_time(particle: ParticleMotion) -> float:
-    """Return the period of the turn about B; without one, the time in which E makes the speed that there is, or 1."""
+    """Return the period of the turn about B; without B the initial speed over the acceleration by E.
+
+    A particle at rest in E has 1/sqrt(acceleration), a free particle 1.
+    """
     if particle.cyclotron_frequency:
         return abs(float(particle.period))
     acceleration, speed = abs(particle.mu) * float(np.linalg.norm(particle.E)), float(np.linalg.norm(particle.v0))

@@ -97,16 +97,16 @@ class Top:
         self.A = (self.I - 1.0) * self.b**2
 
     def V(self, nu: float) -> float:
-        """Effective potential of the nutation: the energy of an equilibrium there."""
+        """Effective potential of the nutation at nu = cos(theta): the energy of an equilibrium there."""
         return float(potential(self.I, self.b, self.M3, self.p, nu))
 
     def omega3(self, nu: Any) -> Any:
-        """Omega3 = c3 - b nu."""
+        """Return Omega3 = c3 - b nu at nu = cos(theta), a number or an array."""
         return self.c3 - self.b * nu
 
     @property
     def equilibria(self) -> list[tuple[float, bool]]:
-        """Roots of V'(nu) in (-1, 1), and whether each is a minimum."""
+        """Return the roots of V'(nu) in (-1, 1), ascending, as pairs (nu, whether V has a minimum there)."""
         nu, sine_squared = Polynomial([0, 1]), Polynomial([1, 0, -1])
         slope = self.A * nu * sine_squared**2 + (self.p - self.M3 * nu) * (self.p * nu - self.M3)
         roots = slope.roots()

@@ -103,7 +103,7 @@ def window(oscillator: PseudoOscillator, allowed: Ends, span: float, zero: float
 
 
 def quartic(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: str, unit: str) -> Plane:
-    """Panel (a): the quartic, its zeros and the allowed interval."""
+    """Return panel (a), a `Plane`: the quartic, its zeros and the allowed interval."""
     inner = Q(np.linspace(*allowed, 65))
     top = float(max(inner.max(), 0.02 * np.abs(Q(np.array(view))).max())) or 1.0
     limits = (-1.1 * top, 1.6 * top)
@@ -118,7 +118,7 @@ def quartic(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: 
 
 
 def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: str, unit: str) -> Plane:
-    """Panel (b): the potential, counted from its value at the start, and the level of the motion: Q + 2 V = 2 level."""
+    """Return panel (b), a `Plane`: the potential V, with Q + 2 V = 2 level, and the level of the motion."""
     level = float(start[1]) / 2
 
     def V(u: FloatArray) -> FloatArray:
@@ -141,7 +141,7 @@ def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label
 def course(
     motion: GeneralMotion, turns: float, allowed: Ends, view: Ends, zero: float, y_label: str, unit: str
 ) -> Plane:
-    """Panel (c): Omega3 over time."""
+    """Return panel (c), a `Plane`: Omega3 over time."""
     low, high = allowed
     pad = 0.15 * (view[1] - view[0])
     limits = (low - pad, high + pad)
@@ -164,11 +164,11 @@ def course(
 
 
 def band(interval: Ends, limits: Ends) -> FloatArray:
-    """Corners of the upright band over an interval."""
+    """Return the corners (4, 2) of the rectangle over an interval of abscissas, between two limits."""
     (a, b), (low, high) = interval, limits
     return np.array([[a, low], [b, low], [b, high], [a, high]])
 
 
 def graph(function: Function, view: Ends, limits: Ends) -> FloatArray:
-    """Return the graph of a function inside a window."""
+    """Return the graph of a function, points (N, 2), inside a window, sampled for the panel's size."""
     return flat(lambda u: np.stack([u, function(u)], axis=1), *view, (view, limits), SIZE, pieces=32)

@@ -76,7 +76,10 @@ def scene(
 
 
 def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) -> PseudoOscillator:
-    """Return the pseudo-oscillator from the point of the quadric over (omega1, omega2), (52)."""
+    """Return the `PseudoOscillator` that starts on the quadric at (omega1, omega2), with omega3 by (52).
+
+    Raises DomainError for B2 = 0, and for omega2 at the pole -B2.
+    """
     I, _, two_less = shape_factors(ratio)
     B2, B3 = (number(component, "field") for component in field)
     omega2 = number(omega2, "omega2")
@@ -117,7 +120,7 @@ class Leaving:
 
 
 def courses(motions: Sequence[Leaving], omega1: Sequence[float], turns: float, unit: str) -> Plane:
-    """Panel (a): the departure of Omega3 over time, and the slopes omega1 B2."""
+    """Return panel (a), a `Plane`: the departure of Omega3 over time, and its initial slopes omega1 B2."""
     stop = turns * max(x.period for x in motions)
     reach = 1.35 * max(x.farthest for x in motions)
     limits = room([0.0, *(end for x in motions for end in (x.below, x.above))], 0.16)
@@ -149,7 +152,7 @@ def departures(
     nu2: float,
     unit: str,
 ) -> Plane:
-    """Panel (b): the largest departure against omega1, on logarithmic axes."""
+    """Return panel (b), a `Plane`: the largest departure of Omega3 over |omega1|, on logarithmic axes."""
     ratio, field, omega2 = point
     size = np.abs(omega1)
     ends = (float(size.min()) / 30, float(size.max()) * 10)

@@ -73,7 +73,7 @@ def scene(
 
 
 def radius_squared(quadric: Quadric, height: FloatArray) -> FloatArray:
-    """Return the square of the semi-axis along omega_1 of the cross section at a height from the centre."""
+    """Return the squared semi-axes along omega_1 of the cross sections at heights (N,) from the centre, (N,)."""
     D = 1.0 / (quadric.a2 if quadrics.sheet_axis(quadric) == 1 else -quadric.a3)
     return np.asarray(height * height * D - quadric_rest(quadric))
 
@@ -130,14 +130,17 @@ def bands(
 
 
 def line(points: FloatArray, stable: FloatArray) -> list[Layer]:
-    """Return a line (N, 3) in pieces, each with the role of stable or of unstable motions."""
+    """Return a line (N, 3) as curves, cut where ``stable`` (N,) changes, each in the role of its kind of motion."""
     cuts = [0, *(np.flatnonzero(np.diff(stable)) + 1).tolist(), len(points) - 1]
     roles = {True: "hyperbola", False: "unstable"}
     return [Curve(points[i : j + 1], roles[bool(stable[i])]) for i, j in pairwise(cuts) if j > i]
 
 
 def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, step: float) -> list[Layer]:
-    """Return the tints in a column with the rates between them, upwards from a corner (3,) of the plane of view."""
+    """Return layers of the key: tints in a column, with the rates at their borders, upwards from a corner (3,).
+
+    ``frame`` has the directions right and up as rows, ``step`` is the height of a tint.
+    """
     rightward, up, _ = frame
     layers: list[Layer] = []
     for k, edge in enumerate(edges):

@@ -75,7 +75,10 @@ def golden(ratio: Any, field: tuple[float, float]) -> float:
 
 
 def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
-    """Return one sphere with the trace of a point over ``turns`` turns of the precession, seen along the field."""
+    """Return a `Space`: a sphere with the trace of a point near the axis over ``turns`` turns of the precession.
+
+    It is seen along the field.
+    """
     sag = tolerance(1.6)
     period = 2 * np.pi / abs(motion.k)
 

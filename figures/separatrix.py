@@ -91,7 +91,7 @@ def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[Ge
 def sphere(
     motions: list[GeneralMotion], field: tuple[float, float], half_time: float, view: tuple[float, float]
 ) -> Space:
-    """Panel (a): the traces of the axis on the sphere in the looks of panel (b), with the field upright."""
+    """Return panel (a), a `Space`: the traces of the axis on the sphere in the looks of panel (b), B upwards."""
     sag, r = tolerance(1.4), field[1] / float(np.hypot(*field))
     ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), sag)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
@@ -113,7 +113,7 @@ def sphere(
 
 
 def course(motions: list[GeneralMotion], level: float, half_time: float, unit: str) -> Plane:
-    """Panel (b): Omega3 of both motions over time, and the line Omega3 = ``level`` of the precession."""
+    """Return panel (b), a `Plane`: Omega3 of both motions over time, and the line Omega3 = ``level`` of precession."""
     view = ((-half_time, half_time), room([level, *(motion.omega[2] for motion in motions)], 0.1))
     layers: list[Layer] = [Curve(np.array([[-half_time, level], [half_time, level]]), "unstable")]
     for motion, role in zip(motions, ROLES, strict=True):

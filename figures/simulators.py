@@ -69,7 +69,10 @@ def scene() -> Scene:
 
 
 def errors() -> Iterator[tuple[str, FloatArray]]:
-    """Yield for each simulator its name and the times, errors of Omega (deg/s) and of R (deg), shape (N, 3)."""
+    """Yield (name, table) for each simulator; columns of the table (N, 3) are time in s and two errors.
+
+    These are the error of Omega in deg/s and the angle of the error of R in deg.
+    """
     lines = [
         line for line in (folder("reports") / "data" / RECORDS[0]).read_text("utf-8").splitlines() if line[0] != "#"
     ]
@@ -85,13 +88,13 @@ def errors() -> Iterator[tuple[str, FloatArray]]:
 
 
 def attitude(angles: FloatArray) -> FloatArray:
-    """Return the matrices R_z(yaw) R_y(pitch) R_x(roll), shape (N, 3, 3)."""
+    """Return the matrices R_z(yaw) R_y(pitch) R_x(roll), (N, 3, 3), from angles yaw, pitch, roll (N, 3) in rad."""
     yaw, pitch, roll = angles.T
     return rotations(2, yaw) @ rotations(1, pitch) @ rotations(0, roll)
 
 
 def rotations(axis: int, angle: FloatArray) -> FloatArray:
-    """Return the matrices of rotations by angles about a coordinate axis, shape (N, 3, 3)."""
+    """Return the matrices (N, 3, 3) of rotations by angles (N,) in rad about the coordinate axis 0, 1 or 2."""
     matrix = np.zeros((len(angle), 3, 3))
     row, column = (axis + 1) % 3, (axis + 2) % 3
     matrix[:, axis, axis] = 1.0

@@ -75,7 +75,7 @@ def scene(
 def course(
     ratio: Any, field: tuple[float, float], bands: tuple[tuple[float, float], ...], reach: float, unit: str
 ) -> Plane:
-    """Panel (a): nu^2 over omega2."""
+    """Return panel (a), a `Plane`: the curve of nu^2 over omega2 with the unstable bands."""
     B2, B3 = field
     I, one_less, two_less = shape_factors(ratio)
     tau2 = (B3 / B2) ** 2
@@ -113,7 +113,10 @@ def course(
 
 
 def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
-    """Panel (b): the levels over tau and |x|, and the unstable region; ``tau`` is |B3/B2| of the field of (a)."""
+    """Return panel (b), a `Plane`: levels of nu^2 over tau and |x|, with the unstable region.
+
+    ``tau`` is |B3/B2| of the field of (a), which is marked.
+    """
     _, one_less, _ = shape_factors(ratio)
     view = Window((0.0, max(WIDE, 1.15 * tau) if tau <= FAR else WIDE), (0.0, HIGH))
     layers: list[Layer] = []

@@ -67,7 +67,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
 
 
 def on(line: FloatArray, rate: float) -> FloatArray:
-    """Return the place of a number on its line: as high on each side as the number, so that none is beside another."""
+    """Return the point of a level's line (N, 2) for its number: the higher, the larger `rate`, so that none collide."""
     low, high = line[:, 1].min(), line[:, 1].max()
     return line[int(np.argmin(np.abs(line[:, 1] - low - (0.15 + 0.6 * rate) * (high - low))))]
 

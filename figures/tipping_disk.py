@@ -91,7 +91,7 @@ def dot_path(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatA
 
 
 def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
-    """Return time and angle in degrees, shape (N, 2)."""
+    """Return the points (t, angle of the axis in degrees), shape (N, 2), at times t (N,)."""
     return np.stack([t, np.degrees(angle(motion.third_axis(t)))], axis=-1)
 
 
@@ -108,7 +108,7 @@ def moments(motion: GeneralMotion, count: int) -> FloatArray:
 
 
 def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray) -> list[list[Layer]]:
-    """Return the layers of the body at each of these times, in its place."""
+    """Return for each of these times a list of layers: the body with axis, field and number at its place (3,)."""
     sag = tolerance(STEP * len(times) / 2)
     cells: list[list[Layer]] = []
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
@@ -124,7 +124,7 @@ def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray
 
 
 def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:
-    """Return the angle of the axis over three periods, with the moments above as dots."""
+    """Return panel (b), a `Plane`: the angle of the axis over three periods, with the strip's times as dots."""
     view = ((0.0, 3.0 * motion.period), (0.0, 195.0))
     line = flat(partial(point, motion), *view[0], view, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN), pieces=96)
     layers = (

@@ -71,7 +71,10 @@ def scene(
 
 
 def cause(place: int, panel: Space) -> list[Layer]:
-    """Return a small body in front of the sphere with what turns it: charges, its weight, or the induced moment."""
+    """Return layers in front of the sphere: a small body with the cause of its torque.
+
+    By ``place`` these are charges, the weight, or the induced moment.
+    """
     right, up, toward = frame(panel)
 
     def at(x: float, y: float) -> FloatArray:
@@ -95,7 +98,7 @@ def cause(place: int, panel: Space) -> list[Layer]:
 def _motion(
     ratio: float, direction: Any, omega: Any, b: float, coupling: Any, linear: float, quadratic: float
 ) -> TopMotion:
-    """Return one of the tops, in units of I2."""
+    """Return the `TopMotion` with I2 = 1 and I3 = ratio, its coupling in units of b, its potential in those of b^2."""
     k2, k3 = coupling
     return TopMotion(
         (1.0, ratio), (k2 * b, k3 * ratio * b), direction, omega, linear=linear * b * b, quadratic=quadratic * b * b

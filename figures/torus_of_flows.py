@@ -93,7 +93,7 @@ def periods(
 
 
 def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
-    """Return the torus with lines by their two angles (N, 2)."""
+    """Return panel (a), a `Space`: the torus with the lines of the orbit and of both periods, by angles (N, 2)."""
     roles = ("fine_trajectory", "trajectory", "turn")
     layers = net()
     for line, role in zip((orbit, out, back), roles, strict=True):
@@ -105,7 +105,7 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
 
 
 def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
-    """Return the sphere of K with the same lines."""
+    """Return panel (b), a `Space`: the unit sphere of K/b with the lines of orbit and periods, vectors K (N, 3)."""
     b = float(np.linalg.norm(orbit[0]))
     sag = tolerance(1.4)
     layers = [
@@ -123,5 +123,5 @@ def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
 
 
 def middle(line: FloatArray) -> FloatArray:
-    """Return places in the inner third of a line (N, 3), the middle first, for its name."""
+    """Return five points (5, 3) in the inner third of a line (N, 3), the middle first, as places for its name."""
     return line[(len(line) * np.array([0.5, 0.4, 0.6, 0.35, 0.65])).astype(int)]

@@ -82,7 +82,7 @@ def panel(title: str, x_label: str, view: tuple[float, float], curves: list[Curv
 def departure(
     inertia: tuple[float, float, float], field: tuple[float, float, float], push: float, reach: float
 ) -> FloatArray:
-    """Return s t and |K - K(0)|/b (N, 2) of the body that is pushed by s."""
+    """Return the points (s t, |K - K(0)|/b), shape (N, 2), of the body pushed to omega = (0, s, 0), s = ``push``."""
     times = np.linspace(0.0, reach, POINTS)
     K = AsymmetricMotion(inertia, field, (0.0, push, 0.0)).field_in_body(times / abs(push))
     return np.column_stack([times, np.linalg.norm(K - np.array(field), axis=1) / np.linalg.norm(field)])

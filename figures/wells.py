@@ -54,7 +54,10 @@ def scene(
 
 
 def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[float, ...], reach: float) -> Plane:
-    """Return the plane of one momentum, in units of p."""
+    """Return the `Plane` of (a, A) in units of p^2 at one momentum M3: region, border and lines of equal cosine.
+
+    Raises DomainError if nothing lies within ``reach``.
+    """
     edge = clipped(envelope(M3, reach), reach)
     lines = {nu: within(float(rest(M3, 1.0, np.array([nu]))[0]), nu, reach) for nu in cosines}
     if len(edge) < 3 and not any(map(len, lines.values())):
@@ -97,7 +100,7 @@ def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[
 
 
 def times(M3: float) -> str:
-    """Return a multiple of p for a title."""
+    """Return M3 as a multiple of p in TeX, such as "0", "-p" or "0.5p"."""
     return {0.0: "0", 1.0: "p", -1.0: "-p"}.get(M3, f"{tex(M3)}p")
 
 
@@ -116,7 +119,7 @@ def envelope(M3: float, reach: float) -> FloatArray:
 
 
 def within(c: float, nu: float, reach: float) -> FloatArray:
-    """Return the ends (2, 2) of the line a + A nu = c in the view, the upper one last; empty if it does not meet it."""
+    """Return the ends (2, 2) of the line a + A nu = c in the view, the upper last; (0, 2) if the line is outside."""
     A = np.array([-reach, reach])
     if nu:
         crossings = np.sort((c + np.array([-reach, reach])) / nu)
@@ -127,7 +130,7 @@ def within(c: float, nu: float, reach: float) -> FloatArray:
 
 
 def clipped(polygon: FloatArray, reach: float) -> FloatArray:
-    """Return the part of a polygon in the square of the view (Sutherland and Hodgman)."""
+    """Return the part (N, 2) of a polygon in the square |x|, |y| <= reach (Sutherland and Hodgman)."""
     for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
         if not len(polygon):
             break

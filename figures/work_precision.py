@@ -41,7 +41,10 @@ def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, c
 
 
 def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float, columns: int) -> tuple[Plane, ...]:
-    """Draw the runs of each case up to the horizon."""
+    """Return a `Plane` for each case: time over error of all methods up to the horizon.
+
+    Raises AtlasError for a horizon that the record lacks.
+    """
     layers = {
         case: tuple(run_lines([run for run in benchmark.runs_of(record, case) if run.horizon == horizon]))
         for case in cases
@@ -54,7 +57,7 @@ def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float, co
 
 
 def run_lines(runs: list[benchmark.Run]) -> Iterator[Layer]:
-    """Yield the line of each integrator and the mark of each closed form."""
+    """Yield layers: a curve with dots for each integrator, and points for each closed form."""
     for method, group in benchmark.by_method(runs).items():
         points = benchmark.pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
         if group[0].tolerance is None:

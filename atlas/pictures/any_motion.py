@@ -149,14 +149,17 @@ def picture(
 
 
 def slow_turn(motion: Any, length: float) -> float:
-    """Return the time of one precession if the axis would not visibly move in a time `length`, else 0."""
+    """Return the time 2 pi/|precession_rate| if the axis hardly moves in a time `length`, else 0.0."""
     rate = _number(motion, "precession_rate")
     looks = motion.third_axis(np.linspace(0.0, length, 65))
     return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < MIN_SEEN_LENGTH else 0.0
 
 
 def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
-    """Return the third axis over time as it is after each whole nutation: turned with the mean rate of precession."""
+    """Return the function of times t (...) to the third axis (..., 3) that only precesses about `upright`.
+
+    The rate is the mean rate of precession, so that the values are exact after each whole nutation.
+    """
     n, start = np.asarray(upright) / np.linalg.norm(upright), motion.third_axis(0.0)
     parallel_part, rate = n * (n @ start), float(motion.precession_rate)
 
@@ -168,7 +171,7 @@ def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], 
 
 
 def scene_at(motion: Any, t: float, begin: float) -> Scene:
-    """Return a motion at the time t: the body, the trace of its axis since the time `begin`, the field."""
+    """Return the `Scene` of a motion at the time t: body, axis with its path since `begin`, and field or momentum."""
     R, upright = np.asarray(motion.rotation(t)), Upright.of_motion(motion)
     layers: list[Layer] = [
         *body_of(motion, R, _FINE),
@@ -221,7 +224,7 @@ def _number(motion: Any, name: str) -> float:
 
 
 def start(omega: Sequence[float]) -> tuple[str, str]:
-    """Return the initial angular velocity for a caption and in plain words."""
+    """Return the initial angular velocity as two texts: in TeX for a caption, and in plain words."""
     return rf"$\boldsymbol\omega={tex_vector(omega)}$", f"the angular velocity {plain_vector(omega)}"
 
 

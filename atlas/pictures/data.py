@@ -43,7 +43,7 @@ def table(scene: Scene) -> str:
 
 
 def _heading(scene: Scene) -> Iterator[str]:
-    """Yield the heading lines of a table: title, parameters, and the axes of each panel."""
+    """Yield the texts above a table: the scene's title, its parameters, and for each panel title and axis labels."""
     yield scene.title
     if scene.parameters:
         yield "; ".join(f"{name} = {value}" for name, value in scene.parameters.items())

@@ -117,7 +117,7 @@ def panel_axes(flight: Flight, B: FloatArray) -> FloatArray:
 
 
 def side_view(flight: Flight, stop: float) -> Space:
-    """Return the view of panel (a), nearly perpendicular to the displacement of the centre of mass."""
+    """Return an empty `Space` for panel (a), seen nearly perpendicular to the displacement of the centre of mass."""
     way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
     return (
         replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + VIEW_DEGREES) if way[:2].any() else VIEW
@@ -139,7 +139,7 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
 
 
 def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: str) -> Space:
-    """Panel (a): the paths in space, with the directions of the fields to the left of them."""
+    """Return panel (a), a `Space`: the paths with arrows along the fields and a scale bar to the left of them."""
     layers = bundle(*path_points)
     layers.append(Curve(path_points[2][0], "velocity", rides="arm"))
     eye = frame(view)
@@ -156,7 +156,7 @@ def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: 
 
 
 def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: str) -> list[Layer]:
-    """Return a bar of a round length, at most `longest`, along a unit vector, and its length below it."""
+    """Return layers: a bar of a round length, at most `longest`, along a unit vector, and its length as a label."""
     size = 10.0 ** np.floor(np.log10(longest))
     size *= max(step for step in (1, 2, 5) if step * size <= longest)
     bar = start + np.array([[0.0], [size]]) * direction
@@ -164,7 +164,7 @@ def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: st
 
 
 def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) -> Plane:
-    """Panel (b): the paths on the plane across B."""
+    """Return panel (b), a `Plane`: the paths projected on the plane across B by the columns of ``axes`` (3, 2)."""
     centre, point, arms = (path @ axes for path in path_points)
     layers = bundle(centre, point, arms, ("centre of mass", "point"), " below")
     drifts = bool(flight.particle.drift.any())

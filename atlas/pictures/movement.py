@@ -29,7 +29,7 @@ def scene_at(scene: Scene, t: float) -> Scene:
 
 
 def rotations_about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the rigid motions of a body that turns by ``turns`` (N, 3, 3) about a point (3,)."""
+    """Return the rotations ``turns`` (N, 3, 3) about a point (3,) as pairs x -> R x + d: R, and d (N, 3)."""
     return turns, centre - turns @ centre
 
 
@@ -44,7 +44,7 @@ def translations(places: FloatArray, start: FloatArray) -> tuple[FloatArray, Flo
 
 
 def riding(layers: list[Layer], path: str) -> list[Layer]:
-    """Return copies of layers that ride on the path of this name."""
+    """Return copies of layers whose attribute `rides` is the name `path`."""
     return [replace(layer, rides=path) for layer in layers]  # type: ignore[arg-type]  # no map or region rides
 
 

@@ -144,7 +144,7 @@ def quadric_layers(ratio: Any, field: tuple[float, float], choice: str = "both")
 
 
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
-    """Return the section omega_1 = 0 of the surfaces, (67), as curves (N, 3)."""
+    """Return the sections omega_1 = 0, the hyperbola (67), of surfaces of a quadric, as `Curve` layers."""
     Q = quadrics.quadric_matrix(I, field)
     sag = tolerance(float(np.hypot(*field)))
     return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, sag)]
@@ -177,7 +177,7 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
 
 
 def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[Layer]:
-    """Return the arc of an angle (radians, from e2 towards e3) in the plane omega_1 = 0, with its name."""
+    """Return the arc of an angle ``value`` in rad, from e2 towards e3, and its label: two layers."""
     arc = solids.arc(centre, radius * E2, radius * E3, 0.0, value, tolerance(2.0 * radius))
     directions = [in_plane(float(np.cos(share * value)), float(np.sin(share * value))) for share in (0.5, 0.25, 0.0)]
     offset = (4.0 * float(directions[0][1]), 4.0 * float(directions[0][2]))

@@ -108,7 +108,10 @@ def top_matrix(I: float, quadric: TopQuadric) -> FloatArray:
 
 
 def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
-    """Return the sheets of the quadric (51) of a body, as `sheets` does; ``field`` is (B2, B3), neither zero."""
+    """Return the sheets of the quadric (51) of a body, as `sheets` does, within ``reach`` of the centre.
+
+    ``field`` is (B2, B3), neither zero.
+    """
     return sheets(Quadric(ratio, field), quadric_matrix(ratio, field), -reach, reach, tolerance)
 
 
@@ -124,7 +127,7 @@ def sheets(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: 
 
 
 def centre_value(Q: FloatArray, centre: FloatArray) -> float:
-    """Return F at the centre, -(1 - I) B2^2."""
+    """Return the value of the quadric's form (4, 4) at its centre (3,), -(1 - I) B2^2 over the scale of Q."""
     x = np.append(centre, 1.0)
     return float(x @ Q @ x)
 

@@ -98,7 +98,7 @@ def names() -> list[str]:
 
 
 def source(name: str) -> Path:
-    """Return the file of a recipe. Raises AtlasError for an unknown name."""
+    """Return the path of a recipe, a name in figures/ or a file NAME.py. Raises AtlasError if there is none."""
     if name.endswith(".py"):
         file = Path(name)
         if not file.is_file():
@@ -113,12 +113,12 @@ def source(name: str) -> Path:
 
 
 def title(name: str) -> str:
-    """Return the title of a recipe, the first line of its docstring."""
+    """Return the title of a recipe, the first line of its file's docstring."""
     return load(name).title
 
 
 def load(name: str) -> Recipe:
-    """Return a recipe, its title, constants and parameters read without running it; cached until its file changes."""
+    """Return the `Recipe` of a name or file; its file is read, not run. Cached until the file changes."""
     file = source(name)
     return _load(file, _stamp(file))
 
@@ -196,7 +196,10 @@ _KINDS = {
 
 
 def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
-    """Return the default of a parameter. Raises AtlasError if it is missing or not a literal."""
+    """Return the value of a parameter's default, given by its syntax node.
+
+    Raises AtlasError for a missing default and for one that is no literal.
+    """
     if value is None:
         raise AtlasError(f"the parameter {parameter!r} of {_short(source)} has no default; every parameter needs one")
     try:
@@ -208,7 +211,7 @@ def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
 
 
 def _function(source: Path) -> tuple[Callable[..., "Scene"], dict[str, Any]]:
-    """Return the function of a recipe, its file executed, and the annotations of its parameters by name."""
+    """Return (function `scene` of a recipe, annotations of its parameters by name); the file is executed."""
     return _run(source, _stamp(source))
 
 
@@ -235,7 +238,7 @@ def _broken(source: Path, error: Exception) -> AtlasError:
 
 
 def _short(source: Path) -> str:
-    """Name a recipe's file as the user knows it."""
+    """Return the name of a recipe's file for messages: "figures/NAME.py", or the bare name of a user's file."""
     return f"figures/{source.name}" if source.parent == folder("figures") else source.name
 
 

@@ -75,7 +75,7 @@ def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sph
 
 
 def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolerance: float) -> Surface:
-    """Return the cone of half-angle ``angle`` in rad around the unit vector ``axis``, its side ``length`` long.
+    """Return a cone as a `Surface`: half-angle ``angle`` in rad about the unit vector ``axis``, slant ``length``.
 
     At a right angle a disk is returned, for the quadratic form of the cone is then a square and has no normal.
     """

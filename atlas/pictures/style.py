@@ -180,7 +180,10 @@ def is_dark(ground: str) -> bool:
 
 @cache
 def readable(colour: str, ground: str = WHITE) -> str:
-    """Return the colour of a text on a ground: itself, darker or lighter if its contrast needs that; for white ink."""
+    """Return a colour for text that is readable on a ground: the given colour, darkened or lightened if needed.
+
+    White stands for the ink.
+    """
     if colour == WHITE:
         colour = INK
     add = 11.18 if is_dark(ground) else 0.0  # so that the steps end at white
@@ -191,7 +194,7 @@ def readable(colour: str, ground: str = WHITE) -> str:
 
 @cache
 def style(role: str) -> Style:
-    """Return the look of a role. Raises AtlasError for an unknown role."""
+    """Return the `Style` of a role. Raises AtlasError for an unknown role."""
     if role in STYLES:
         return STYLES[role]
     raise AtlasError(f"no style for the role {role!r}{nearest(role, STYLES)}; known: {', '.join(STYLES)}")

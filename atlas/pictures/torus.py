@@ -41,7 +41,7 @@ def visible(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
 
 
 def net() -> list[Layer]:
-    """Return the visible parts of lines of constant angle and of the outline."""
+    """Return layers: the visible parts of lines of constant angle on the torus, and of its outline."""
     round_ = np.linspace(0.0, 2 * np.pi, 181)
     layers: list[Layer] = []
     for angle in np.arange(24) * np.pi / 12:

@@ -103,17 +103,17 @@ def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
 
 
 def _lift(x: FloatArray, weight: float = 1.0) -> FloatArray:
-    """Homogeneous coordinates: (x, 1) of a point, (x, 0) of a direction."""
+    """Return homogeneous coordinates (..., 4): (x, 1) of points, or (x, 0) of directions with `weight` 0."""
     return np.concatenate([x, np.full((*x.shape[:-1], 1), weight)], axis=-1)
 
 
 def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the bilinear form a.Q.b."""
+    """Return the values a.Q.b of a quadric (4, 4) for homogeneous coordinates a and b (..., 4)."""
     return np.einsum("...i,ij,...j->...", a, quadric, b)
 
 
 def _weight(quadric: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the size of the terms whose sum F is, against which F counts as zero."""
+    """Return the sums of the magnitudes of F's terms at points (..., 3), relative to which F counts as zero."""
     x = np.abs(_lift(points))
     return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * 1e-3)
 
@@ -129,9 +129,9 @@ def _is_flat(quadric: FloatArray) -> bool:
 
 
 def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) -> BoolArray:
-    """Return a mask of the points x (..., 3) that the surface hides.
+    """Return a mask of the points x (..., 3) that the surface hides, seen along the unit vector `towards` the eye.
 
-    From a point ``on`` the surface one root is t = 0 and does not count.
+    The mask `on` tells the points on the surface: one root, t = 0, does not count there.
     """
     quadric, d = surface.quadric, _lift(towards, 0.0)
     A = float(_form(quadric, d, d))
@@ -197,7 +197,7 @@ def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: Flo
 
 
 def _coefficients(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Coefficients of F(a + s b) = c0 + c1 s + c2 s^2."""
+    """Return c0, c1, c2 in F(a + s b) = c0 + c1 s + c2 s^2, for homogeneous a (points) and b (directions)."""
     return _form(quadric, a, a), 2.0 * _form(quadric, a, b), _form(quadric, b, b)
 
 
@@ -220,7 +220,7 @@ def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> Floa
 
 
 def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
-    """Return (near?, outer side seen?, edge) of the surface's parts, far ones first."""
+    """Return (is near, is outer side seen, edge) for the surface's two parts that exist, the far part first."""
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
     sides = []
     for sign in (1.0, -1.0):

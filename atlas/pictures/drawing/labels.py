@@ -101,7 +101,10 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
 
 
 def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_]) -> FloatArray:
-    """Return the cost (N,) of a text at centres (N, 2) whose owner is not clearly the nearest ink."""
+    """Return the cost (N,) of centres (N, 2) of a text whose own layer is not clearly the nearest.
+
+    `owned` is the mask of the points `ink` (M, 2) that belong to its layer. 0 if all or none of them do.
+    """
     if not owned.any() or owned.all():
         return np.zeros(len(centres))
     half = 0.5 * np.array(extent)
@@ -112,7 +115,10 @@ def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, ow
 
 
 def _gap(centres: FloatArray, half: FloatArray, ink: FloatArray) -> FloatArray:
-    """Return the distance of the nearest ink from a box about each of the centres (N, 2)."""
+    """Return the distances (N,) from boxes of half extent `half` about centres (N, 2) to the nearest ink (M, 2).
+
+    Distances are cut at `_SIGHT`.
+    """
     reach = half + _SIGHT
     is_near = ((ink > centres.min(axis=0) - reach) & (ink < centres.max(axis=0) + reach)).all(axis=1)
     if not is_near.any():

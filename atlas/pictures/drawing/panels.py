@@ -166,7 +166,7 @@ def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
 
 
 def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = None) -> None:
-    """Draw the other parts of a panel, once its axes are in position."""
+    """Draw the remaining parts of a panel, once its axes have their position: a plane's names, a space's layers."""
     if isinstance(panel, Plane):
         write_names(axes, panel)
     else:

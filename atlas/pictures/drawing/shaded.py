@@ -40,7 +40,7 @@ _SHARP = float(np.cos(np.radians(25.0)))
 
 
 def still_picture(view: View, width: int, height: int) -> NDArray[np.uint8]:
-    """Return a picture (height, width, 3) of a panel, antialiased, with its surfaces in exact order."""
+    """Return a picture of a panel as colours (height, width, 3) from 0 to 255, with its surfaces in exact order."""
     view = replace(view, centre=np.zeros(3), size=1.0)
     plotter = pv.Plotter(off_screen=True, window_size=[width, height], lighting="none")
     plotter.enable_anti_aliasing("msaa", multi_samples=_SAMPLES)
@@ -70,7 +70,7 @@ def _add(plotter: pv.Plotter, mesh: pv.PolyData, view: View, **options: Any) -> 
 
 
 def _add_solids(plotter: pv.Plotter, view: View, pixel: float) -> None:
-    """Add lines, arrows and marked points, those of one colour as one mesh; `pixel` is as for `glass`."""
+    """Add lines, arrows and marked points to the plotter, one mesh for each colour; `pixel` is as for `glass`."""
     groups: defaultdict[str, list[pv.PolyData]] = defaultdict(list)
     for layer in view.panel.layers:
         if isinstance(layer, Surface):
@@ -91,7 +91,10 @@ def _add_solids(plotter: pv.Plotter, view: View, pixel: float) -> None:
 
 
 def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterator[pv.PolyData]:
-    """Yield a line as tubes with round joints where it has a corner; a dashed one in dashes."""
+    """Yield the meshes of a line (N, 3) drawn as tubes, one for each dash, with balls at its corners.
+
+    Nothing is yielded for a role without a tube.
+    """
     if look.tube <= 0.0:
         return
     radius = 0.5 * look.tube / view.scale
@@ -110,7 +113,7 @@ def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterato
 
 
 def _sides(radius: float) -> int:
-    """Return the number of sides of a tube or ball whose radius is in pixels."""
+    """Return the number of sides, 8 or more, of a tube or ball whose `radius` is in pixels."""
     return max(8, math.ceil(math.pi * math.sqrt(radius / (2.0 * _OFF))))
 
 

@@ -181,7 +181,7 @@ def silhouette(surface: Surface, view: View) -> list[FloatArray]:
 
 
 def draw_shaded(axes: Axes, panel: Space) -> None:
-    """Draw a panel as a picture by VTK, of the resolution in which the figure is saved, with its names over it."""
+    """Draw a `Space` as a picture by VTK, at the resolution in which the figure is saved, with names above it."""
     from atlas.pictures.drawing.shaded import still_picture
 
     view = fit(panel, window(axes))

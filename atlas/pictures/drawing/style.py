@@ -100,19 +100,19 @@ def _target_settings(target: Target) -> dict[str, Any]:
 
 
 def zoom() -> float:
-    """Return the scale of all lengths in points over their lengths in a journal's figure."""
+    """Return the target's factor for lengths in points, 1 for a journal's figure and without a target."""
     target = _TARGET.get()
     return target.zoom if target else 1.0
 
 
 def stroke(width: float) -> float:
-    """Return the width on paper of a line whose role has this width, in points: within the limits of the target."""
+    """Return the width on paper, in points, of a line of this width: enlarged, within the target's limits."""
     target = _TARGET.get()
     return width if target is None else min(max(target.zoom * width, target.lines[0]), target.lines[1])
 
 
 def dashes(pattern: Sequence[float]) -> Any:
-    """Return a pattern of dashes in Matplotlib's form, scaled to paper."""
+    """Return Matplotlib's line style for a pattern of lengths in points, enlarged for the target; "-" for none."""
     return (0, [zoom() * length for length in pattern]) if pattern else "-"
 
 
@@ -134,12 +134,15 @@ def _complaints() -> Iterator[list[str]]:
 
 @cache
 def _sheet() -> Any:
-    """Return the settings of the package's style sheet."""
+    """Return the settings of the package's style sheet as Matplotlib's `RcParams`."""
     return mpl.rc_params_from_file(SHEET, use_default_template=False)
 
 
 def _apply(style: Any) -> None:
-    """Apply one style of a user."""
+    """Apply one user's style, a name, file, dict or list, to Matplotlib's settings.
+
+    Raises AtlasError for an unknown name, an address, and settings that Matplotlib refuses.
+    """
     from matplotlib import style as sheets  # it reads all of Matplotlib's
 
     cannot, unknown = f"the style {str(style)!r} cannot be used", "it is no file, nor a name of Matplotlib's"

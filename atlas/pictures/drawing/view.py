@@ -67,7 +67,7 @@ class View(Placement):
         return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
 
     def on_paper(self, points: FloatArray) -> FloatArray:
-        """Points (..., 3) of the scene as points (..., 2) of the paper."""
+        """Return points (..., 3) of the scene as positions (..., 2) on paper, in points."""
         return self.scale * (points @ self.frame[:2].T) + self.shift
 
 
@@ -139,7 +139,7 @@ def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, 
 
 
 def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
-    """Return the largest scale at which drawing and names stay inside, by bisection."""
+    """Return the largest scale at which points `flat` (N, 2) and names' `boxes` fit `inside` (width, height)."""
     span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
     corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
     low, high = 0.0, float(np.min(inside / span))
@@ -157,7 +157,7 @@ def _boxes(tags: list[Tag]) -> FloatArray:
 
 
 def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
-    """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
+    """Return the lowest and the highest corner, (2,) each, of drawing and names at this scale."""
     anchors, middles, half = boxes
     centres = scale * anchors + middles
     low = np.concatenate([scale * flat, centres - half]).min(axis=0)
