@@ -91,7 +91,7 @@ def trace(top: TopMotion) -> str:
 
 
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
-    """Return the energies g, less those of the cusps' line, over p: the least ones and the motions drawn."""
+    """Return a `Plane` of the energies g over p, less those of the cusps' line: the least, and those of the tops."""
     wells = Wells.of(tops[0])
     M3 = wells.M3
 

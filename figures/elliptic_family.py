@@ -68,7 +68,7 @@ def scene(
 def panel(
     name: str, inertia: tuple[float, ...], field: tuple[float, float], view: Window, panel_width: float, unit: str
 ) -> Plane:
-    """Return the curves of one body."""
+    """Return the `Plane` of one body: its curves of motions over (omega2, omega3), each named on its longest piece."""
     millimetres = (panel_width, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     hyperbola = branches(inertia[2], field, view, millimetres)

@@ -86,7 +86,10 @@ def scene(
 def one_each(
     ratios: tuple[float, ...], b: tuple[float, ...], linear: tuple[float, ...]
 ) -> list[tuple[float, float, float]]:
-    """Return ratio, field and weight of each top."""
+    """Return a tuple (ratio I3/I2, field b, weight) for each top; a single b or weight holds for all.
+
+    Raises DomainError for other counts, negative b, and a top with neither field nor weight.
+    """
     count = len(ratios)
     if not (1 <= count <= 3 and len(b) in {1, count} and len(linear) in {1, count}):
         raise DomainError(
@@ -100,7 +103,7 @@ def one_each(
 
 
 def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
-    """Return the curves of one top."""
+    """Return the `Plane` of one top: energies 2H of its precessions over p."""
     scale = max(b, abs(linear) ** 0.5)
     wells, shift = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
     branches = list(wells.precessions(3.0 * reach * scale))
@@ -166,7 +169,7 @@ def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
 
 
 def names(branch: Branch, reach: float, shift: float) -> list[Layer]:
-    """Return labels of a curve inside the view: "unstable", else the sign of its rate w."""
+    """Return labels at the visible parts of a curve: "unstable", and the sign of the rate w at stable parts."""
     w, stable, is_visible = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
     order = np.argsort(-branch.g, kind="stable")
     points = np.stack([branch.p, branch.g + shift], axis=1)
@@ -183,7 +186,7 @@ def names(branch: Branch, reach: float, shift: float) -> list[Layer]:
 
 
 def runs(branch: Branch, shift: float) -> list[tuple[FloatArray, bool]]:
-    """Return the pieces (N, 2) of a curve (p, 2H) that are stable or unstable throughout, and which."""
+    """Return pairs (piece (N, 2) of the curve (p, 2H), whether unstable), cut where stability changes."""
     unstable = np.asarray(branch.stable) < 0
     points = np.stack([branch.p, branch.g + shift], axis=1)
     cuts = np.flatnonzero(np.diff(unstable)) + 1

@@ -94,7 +94,7 @@ def scene(
 
 
 def fields(B: FloatArray, E: FloatArray, centres: FloatArray, size: float, eye: tuple[float, float]) -> list[Layer]:
-    """Return arrows along the fields, in the lower right corner of the bodies' extent on paper."""
+    """Return an arrow along each nonzero field, as layers, in the lower right corner of the bodies on paper."""
     view = frame(Space((), azimuth=eye[0], elevation=eye[1]))
     flat = centres @ view.T
     length = CORNER * float(np.ptp(flat[:, 1]))

@@ -108,7 +108,7 @@ def frequencies(
     motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
-    """Panel (a): k and phi."""
+    """Return panel (a), a `Plane`: k and phi over omega2, with the closed motions marked."""
     B2, _ = field
     k, phi = hyperbola.frequencies(np.array(ends))
     top = 1.1 * float(np.abs(k).max())
@@ -158,7 +158,10 @@ def quotients(
     motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
-    """Panel (b): phi/k by (86), which is finite at rest, where both vanish; ``free_quotient`` is by (87)."""
+    """Return panel (b), a `Plane`: phi/k over omega2 by (86), finite at rest, where k and phi vanish.
+
+    ``free_quotient`` is the limit (87) for large omega2.
+    """
     B2, _ = field
     top = TOP * abs(free_quotient) or 1.0
     view = Window(ends, (-top, top))

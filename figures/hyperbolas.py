@@ -58,7 +58,7 @@ def scene(
 
 
 def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
-    """Return the axes and, where there are any, the asymptotes."""
+    """Return layers of the lines omega2 = 0 and omega3 = 0, and, for B2 B3 not zero, of pole and asymptotes."""
     B2, B3 = components(field)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     if B2 and B3:
@@ -69,7 +69,7 @@ def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Windo
 
 
 def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
-    """Return the curve of each body, or the one that all have in common."""
+    """Return layers of the curve of each body, or of the one that all bodies share where B2 or B3 is zero."""
     are_different = all(components(field))
     roles = tuple(map(body_role, ratios))
     if len(set(roles)) < len(roles):
@@ -84,7 +84,7 @@ def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window)
 
 
 def _points(ratios: tuple[float, ...], field: tuple[float, float]) -> list[Layer]:
-    """Return the centre, rest and -2B' with their names, and the points of each body."""
+    """Return layers: the points -B', rest and -2B' with names, and the other named points of each body."""
     return [
         *marked(places(ratios[0], field)[:2], field),
         *(Points(np.array([place.point]), place.role) for ratio in ratios for place in places(ratio, field)[2:]),

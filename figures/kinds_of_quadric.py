@@ -102,7 +102,10 @@ def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
 
 
 def named(line: FloatArray, occupied: list[FloatArray]) -> FloatArray | None:
-    """Return the point of a level line for its value, far from the cone and the edges; None beside ``occupied``."""
+    """Return the point (2,) of a level line (N, 2) for its value, far from cone and edges; None without room.
+
+    Points near ``occupied`` ones, those of earlier values, have no room.
+    """
     I, beta = line.T
     quality = np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))
     for neighbour in occupied:
@@ -111,7 +114,7 @@ def named(line: FloatArray, occupied: list[FloatArray]) -> FloatArray | None:
 
 
 def broken_line(line: FloatArray, place: FloatArray) -> list[FloatArray]:
-    """Return the two parts of a level line that leave room for its value at ``place`` (2,)."""
+    """Return the parts of a level line (N, 2) outside the room for its value at ``place`` (2,), a list."""
     away = np.hypot(*((line - place) / [2.0, RIGHT]).T) > ROOM
     ends = np.flatnonzero(np.diff(away)) + 1
     return [

@@ -76,7 +76,7 @@ def scene(
 
 
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
-    """Return one sphere with the traces of both motions."""
+    """Return a `Space`: one sphere with the traces of both motions up to `time`, with an arrowhead on each."""
     sag = tolerance(1.4)
     layers: list[Layer] = [
         solids.sphere(O, 1.0, sag),

@@ -110,14 +110,14 @@ def marked(panel: Plane, motion: ElementaryMotion) -> Plane:
 
 
 def velocity(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
-    """Panel (b): Omega(t)."""
+    """Return panel (b), a `Plane`: the components of Omega(t) along the axes of the body."""
     names = tuple(rf"$\Omega_{i}$" for i in (1, 2, 3))
     y_label = rf"$\boldsymbol{{\Omega}}$ (1/{unit})"
     return course(motion.angular_velocity, names, stop, f"$t$ ({unit})", y_label, "(b) angular velocity", size=PANEL)
 
 
 def momentum(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
-    """Panel (c): m(t)/I2 and its projection on the field."""
+    """Return panel (c), a `Plane`: the components of m(t)/I2, and its projection on the field if there is one."""
     names = tuple(f"$m_{i}$" for i in (1, 2, 3))
     y_label = rf"$\mathbf{{m}}/I_2$ (1/{unit})"
     size = float(np.hypot(*motion.field))

@@ -82,7 +82,10 @@ def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatAr
 
 
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
-    """Say how the body cone lies to the space cone: both stand on the side of their axes that is nearer to omega."""
+    """Return words on whether the body cone rolls on the outside of the space cone, inside it, or encloses it.
+
+    Each cone is on the side of its axis, e3 or `axis`, that is nearer to omega.
+    """
     omega = np.asarray(motion.angular_velocity(0.0))
     body, space = (np.copysign(1.0, n @ omega) * n for n in (E3, axis))
     if np.cross(omega, body) @ np.cross(omega, space) < 0:
@@ -92,7 +95,7 @@ def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
 
 
 def reach(line: FloatArray, omega: FloatArray) -> float:
-    """Length of an arrow along a line: 1.35, beyond the rims, on the side of omega, where the cones are; else 0.6."""
+    """Return the length of an arrow along a line: 1.35, beyond the rims, on the side of omega; else 0.6."""
     return 1.35 if line @ omega > 0.0 else 0.6
 
 

@@ -67,9 +67,10 @@ def scene(
 
 
 def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, unit: str) -> Plane:
-    """Return a panel of lines; those that turn about the field, or about the body's axis, are of the second kind.
+    """Return a `Plane` of spectral lines; lines with turns about the field or the body's axis are of a second kind.
 
-    The frequencies go up to ``top``; without a ``unit`` the axis has no name, and the kinds have.
+    Amplitudes are relative to the root mean square. Frequencies go up to ``top``; without a ``unit`` the axis has no
+    name, and the kinds have.
     """
     size = np.sqrt(lines.power / lines.mean_square)
     positive = lines.frequencies >= 0

@@ -89,7 +89,7 @@ def scene(
 
 
 def name(speed: float) -> str:
-    """Return the name of the curve that turns with ``speed`` times the drift's speed."""
+    """Return the name of the curve whose speed of turning is ``speed`` times the drift's, such as "cycloid"."""
     if speed == 0:
         return "straight line"
     if speed == 1:
@@ -98,5 +98,5 @@ def name(speed: float) -> str:
 
 
 def turning(speed: float) -> str:
-    """Return the equation between the speeds of turning and of drift."""
+    """Return the equation between the speeds of turning and of drift, as TeX."""
     return r"$a\omega = v$" if speed == 1 else rf"$a\omega = {tex(speed)}\,v$"
