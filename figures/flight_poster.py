@@ -19,10 +19,10 @@ from atlas.pictures.sample import curve, quarter_pixel
 
 ROW = "a body"
 SEEN = "In flight the body's axis goes round the field at a constant angle and a rate of its own."
-WIDTH, HEIGHT = 150.0, 200.0
+WIDTH, HEIGHT = 66.0, 88.0
 AXIS, CORNER = 1.7, 0.22
 """How far an axis is drawn in units of the body, and the length of the fields' arrows as a part of the height."""
-HEADS = (3.5, 7.6, 10.5)
+HEADS = (3.5, 10.5)
 """Where on the path an arrowhead shows its sense, in steps of time: where no body covers it."""
 
 MAX_SIZES_PER_PATH = 1.25
@@ -68,7 +68,7 @@ def scene(
     end = 0.5 * size * proportions(I)[1]
     layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, sag, pieces=64), "flight_path")]
     for between in HEADS:  # the sense of the flight
-        tail, tip = particle.position(stop / (count - 1) * np.array([between - 0.1, between + 0.1]))
+        tail, tip = particle.position(stop / (count - 1) * np.array([between - 0.2, between + 0.2]))
         layers.append(Arrow(tail, tip, "flight_path"))
     layers.append(Label(centres[0] - size * E3, "start", "label", (0.0, -6.0)))
     sight = frame(Space((), azimuth=azimuth, elevation=elevation))[2]

@@ -18,7 +18,7 @@ from atlas.pictures.captions import plain, tex
 from atlas.pictures.sample import room
 
 ROW = "its map"
-SEEN = "Carried round an unstable spin, the lattice of periods comes back, but one period as another."
+SEEN = "Carried round an unstable spin, one of the periods comes back as another."
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
 LOOP_POINTS = 480

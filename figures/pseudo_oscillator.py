@@ -18,7 +18,7 @@ from atlas.pictures.captions import plain, plain_setting, plain_vector, tex, tex
 from atlas.pictures.sample import flat
 
 ROW = "its map"
-SEEN = r"The component $\Omega_3$ moves where a quartic is not negative, as in a potential."
+SEEN = r"The component $\Omega_3$ moves as a point on a line does in a potential."
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
 PIECES = 32

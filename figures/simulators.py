@@ -64,7 +64,7 @@ def scene() -> Scene:
             )
         ),
         columns=2,
-        size=(178.0, 70.0),
+        size=(178.0, 56.0),
     )
 
 

@@ -90,8 +90,8 @@ def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[
         layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note", (0.0, 2.0)))
     if is_last:
         layers += [
-            Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", offset=(0.0, 2.0)),
-            Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", offset=(0.0, 2.0)),
+            Label(np.array([-0.6 * reach, 0.0]), "heavy tops"),
+            Label(np.array([-0.39 * reach, -0.7 * reach]), "paper's bodies", offset=(0.0, 2.0)),
         ]
     return Plane(
         tuple(layers), r"$a/p^2$", r"$A/p^2$" if is_first else "", (-reach, reach), (-reach, reach),

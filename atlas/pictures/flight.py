@@ -151,7 +151,7 @@ def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: 
     x_low, y_low = flat.min(axis=0)[:2]
     corner = np.array([x_low - max(0.0, *ends[:, 0]) - CLEAR * length, y_low - min(0.0, *ends[:, 1]), 0.0]) @ eye
     layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
-    layers += scale_bar(corner - 0.35 * length * eye[1], eye[0], length, unit)
+    layers += scale_bar(corner + (min(0.0, *ends[:, 1]) - 0.35 * length) * eye[1], eye[0], length, unit)
     return replace(view, layers=tuple(layers))
 
 
