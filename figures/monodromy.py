@@ -106,7 +106,7 @@ def values(name: str, wells: Wells, loop: Monodromy, is_first: bool, unit: str) 
 
 
 def smooth(points: FloatArray) -> FloatArray:
-    """Return a line (N, 2) that passes, but for a step along it, through points that come back after it."""
+    """Return a smooth line (N, 2) through points that repeat, but for a step, after the last, by Fourier series."""
     count = len(points) - 1
     drift = np.outer(np.arange(count) / count, points[-1] - points[0])
     waves = np.fft.rfft(points[:-1] - drift, axis=0)

@@ -111,7 +111,7 @@ def side_by_side(
 
 
 def kinds(ratio: float, places: np.ndarray) -> Plane:
-    """Return the plane of (A0 + a0/n3)/b^2 and k3/(I k2), with the border D = 0 and the tops."""
+    """Return a `Plane` of (A0 + a0/n3)/b^2 and k3/(I k2): the border D = 0 of the kinds, and tops' points (N, 2)."""
     wide = 1.25 * max(1.0, float(np.abs(places[:, 0]).max()))
     high = 1.25 * max(1.0, float(places[:, 1].max()))
     low = -0.2 * high

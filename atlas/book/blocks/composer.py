@@ -39,7 +39,7 @@ class Composer:
         self.uses, self.ledger, self.parameters = document.uses, document.ledger, document.report.parameters
 
     def begin(self, slug: str, title: str) -> None:
-        """Go on to a page."""
+        """Begin a page: keep its slug and title, and forget the equations cited and the sentences said before."""
         self.slug, self.title = slug, title
         self.cited: set[str] = set()
         self.said: set[str] = set()
@@ -66,7 +66,7 @@ class Composer:
         return self.text(markdown, inline=True)
 
     def once(self, sentence: str) -> str:
-        """Return a sentence that has not been said on this page, else nothing."""
+        """Return the sentence if it was not said on this page before, else ""."""
         new = sentence not in self.said
         self.said.add(sentence)
         return sentence if new else ""
@@ -78,13 +78,13 @@ class Composer:
         return [anchor for anchor in anchors if anchor]
 
     def use(self, name: str, anchor: str, words: str) -> None:
-        """Note that a place of this page uses an equation, once."""
+        """Record that `anchor` on this page cites an equation, with a word for the citing item; repeated ones once."""
         place = Use(self.title, f"{self.slug}.html", anchor, words)
         if place not in self.uses[name]:
             self.uses[name].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
-        """Link a name to an anchor of this page, unless linked already; return whether it was not."""
+        """Let citations of a name lead to an anchor of this page; return False if they lead elsewhere already."""
         is_first = name not in self.document.targets
         if is_first:
             self.document.targets[name] = (f"{self.slug}.html", anchor, words)

@@ -75,7 +75,7 @@ class ExplorerView:
 
     @property
     def described(self) -> str:
-        """The sliders for the script."""
+        """JSON of the sliders, a list of objects, for the script."""
         return json.dumps([asdict(slider) for slider in self.sliders], ensure_ascii=False)
 
     @property
@@ -110,7 +110,7 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
 
 def _sliders(B2: float, B3: float) -> dict[str, Slider]:
-    """Return all sliders by name."""
+    """Return all sliders that an explorer can have, by name, for the field (B2, B3)."""
     defaults = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
     (low2, high2), (low3, high3) = _PLANE
     bound = "angle of the field with e2, in degrees"

@@ -50,12 +50,12 @@ class EntryView:
 
     @property
     def slug(self) -> str:
-        """Name of the entry as it stands in links."""
+        """Name of the entry as links have it."""
         return slug(self.name)
 
     @property
     def same(self) -> str:
-        """The entry that shares the slip, in links."""
+        """Slug of the entry that shares the slip, "" without."""
         return slug(self.finding.slip)
 
 

@@ -15,7 +15,10 @@ class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliograph
 
 
 def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
-    """Link citations of works to this page. Raises AtlasError without a bibliography, and for a second list."""
+    """Return the block, and make its page the target of citations of works.
+
+    Raises AtlasError without a BibTeX file, and for a second list.
+    """
     document = composer.document
     if not document.report.bibliography:
         raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
@@ -71,7 +74,7 @@ def view_reference(block: Reference, composer: Composer) -> ReferenceView:
 
 
 def outline(_block: Reference, _composer: Composer) -> None:
-    """Leave out the names, which nothing leads to."""
+    """Return nothing: no citation leads to the names of a reference."""
 
 
 def markdown_of_sections(docstring: str) -> str:

@@ -114,7 +114,7 @@ class TableView:
 
     @property
     def words(self) -> bool:
-        """Whether it has words alone, whose lines can be broken."""
+        """Whether no column has numbers, so that lines can be broken."""
         return not any(column.numeric for column in self.columns)
 
     @property
@@ -124,7 +124,7 @@ class TableView:
 
 
 def view_computed(block: Table, composer: Composer) -> TableView:
-    """Return the view of a computed table."""
+    """Return the view of a table, computed for the block's bodies, field and parameters."""
     request = Request(chosen(block, composer.parameters), block.parameters, block.digits)
     data, named = compute(block.table, request), composer.parameters.fields.get(block.field or "")
     if named and not block.caption and named.title not in data.caption:
@@ -196,7 +196,7 @@ def _view(
 
 
 def _cell(value: str | Number, composer: Composer) -> Cell:
-    """Return the cell of a number, split at its point, or of a text."""
+    """Return the `Cell` of a number, split at its point, or of a text; an empty cell for ""."""
     if isinstance(value, Number):
         return Cell(None, *value.parts(), value.proven)
     return Cell(composer.text(value, inline=True)) if value else Cell()

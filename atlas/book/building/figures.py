@@ -73,7 +73,7 @@ class FigureBuild:
 
     @property
     def reason(self) -> str:
-        """Words on whether the figure failed, was drawn or came from the cache, and why."""
+        """Text on the result: "failed: ...", "drawn: ..." or "taken: ...", with the cause."""
         return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
 
     def missing(self) -> dict[str, str]:
@@ -81,7 +81,7 @@ class FigureBuild:
         return {} if self.contents else dict(self.keys)
 
     def take(self, cache: Cache) -> None:
-        """Read the files from the cache if all are there."""
+        """Set `contents` and `facts` from the cache, if all the figure's files are there."""
         entries = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
         if entries.keys() == self.keys.keys():
             for kind, entry in entries.items():
@@ -110,7 +110,7 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
 
 
 def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str | None) -> None:
-    """Read the cached files of some figures, and note why the others must be drawn."""
+    """Set each figure's keys, and its contents from the cache; set the cause where it must be drawn."""
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
         figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}
@@ -198,7 +198,7 @@ def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -
 
 
 def cores() -> int:
-    """Return the default number of workers: one a core, within reason."""
+    """Return the default number of workers: the processors, at most MAX_WORKERS."""
     return min(processors(), MAX_WORKERS)
 
 
@@ -257,7 +257,7 @@ def build_figures(
 
 
 def _put(figure: FigureBuild, out: Path) -> Files:
-    """Write the files of a figure to `out`; files that the user edited are kept."""
+    """Write the files of a figure to `out` and return its `Files`; a file that the user edited is kept."""
     name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
@@ -276,7 +276,10 @@ HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms
 
 
 def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Mapping[str, float], jobs: int) -> Path:
-    """Write the costs of a build as JSON; `times` are the clock's readings at the end of each step, in order."""
+    """Write the costs of a build as JSON into the file `path`, and return the path.
+
+    `times` are the clock's readings in seconds at the end of each step, in order.
+    """
     steps = {
         step: round(end - start, 4) for (step, end), start in zip([*times.items()][1:], times.values(), strict=False)
     }
@@ -292,7 +295,7 @@ def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Ma
 
 
 def rows_of_costs(path: Path) -> list[list[str]]:
-    """Return the rows of a table of the costs, below `HEADING`."""
+    """Return the rows of a table of costs, from their JSON file: texts in the order of `HEADING`."""
     return [
         [entry["scene"], "failed", *[""] * 6]
         if entry["from"] == "failed"

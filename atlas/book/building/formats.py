@@ -48,7 +48,7 @@ _SCRIPT = re.compile(r'<script src="([^"]+)" defer></script>\n?')
 
 
 def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
-    """Set the texts of a document; those that were set before are in the cache."""
+    """Typeset the texts of a document for these formats; results of earlier builds come from the cache."""
     # pages of one object have most of their texts in common
     group = "a page" if len(document.pages) == 1 else document.report.name
     name = f"texts of {group} by {sources.closure([PACKAGE / 'book' / 'texts.py'])}"
@@ -69,7 +69,7 @@ def manifest_of(document: "Document") -> bytes:
 def _pages(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
-    """Return the pages of a report with their files, as a dictionary of contents by path."""
+    """Return the HTML pages of a report and all files beside them, contents by path."""
     from atlas.book import fonts, html
 
     code = sources.closure([PACKAGE / "book" / "fonts.py"])
@@ -96,7 +96,7 @@ def _pages(
 def _single(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
-    """Return the page of a report as one file with everything it needs."""
+    """Return {"NAME.html": content}: the pages of a report as one file with everything they need."""
     name = document.report.name
     files = _pages(document, figures, cache, sources)
     return {f"{name}.html": single({place.removeprefix(f"{name}/"): files[place] for place in files}, name)}

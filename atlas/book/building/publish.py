@@ -45,7 +45,7 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, line
 
 
 def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], work: Path) -> dict[str, str]:
-    """Replace the files of a folder at once; return the edited ones with the names of the new files beside them."""
+    """Replace the files of a folder; return the new names, by path, of files beside which an edited one is kept."""
     before = files.lines(place) | lines_before
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
     places = files.free(digests, place, before)
@@ -70,7 +70,7 @@ def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], wor
 
 
 def replace(place: Path, contents: Mapping[str, bytes]) -> None:
-    """Put these files into a folder, see `publish`."""
+    """Write these files, contents by path, into a folder, and remove others that a build wrote, see `publish`."""
     inside = {f"{place.name}/{path}": content for path, content in contents.items()}
     publish({"folder": inside}, place.parent, place.name)
 
@@ -96,21 +96,21 @@ def _work(out: Path) -> Iterator[Path]:
 
 
 def _write(contents: Mapping[str, bytes], folder: Path) -> None:
-    """Write files into a folder that is made."""
+    """Write files, contents by path, into a folder; missing folders are made."""
     for path, content in contents.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(content)
 
 
 def _place(work: Path, out: Path, names: Iterable[str]) -> None:
-    """Move files from `work` to `out`, one by one."""
+    """Move the named files from `work` to `out`, one by one; existing ones are replaced."""
     for path in names:
         (out / path).parent.mkdir(parents=True, exist_ok=True)
         (work / path).replace(out / path)
 
 
 def _remove_others(folder: Path, stay: set[str]) -> None:
-    """Remove all other files from a folder."""
+    """Remove from a folder all files whose path is not in `stay`, and empty folders."""
     for old in sorted(folder.rglob("*"), reverse=True):
         if old.is_dir() and not old.is_symlink():
             if not any(old.iterdir()):

@@ -37,7 +37,7 @@ _SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
 
 
 def gather(report: Report) -> Appendices:
-    """Read the records that the blocks of a report show, and no others."""
+    """Return the `Appendices` with those records that the blocks of a report show."""
     blocks = [block for page in report.pages for block in page.blocks]
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     requests = {block.source for block in blocks if isinstance(block, Recorded)}
@@ -50,7 +50,7 @@ def gather(report: Report) -> Appendices:
 
 
 def _findings() -> dict[str, Finding]:
-    """Return the trial's finding on each entry, by name."""
+    """Return the trial's `Finding` on each entry of the ledger, by name."""
     from atlas.trial.proofs import recorded
 
     modules, scripts = _modules(), recorded.scripts()
@@ -93,7 +93,7 @@ def _modules() -> dict[str, tuple[str, ...]]:
 
 
 def _trial() -> dict[str, Data]:
-    """Return the verdicts in numbers, section by section, and the slips by grade."""
+    """Return two tables by name: counts of verdicts for each section, and the slips by grade."""
     from atlas.trial.proofs import recorded
     from atlas.trial.proofs.verdict import slips
 
@@ -201,7 +201,7 @@ def title(name: str) -> str:
 
 
 def _tex(letter: str, index: str, power: str) -> str:
-    """Return a letter with its index, or a power of ten."""
+    """Return TeX of a letter with its index, or of a power of ten if there is one."""
     if power:
         return f"10^{{{power}}}"
     text = _NAMED.get(letter, f"\\{letter}" if len(letter) > 1 else letter)
@@ -216,14 +216,14 @@ def _ulps(error: float) -> Number:
 
 
 def _three(value: float | None) -> str | Number:
-    """Return a number with three digits, a small one with two and its power of ten; a dash for None."""
+    """Return a `Number` of three digits, of two if below MIN_PLAIN; a dash for None."""
     if value is None:
         return "–"
     return Number(f"{value:.1e}" if 0 < abs(value) < MIN_PLAIN else f"{value:.3g}")
 
 
 def _words(text: str) -> str:
-    """Return a text of the terminal with its abbreviations in full."""
+    """Return a text of the terminal as Markdown: (us as (µs, powers of ten as TeX."""
     text = re.sub(r"\(us\b", "(µs", text)
     return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)
 

@@ -60,7 +60,7 @@ class Built:
 
     @property
     def ok(self) -> bool:
-        """Whether every figure is there."""
+        """Whether no figure failed."""
         return not self.failures
 
 
@@ -117,7 +117,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None, values: Mappi
 
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
-    """Return the existing report if its key is equal and its files are unedited, else None."""
+    """Return the `Built` of the existing report if its key is the same and its files are unedited, else None."""
     record_before = cache.load(_noted(name, out))
     for form in formats:
         record = record_before.get(form, {"key": None})
@@ -210,7 +210,7 @@ def _publish(
     counts: dict[str, int],
     cache: Cache,
 ) -> None:
-    """Write the files of a format, and note their digests, the key and the counts in the cache."""
+    """Write the files of a format into `out`, and save their digests, the key and the counts in the cache."""
     record: dict[str, Any] = cache.load(_noted(name, out))
     before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
     publish({form: files}, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
@@ -222,7 +222,7 @@ def _publish(
 def document_of(
     report: "Report", file: Path, drawings: "Mapping[str, Picture]", builds: "Mapping[FigureBuild, Picture]"
 ) -> "Document":
-    """Return a report with computed tables and captioned figures; `builds` are the figures that were drawn."""
+    """Return the `Document` of a report, with computed tables; `builds` gives the drawn figures their captions."""
     from atlas.book import bibliography
     from atlas.book.building.records import gather
     from atlas.book.compose import compose
@@ -234,7 +234,7 @@ def document_of(
 
 
 def outlines(report: "Report") -> "dict[str, Document]":
-    """Return the related reports in outline: numbers and anchors of their figures, tables and entries."""
+    """Return the related reports by name, as `Document`s with numbers and anchors, but without computed tables."""
     from atlas.book.compose import compose
     from atlas.book.load import load
     from atlas.book.pictures import pictures
@@ -249,7 +249,7 @@ def _places(out: Path, name: str) -> tuple[Path, Path]:
 
 
 def _check(name: str, file: Path) -> None:
-    """Refuse a name that is not that of the file."""
+    """Raise AtlasError for a name that is not that of the file, or that begins with a dot."""
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     if name != file.stem:
@@ -257,7 +257,7 @@ def _check(name: str, file: Path) -> None:
 
 
 def check_style(style: str | None) -> None:
-    """Refuse a style sheet that can't be used before anything is drawn."""
+    """Raise AtlasError for a style sheet that can't be used; None is allowed."""
     if style is not None:
         from atlas.pictures.drawing.style import context
 
@@ -294,7 +294,7 @@ def _figures(
 
 
 def describe(figure: "FigureBuild", picture: "Picture") -> None:
-    """Set the caption and size of a figure in a report, or its failure."""
+    """Set caption, alternative text, size and file names of a picture from a drawn figure, or its failure."""
     from atlas.book.digits import shown
 
     picture.failure = figure.failure

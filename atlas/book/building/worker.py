@@ -36,7 +36,7 @@ class Task:
 
 
 def draw(task: Task) -> str:
-    """Draw a figure into the cache; return in a sentence why that is not possible, or nothing.
+    """Draw a figure into the cache; return "", or the reason why that is not possible, as a sentence.
 
     Raises OSError when the cache can't be written: that is no fault of the figure.
     """
@@ -130,7 +130,7 @@ def _compressed(content: bytes) -> bytes:
 
 
 def counted(scene: Scene) -> dict[str, int]:
-    """Return the number of points of curves, regions and marks in a scene, with faces of surfaces and cells of maps."""
+    """Return {"points": n, "faces": m} of a scene: points of lines, regions and marks; faces of surfaces and maps."""
     points = faces = 0
     for layer in (layer for panel in scene.panels for layer in panel.layers):
         if isinstance(layer, Curve | Points | Region):
@@ -150,7 +150,10 @@ def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 def begin(environment: Mapping[str, str]) -> None:
-    """Give a worker process the caller's environment, which may have changed since the fork server was started."""
+    """Set the environment of a worker process to the caller's, and let its standard output go to standard error.
+
+    The environment may have changed since the fork server was started.
+    """
     os.environ.clear()
     os.environ.update(environment)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())

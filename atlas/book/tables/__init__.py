@@ -37,7 +37,7 @@ def compute(name: str, request: Request) -> Data:
 
 
 def _converted_request(kind: type, request: Request) -> Any:
-    """Return the request, or its parameters as an object of the register or as another record of type `kind`."""
+    """Return the request itself, the `Thing` of its parameters, or these as a record, whichever `kind` is."""
     if kind is Request:
         return request
     return Thing.of(request) if kind is Thing else convert(dict(request.parameters), kind, "parameters")

@@ -102,7 +102,7 @@ def radiation(setup: SizeParameters) -> Data:
 
 
 def moment_of_inertia(mass: float, radius: float) -> float:
-    """Moment of inertia of a ball."""
+    """Return the moment of inertia of a solid ball, 0.4 mass radius^2."""
     return 0.4 * mass * radius * radius
 
 
@@ -116,13 +116,13 @@ def off_the_field(b: float) -> float:
 
 
 def _check(setup: SizeParameters) -> None:
-    """Refuse parameters that are not all positive."""
+    """Raise AtlasError unless there are radii and all parameters are positive."""
     if not (setup.radii and min(*setup.radii, setup.density, setup.surface_field, setup.magnet) > 0):
         raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
 
 
 def two(value: float) -> Number:
-    """Return a number of two digits."""
+    """Return a number as a `Number` of two digits."""
     return Number(f"{value:.1e}")
 
 
@@ -267,5 +267,5 @@ def swings(request: Request, setup: DiamagnetismParameters) -> Data:
 
 
 def _three(value: float) -> str | Number:
-    """Return a number of three digits, or a dash for None."""
+    """Return a `Number` of three digits; a dash for None, zero and infinity."""
     return Number(f"{value:.2e}") if value and isfinite(value) else "–"

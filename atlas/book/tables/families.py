@@ -12,7 +12,7 @@ Row = tuple[str, str, str, str, str]
 
 
 def quantities() -> Data:
-    """Return the table of the parameters and quantities of all families, with unit, equation and promised error."""
+    """Return the table, a `Data`, of parameters and quantities of all families: unit, equation, promised error."""
     rows = []
     for family in FAMILIES.values():
         for place, row in enumerate(_rows(family)):
@@ -32,7 +32,7 @@ def quantities() -> Data:
 
 
 def _rows(family: Family) -> Iterator[Row]:
-    """Yield the rows of a family: parameters, quantities, and functions of time."""
+    """Yield the rows of a family, (name, meaning, unit, equation, error) as texts, of parameters, then quantities."""
     for p in family.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
     for q in family.quantities:
@@ -51,7 +51,7 @@ def _promise(family: Family, checked: str) -> str:
 
 
 def targets() -> Data:
-    """Return the table of the targets of figures: width, height, type, lines, resolution, publisher's rules, source."""
+    """Return the table, a `Data`, of the targets of figures: sizes, type, lines, resolution, and publishers' rules."""
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),
@@ -70,7 +70,7 @@ def _sizes(target: Target) -> tuple[str, ...]:
 
 
 def roles() -> Data:
-    """Return the table of the roles of layers, with their look and the settings that change it."""
+    """Return the table, a `Data`, of the roles of layers, with their look and the settings that change it."""
     from atlas.pictures.style import LINES, STYLES
 
     looks: dict[tuple[str, ...], list[str]] = {}

@@ -160,7 +160,10 @@ def inferred(setup: Watch) -> Data:
 
 
 def _deviations(J: Any) -> list[str | Number]:
-    """Return the standard deviations of parameters; a dash for one in a combination that the data do not determine."""
+    """Return the standard deviations from derivatives J (N, P), P numbers of two digits.
+
+    A dash stands for a parameter in a combination that the data do not determine.
+    """
     size = np.linalg.norm(J, axis=0)
     size[size == 0] = 1.0
     _, s, V = np.linalg.svd(J / size, full_matrices=False)
@@ -239,7 +242,7 @@ def beyond_larmor(setup: Design) -> Data:
 
 
 def _three(value: float) -> str | Number:
-    """Return a number of three digits, a dash for zero."""
+    """Return a `Number` of three digits; a dash below 1e-30."""
     if abs(value) < 1e-30:
         return "–"
     size = abs(value)

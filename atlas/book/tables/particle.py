@@ -12,7 +12,10 @@ from atlas.errors import AtlasError
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
-    """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, (101)."""
+    """Return the certified `ParticleMotion` (101) of a body's centre of mass. AtlasError without B and E.
+
+    Also for a laboratory frame that is not along the body's axes.
+    """
     from atlas.motions.particle.certified import ParticleMotion
 
     if case.physical is None:

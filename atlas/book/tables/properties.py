@@ -86,15 +86,15 @@ class Thing:
         return says[:1].upper() + says[1:]
 
     def kernels(self) -> Any:
-        """Return the object in doubles."""
+        """Return the object's class in doubles, made of its parameters as floats."""
         return self.family.kernels()(*self.floats)
 
     def balls(self) -> Any:
-        """Return the certified object, in balls."""
+        """Return the object's certified class, in balls, made of its exact parameters."""
         return self.family.balls()(*self.exact)
 
     def unit(self, unit: str) -> str:
-        """Return a unit of the register as Markdown, with the names of this object's units."""
+        """Return a unit of the register as Markdown, with this object's names of units, such as "s^−1^" for 1/time."""
         words = unit
         for name, name_of_unit in self.units.items():
             words = words.replace(name, name_of_unit)
@@ -140,7 +140,7 @@ def properties(request: Request, item: Thing) -> Data:
 
 
 def _rows_given(item: Thing) -> Iterator[Row]:
-    """Yield the inputs, a row for each component."""
+    """Yield six cells for each component of each input: words, name, value, unit, "", "given"."""
     for p in item.family.parameters:
         value = item.given[p.name]
         components = value if p.columns else (value,)
@@ -178,7 +178,7 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
 
 
 def _texts(item: Thing, q: Quantity, digits: int) -> Any:
-    """Return the certified texts of a quantity, or values in doubles where none are certified."""
+    """Return the certified values of a quantity as texts, nested as the quantity is; doubles if none are certified."""
     from atlas.arithmetic.certified_digits import certified
 
     if not (q.certified or q.printed or q.checked):
@@ -188,7 +188,7 @@ def _texts(item: Thing, q: Quantity, digits: int) -> Any:
 
 
 def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
-    """Return (name, further words, text) for each component."""
+    """Return (name, further words, text) for each component of a quantity; one for a scalar."""
     if not isinstance(values, list | tuple):
         return [(q.name, "", values)]
     numbered = [f"{q.name}[{i}]" for i in range(len(values))]
@@ -202,7 +202,7 @@ def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
 
 
 def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
-    """Return (value as printed, words on its certainty)."""
+    """Return (value, words on its certainty); a value that is not certified comes from the class in doubles."""
     from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED
 
     if text == NOT_CERTIFIED:
@@ -266,7 +266,7 @@ def body_and_field(request: Request) -> Data:
 
 
 def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
-    """Yield words, symbol, value and unit of each input."""
+    """Yield (words, symbol, value, unit) of each input of body and field, a row for each component."""
     for key, (words, symbol, unit) in DIMENSIONS.items():
         value = getattr(case.body_record, key)
         if value is not None:
@@ -281,7 +281,7 @@ def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
 
 
 def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
-    """Yield words, symbol, value and unit of each derived quantity."""
+    """Yield (words, symbol, value, unit) of moments, their ratio, the charge-to-mass ratio and B'."""
     from atlas.bodies.certified_body import ratio_of
 
     exact = case.exact

@@ -44,7 +44,7 @@ class Request:
 
     @property
     def case(self) -> BodyAndField:
-        """The first body and field."""
+        """The first of the request's bodies, with its field."""
         return self.cases[0]
 
 
@@ -78,7 +78,10 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
 
 
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
-    """Return (unit, printed columns); very small or large numbers get a power of 1000 that joins the unit."""
+    """Return (unit, columns of `Number`s); beyond 1e-3 to 1e5 a power of 1000 is taken out of all values.
+
+    That power then precedes the unit.
+    """
     from flint import fmpq
 
     sizes = [power for values in columns for value in values if (power := _power(value)) is not None]
@@ -92,7 +95,7 @@ def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[st
 
 
 def quantity(value: Any, digits: int) -> Number:
-    """Return one number printed with `digits` significant digits."""
+    """Return the `Number` of one value with `digits` significant digits, as far as they are proven."""
     return column([value], digits)[0]
 
 

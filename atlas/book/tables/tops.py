@@ -88,7 +88,7 @@ def tops(request: Request, setup: TopsParameters) -> Data:
 
 
 def _of_top(numbers: tuple[float, ...]) -> str:
-    """Return numbers as one cell, separated by commas."""
+    """Return numbers as the Markdown of one cell, "$1,2$"."""
     return "$" + ",".join(map(plain, numbers)) + "$"
 
 
