@@ -22,6 +22,9 @@ from atlas.book.schema import SchemaError, convert
 from atlas.errors import AtlasError, unknown
 from atlas.pictures.style import is_known
 
+LATEX = re.compile(r"^\s*(text\.usetex|text\.latex\.preamble|pgf\.preamble)\b", re.MULTILINE)
+"""Settings of Matplotlib by which a style sheet runs LaTeX."""
+
 
 def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
     """Return the report of a file, with the given values of its inputs or their defaults.
@@ -84,7 +87,11 @@ def _consistent(report: Report, folder: Path) -> Report:
         sentence = f"{report.bibliography!r} is no file in {folder.absolute()}, where the report is"
         raise SchemaError("bibliography", sentence, "bibliography")
     for name in filter(None, report.style.split(",")):
-        if not beside(name, folder) and not is_known(name):
+        file = beside(name, folder)
+        if file and (latex := LATEX.search(file.read_text(encoding="utf-8", errors="replace"))):
+            sentence = f"{name!r} sets {latex[1]}: of LaTeX, which can read any file, a report has none"
+            raise SchemaError("style", sentence, "style")
+        if not file and not is_known(name):
             sentence = f"{name!r} is no file in {folder.absolute()}, where the report is, nor a name of Matplotlib's"
             raise SchemaError("style", sentence, "style")
     return report

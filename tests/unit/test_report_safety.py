@@ -409,6 +409,10 @@ def test_a_report_reads_no_file_but_those_beside_it(line: str, tmp_path: Path, m
     report.write_text(f"{head}{line}\n{page}")
     with pytest.raises(AtlasError, match=r"mine\.toml, line 3: .* is no file in .*/mailed, where the report is"):
         load(report)
+    (mailed / "tex.mplstyle").write_text("lines.linewidth: 7\n text.latex.preamble : \\input{/etc/passwd}\n")
+    report.write_text(f"{head}style = 'tex.mplstyle'\n{page}")
+    with pytest.raises(AtlasError, match=r"mine\.toml, line 3: .* sets text\.latex\.preamble: of LaTeX"):
+        load(report)
     key = line.partition(" ")[0]
     ending = {"style": "mplstyle", "bibliography": "bib"}[key]
     report.write_text(f"{head}{key} = 'folder/own.{ending}'\n{page}")
