@@ -19,6 +19,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
 from typing import Any, TextIO
@@ -103,9 +104,9 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
     if path.is_dir():
         raise AtlasError(f"{path.name} is a folder; a table is a file, or the folder x.parquet of a sweep.")
     separator = ""
-    with path.open("rb") as raw:
-        encoding = "utf-16" if raw.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
-    with path.open(encoding=encoding, errors="atlas-latin-1", newline=None) as file:
+    with path.open("rb") as raw:  # once: a pipe can't be opened again
+        encoding = "utf-16" if raw.peek(2)[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
+        file = TextIOWrapper(raw, encoding=encoding, errors="atlas-latin-1", newline=None)
         lines = _decoded(file, path.name)
         for number, raw_line in enumerate(lines, 1):
             line, place = raw_line.strip(" \n"), f"{path.name}, line {number}"

@@ -2,7 +2,9 @@
 
 import json
 import math
+import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
 from pathlib import Path
 from random import Random
@@ -458,3 +460,13 @@ def test_the_start_is_given_once(write: Writer) -> None:
         check(write(text), omega=(0.3, 0.7, 0.2), omega2=0.7)
     with pytest.raises(AtlasError, match="twice"):
         check(write("# omega = 0.3 0.7 0.2\n" + text))
+
+
+def test_a_table_is_read_from_a_pipe(tmp_path: Path) -> None:
+    """As of `program | atlas check /dev/stdin`: it is opened once, and its first bytes are not lost."""
+    table = "t,R11\n" + 40 * "0,1\n"
+    os.mkfifo(pipe := tmp_path / "pipe")
+    with ThreadPoolExecutor(1) as writer:
+        writer.submit(pipe.write_text, table)
+        with trajectory.opened(pipe) as read:
+            assert sum(len(block["t"]) for block in read.blocks) == 40
