@@ -36,7 +36,8 @@ def verdict(item: Thing) -> str:
     kind = str(motion.kind)
     if kind == "ball":
         kind = "it turns as a ball does, about its momentum"
-    says = "its axis nods" if kind.startswith("nutation") else kind.replace("on a torus", "with three frequencies")
+    says = "its axis nods" if kind.startswith("nutation") else kind
+    says = says.replace("on a torus", "it turns with three frequencies")
     stable = is_stable(item)
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
 

@@ -15,10 +15,12 @@ from atlas.arithmetic.uncertainty import concise
 from atlas.bodies.formula_shapes import SHAPES
 from atlas.bodies.laboratory import Disturbance, Spinning, disturbances
 from atlas.book import toml
+from atlas.book.blocks.explorer import sliders_of
 from atlas.book.card import ENTRIES, ONE_PERIOD, card, centre_of, has_card, thing_of
 from atlas.book.digits import Number, plain
 from atlas.book.elsewhere import near, reproduced
 from atlas.book.markdown import fenced
+from atlas.book.measurement import measurement_of
 from atlas.book.parts import (
     Asked,
     case_of,
@@ -170,11 +172,12 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks."""
     family, shape, item, ratio = request.family, shape_of(request), thing_of(request), made["ratio"]["value"]
     motion, beside, left_out = item.kernels(), list(disturbances_of(request, made)), list[str]()
-    figures, closed = figures_by_part(request, left_out), list[str]()
+    figures, closed, measured = figures_by_part(request, left_out), list[str](), list[str]()
     if shape and "card" in request.parts:
         figures["card"] = [fenced({"kind": "figure", "recipe": PICTURE, "id": "body", "parameters": shape})]
     if "motion" in request.parts:
         closed = [*map(fenced, closed_of(request, left_out))]
+        measured = [*map(fenced, measurement_of(request, made, left_out))]
     says = verdict(item)
     left_out += [*_reasons(made), *too_slow(motion, request.time), *_absent(request, shape, bool(beside))]
     others = [table_of(request, "properties", one.name, {"given": False}) for one in other_families(family)]
@@ -185,7 +188,8 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
         "outweighed": outweighed(beside), "outweighed_by": [one.says for one in beside if one.outweighs],
         "disturbances": [*map(_row_of, beside)], "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
         "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
-        "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed),
+        "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed + measured),
+        "explorer": "".join(map(fenced, explorer_of(request, left_out) if "card" in request.parts else ())),
         "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
         "setting": "".join(map(fenced, setting_of(request))),
         "again": reproduced(request, motion) if "elsewhere" in request.parts else "",
@@ -201,6 +205,26 @@ def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]
     for block in figures_of(request, asked_for, left_out):
         figures[PART.get(block["recipe"], "motion")].append(fenced(block))
     return figures
+
+
+def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+    """Yield the explorer of a symmetric body in a field, from its start; else add the reason to `left_out`."""
+    if not (request.body and request.family.sampled and any(case_of(request).components)):
+        return
+    case, values = case_of(request), request.values
+    unit = math.hypot(*case.components) if request.time != "time" else 1.0
+    B2, B3 = (x / unit for x in case.components)
+    names = ("omega1", "omega2", "omega3") if "omega" in values else ("omega2",)
+    rates = values["omega"] if "omega" in values else (values["omega2"],)
+    start = {"I": case.ratio} | {name: x / unit for name, x in zip(names, rates, strict=True)}
+    sliders, placed = sliders_of(B2, B3), start | {"angle": math.degrees(math.atan2(B3, B2))}
+    if any(not sliders[name].low <= x <= sliders[name].high for name, x in placed.items()):
+        left_out.append("An explorer: body, field or start lie beyond its sliders.")
+        return
+    text = "The body, the angle of the field and the start can be changed here."
+    scaled = " Rates are in units of $|\\mathbf{B}'|$." * (unit != 1.0)
+    yield {"kind": "explorer", "text": text + scaled, "panels": ["body", "plane"], "at": [B2, B3],
+           "sliders": [*dict.fromkeys(("I", "angle", *names, "omega3"))], "start": start}  # fmt: skip
 
 
 def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:

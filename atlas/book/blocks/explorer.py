@@ -11,7 +11,8 @@ import msgspec
 from atlas.book.blocks.composer import Composer
 from atlas.book.schema import StrictStruct, TwoNumbers
 from atlas.errors import AtlasError, unknown
-from atlas.families.sliders import TIME, Slider, sliders_of
+from atlas.families.sliders import TIME, Slider
+from atlas.families.sliders import sliders_of as sliders_of_family
 from atlas.motions.register import FAMILIES
 
 _OBLIQUE, _STEP = (1.0, 89.0), 0.01
@@ -93,7 +94,7 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
         block.at
         or next(parameter for parameter in FAMILIES["elementary"].parameters if parameter.name == "field").default
     )
-    defaults = _sliders(B2, B3)
+    defaults = sliders_of(B2, B3)
     for name in (*block.sliders, *block.start, *(name for step in block.steps for name in step.motion)):
         if name not in defaults:
             raise unknown("slider", name, defaults)
@@ -109,9 +110,11 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
     return ExplorerView(text, block.panels, (*chosen, *moving), (B2, B3), is_free, steps, block.still)
 
 
-def _sliders(B2: float, B3: float) -> dict[str, Slider]:
+def sliders_of(B2: float, B3: float) -> dict[str, Slider]:
     """Return all sliders that an explorer can have, by name, for the field (B2, B3)."""
-    defaults = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
+    defaults = {
+        slider.name: slider for name in ("general", "elementary") for slider in sliders_of_family(FAMILIES[name])
+    }
     (low2, high2), (low3, high3) = _PLANE
     bound = "angle of the field with e2, in degrees"
     sliders: list[Any] = [

@@ -1,0 +1,70 @@
+"""A proposed measurement: the standard deviations of body, field and start that readings of the motion would have."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from atlas.book.card import has_card, thing_of
+from atlas.book.digits import Number
+from atlas.book.parts import Asked, case_of
+from atlas.book.tables.elementary import NONE
+from atlas.errors import AtlasError
+from atlas.motions.any_body import motion as any_motion
+from atlas.motions.information import Reading, expected_errors
+
+READINGS, TURNS, SIGMA = 100, 5, 0.01
+"""Readings at equal times over so many turns, each with this error, in rad or as a part of the angular velocity."""
+KINDS: dict[Reading, str] = {
+    "rotation": "From attitudes",
+    "axis": "From the third axis",
+    "angular_velocity": "From rates in the body",
+}
+"""Readings, with the heads of their columns."""
+NAMES = {
+    "ratio": ("$I$", ""), "I1": ("$I_1/I_3$", ""), "I2": ("$I_2/I_3$", ""),
+    **{f"B{i}": (f"$B'_{i}$", "1/time") for i in (1, 2, 3)},
+    **{f"omega{i}": (rf"$\omega_{i}$", "1/time") for i in (1, 2, 3)},
+}  # fmt: skip
+"""Inputs that are found, with their letters and units."""
+CAPTION = (
+    "What to measure: standard deviations of body, field and start, all found from {} readings of one kind at equal "
+    "times up to {:.4g} {}, from the Fisher matrix. Each component of a reading has an error of {} rad, of a rate "
+    "{:.3g} {}. The attitude at t = 0 is found with them; a bar stands where the readings do not tell an input."
+)
+
+
+def measurement_of(
+    request: Asked, made: Mapping[str, Mapping[str, Any]], left_out: list[str]
+) -> Iterator[dict[str, Any]]:
+    """Yield the table of a proposed measurement, if there is one; else add the reason to `left_out`."""
+    rates = [2 * math.pi / abs(x) for key in ("f1", "f2", "f3") if (x := made[key]["value"])]
+    turn = made["turn"]["value"] or made["nutation"]["value"] or max(rates, default=0.0)
+    if not (turn and request.family.sampled and has_card(request.family)) or request.family.takes("coupling"):
+        return
+    case, unit = case_of(request), "s" if request.time in {"s", "1/s"} else request.time
+    field = np.array((0.0, *(case.components if request.body else request.values.get("field", (0.0, 0.0))))[-3:])
+    omega = request.family.kernels()(*thing_of(request).floats).angular_velocity(0.0)
+    body = case.body if request.body else np.array(request.values["inertia"]) / request.values["inertia"][-1]
+    names = [*(["ratio"] if request.body else ["I1", "I2"]), *(["B1", "B2", "B3"] if field.any() else []),
+             "omega1", "omega2", "omega3"]  # fmt: skip
+    t, rate = (
+        np.linspace(0.0, TURNS * turn, READINGS + 1)[1:],
+        SIGMA * max(float(np.linalg.norm(omega)), 2 * math.pi / turn),
+    )
+    try:
+        motion = any_motion(body, field, omega)
+        columns = [expected_errors(motion, names, t, kind, SIGMA if kind != "angular_velocity" else rate)
+                   for kind in KINDS]  # fmt: skip
+    except AtlasError as reason:
+        left_out.append(f"What to measure: {reason}")
+        return
+    rows = [
+        [NAMES[name][0], *(Number(f"{x:.2g}").words() if np.isfinite(x) else NONE for x in found),
+         NAMES[name][1].replace("time", unit)]
+        for name, found in zip(names, np.transpose(columns), strict=True)
+    ]  # fmt: skip
+    caption = CAPTION.format(READINGS, t[-1], unit.replace("time", "units of time"), SIGMA, rate, f"1/{unit}")
+    yield {"kind": "listing", "id": "measurement", "columns": ["Input", *KINDS.values(), "Unit"], "rows": rows,
+           "caption": caption}  # fmt: skip
