@@ -1,12 +1,14 @@
 """``python -m atlas`` and the program ``atlas``: the command line, and the signals that end it."""
 
 import _signal as signal  # type: ignore[import-not-found]
+import os
 import sys
 from types import FrameType
 
 import atlas  # noqa: F401  lets Ctrl-C end the process at once while the imports below run
 
 signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the program of a checkout blocks it while Python starts
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are small: more threads double a fit's processor time
 
 from atlas.cli import main as run  # noqa: E402
 

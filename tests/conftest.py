@@ -17,6 +17,8 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "test"))
 
 CACHE = "ATLAS_CACHE"
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the program does; xdist's workers take the cores
+
 gc.disable()  # while tests are collected, which leaves no garbage
 
 

@@ -7,7 +7,6 @@ import mpmath
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
-from scipy.signal.windows import blackmanharris
 from scipy.spatial.transform import Rotation
 
 import atlas
@@ -165,6 +164,8 @@ def test_a_dipole_swings_as_a_pendulum_and_precesses_as_a_gyroscope() -> None:
 @pytest.mark.parametrize("spin", [0.0, 500.0])
 def test_lines_say_how_far_a_component_swings(spin: float) -> None:
     """Fourier integrals of one component along the field, and of that across it that each line moves most: 1 %."""
+    from scipy.signal.windows import blackmanharris  # loads slowly, and only this test needs it
+
     motion, rows = Dipole(**BALL, spins=()).motion(spin), cells(table("lines", **BALL, spins=[spin], least=3e-3))
     t = np.arange(1 << 14) * 60 / (1 << 14) * motion.period
     window, axis, n = blackmanharris(t.size), motion.column(3, t), np.array([0.0, *motion.direction])
