@@ -86,6 +86,17 @@ class Field(CarriesUncertainty):
         object.__setattr__(self, "exact", tuple(as_float_or_fraction(x) for x in prime))
         object.__setattr__(self, "prime", frozen(np.array([float(x) for x in self.exact]).view(Prime)))
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both have the same B, E, mu and c, so that `eval(repr(field)) == field`."""
+        return self._key() == other._key() if isinstance(other, Field) else NotImplemented
+
+    def __hash__(self) -> int:
+        """Return a hash of B, E, mu and c."""
+        return hash(self._key())
+
+    def _key(self) -> tuple[Any, ...]:
+        return (*self.B.tolist(), *self.E.tolist(), self._ratio, self.c)
+
     def __repr__(self) -> str:
         text = called("Field", {"B": self.B, "E": self.E, "mu": self._ratio, "c": self.c})
         return f"{text}  # B' = {self.prime.tolist()}"

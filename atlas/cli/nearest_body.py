@@ -88,17 +88,26 @@ def _principal_spread(numbers: Sequence[float]) -> tuple[Any, Any]:
 def _ask_for_order(param: click.Parameter, value: Sequence[Typed]) -> None:
     """Raise click.UsageError if a tensor of no body is that of a body in URDF's order or with products reversed."""
     a, b, c, d, e, f = value
-    minus = [x.text[1:] if x.text.startswith("-") else f"-{x.text.removeprefix('+')}" for x in (d, e, f)]
+    urdf, solidworks = "the order of URDF, ixx ixy ixz iyy iyz izz", "products +sum m x y, as SolidWorks has"
     readings = (
-        ("the order of URDF, ixx ixy ixz iyy iyz izz", (a, d, f, b, c, e), [x.text for x in (a, d, f, b, c, e)]),
-        ("products +sum m x y, as SolidWorks has", (a, b, c, -d, -e, -f), [*(x.text for x in (a, b, c)), *minus]),
+        (urdf, (a, d, f, b, c, e), 1),
+        (solidworks, (a, b, c, d, e, f), -1),
+        (f"{urdf}, with {solidworks}", (a, d, f, b, c, e), -1),
     )
-    for reading, numbers, texts in readings:
-        if _principal_spread(numbers)[0][0] > 0:
+    for reading, numbers, sign in readings:
+        if _principal_spread([*numbers[:3], *(sign * x for x in numbers[3:])])[0][0] > 0:
+            texts = [x.text for x in numbers[:3]] + [_signed(x.text, sign) for x in numbers[3:]]
             raise click.UsageError(
                 f"--{param.name} {' '.join(x.text for x in value)}: no body has this tensor I11 I22 I33 I12 I13 I23; "
                 f"did you mean {reading}? Then type --{param.name} {' '.join(texts)}"
             )
+
+
+def _signed(text: str, sign: int) -> str:
+    """Return a typed number as text, with its sign reversed for a negative `sign`."""
+    if sign > 0:
+        return text
+    return text[1:] if text.startswith("-") else f"-{text.removeprefix('+')}"
 
 
 def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:

@@ -11,7 +11,7 @@ from click.core import augment_usage_errors
 
 from atlas.cli.options import given
 from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, check_units, joined, parts_of
-from atlas.measured import WANTED
+from atlas.measured import RATE, WANTED
 
 OTHERS = {
     "B": "B is --magnetic, and B' = mu B/(2c) is --field", "E": "it is --electric", "I": "I = I3/I2 is --ratio",
@@ -78,15 +78,18 @@ def is_number(word: str, *, is_wanted: bool = True) -> bool:
 
 
 def check_bare_numbers(options: Mapping[str, Any]) -> None:
-    """Raise click.UsageError for a length without a unit beside one with a unit, and for an angle beside any unit."""
+    """Raise click.UsageError for a length or rate without a unit beside one with a unit, and an angle beside any unit.
+
+    A number 0 needs no unit.
+    """
     numbers = [
         (name, x) for name, value in options.items() if name in WANTED for x in parts_of(value)
         if isinstance(x, Typed) and x
     ]  # fmt: skip
     with_unit = [(name, x) for name, x in numbers if x.unit]
-    lengths = [(name, x) for name, x in with_unit if WANTED[name] == "m"]
     for name, x in numbers:
-        beside = with_unit if name == "angle" else lengths if WANTED[name] == "m" else []
+        alike = [(other, y) for other, y in with_unit if WANTED[other] == WANTED[name]]
+        beside = with_unit if name == "angle" else alike if WANTED[name] in ("m", RATE) else []
         if beside and not x.unit:
             raise click.UsageError(
                 f"--{name}: {x.text} has no unit, and {beside[0][1].text} has one; give it one, such as "

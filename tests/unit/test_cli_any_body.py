@@ -262,18 +262,26 @@ def test_units_agree_with_si() -> None:
 @pytest.mark.parametrize(
     ("one", "other"),
     [
-        ("--ratio 1.5 --field 5/s 3e-3/s", "--ratio 1.5 --field 5 3e-3"),
-        ("--ratio 1.5 --mu 2C/kg --magnetic 0.5T 10000G", "--ratio 1.5 --charge-to-mass 2 --magnetic 0.5 1 --units si"),
+        ("--ratio 1.5 --field 5/s 3e-3/s --omega2 0.7/s", "--ratio 1.5 --field 5 3e-3 --omega2 0.7"),
+        (
+            "--ratio 1.5 --mu 2C/kg --magnetic 0.5T 10000G",
+            "--ratio 1.5 --charge-to-mass 2 --magnetic 0.5 1 --units si --omega2 0.7",
+        ),
         ("--inertia 2g*m^2 3g*m2 --field 1 2", "--inertia 2e-3 3e-3 --field 1 2"),
-        ("--ratio 1.5 --field 90deg/s 1rad/s", f"--ratio 1.5 --field {np.pi / 2!r} 1"),
-        ("--ratio 1.5 --field 1rev/s 60rpm", "--ratio 1.5 --field 1Hz 1Hz"),
-        ("--ratio 1.5 --field 2 --angle 90deg", "--ratio 1.5 --field 2 1.2246467991473532e-16"),
+        (
+            "--ratio 1.5 --field 90deg/s 1rad/s --omega2 0.7Hz",
+            f"--ratio 1.5 --field {np.pi / 2!r} 1 --omega2 {1.4 * np.pi!r}",
+        ),
+        ("--ratio 1.5 --field 1rev/s 60rpm --omega2 6rpm", "--ratio 1.5 --field 1Hz 1Hz --omega2 0.1Hz"),
+        (
+            "--ratio 1.5 --field 2 --angle 90deg --omega2 0.7",
+            "--ratio 1.5 --field 2 1.2246467991473532e-16 --omega2 0.7",
+        ),
     ],
 )
 def test_numbers_with_units_equal_numbers_in_si(one: str, other: str) -> None:
-    """Prefixes, powers and quotients; a bare number beside a unit is in SI."""
-    rest = "--omega2 0.7 --times 1 --json"
-    found, true = (numbers("motion", *words.split(), *rest.split()) for words in (one, other))
+    """Prefixes, powers and quotients; where no quantity of the kind has a unit, a bare number is in SI."""
+    found, true = (numbers("motion", *f"--omega2 0.7 {words} --times 1 --json".split()) for words in (one, other))
     assert found["k"] == pytest.approx(true["k"], rel=1e-15)
 
 

@@ -112,6 +112,7 @@ def test_uncertain_bodies_are_no_printed_digits(body: list[str]) -> None:
     ("typed", "asked", "meant"),
     [
         ("1 0.1 0.2 1.2 0.15 1.4", "URDF", "1 1.2 1.4 0.1 0.2 0.15"),
+        ("2.76 1.56 -1.58 5.82 -1.36 5.55", "izz, with products", "2.76 5.82 5.55 -1.56 1.58 1.36"),
         ("1.0 1.1 1.2 0.35 -0.4 -.35", "SolidWorks", "1.0 1.1 1.2 -0.35 0.4 .35"),
     ],
 )
