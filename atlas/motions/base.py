@@ -76,6 +76,8 @@ class Motion(Shown, Generic[Single]):
     """Number of motions from which `_rows` are faster than motion by motion."""
     _placement: Placement | None = None
     """Where the motion stands, if not along the axes of its class with R(0) = 1."""
+    _is_exact_at_zero = True
+    """Whether formulas of the class have R(0) = 1 and Omega(0) without rounding."""
 
     def __new__(cls, *inputs: Any, **arguments: Any) -> Self:
         """Refuse a start that another class takes, by its name."""
@@ -187,7 +189,8 @@ class Motion(Shown, Generic[Single]):
         - its own `accuracy` for an `AsymmetricMotion`.
         """
         R, p = self._evaluate(lambda single, t, out: single.rotation(t, out), t, (3, 3), out), self._placement
-        return R if p is None else p.started(p.matrices(R), p.attitude, 2, t)
+        R = R if p is None else p.matrices(R)
+        return self._started(R, lambda: np.eye(3) if p is None else p.attitude, t, 2)
 
     def column(self, j: Literal[1, 2, 3], t: RealArrayLike) -> FloatArray:
         """Column R_j(t) of the rotation matrix (84): one axis of the body in the laboratory.
@@ -212,7 +215,8 @@ class Motion(Shown, Generic[Single]):
         check_column(j)
         p = self._placement
         if p is None:
-            return self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
+            R_j = self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
+            return self._started(R_j, lambda: np.eye(3)[j - 1], t)
         return np.ascontiguousarray(self.rotation(t)[..., j - 1])
 
     def quaternion(self, t: RealArrayLike, *, scalar_first: bool = False) -> FloatArray:
@@ -243,6 +247,8 @@ class Motion(Shown, Generic[Single]):
         quaternions = self._evaluate(lambda single, t, out: single.quaternion(t, out), t, (4,))
         if self._placement is not None:
             quaternions = self._placement.quaternions(quaternions, t)
+        else:
+            self._started(quaternions, lambda: np.eye(4)[3], t)
         return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
     def euler_angles(self, t: RealArrayLike, seq: str, *, degrees: bool = False) -> FloatArray:
@@ -294,8 +300,20 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For times that `rotation` refuses.
         """
-        Omega, p = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), self._placement
-        return Omega if p is None else p.started(p.vectors(Omega), p.omega, 1, t)
+        Omega = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
+        return self._started(self._in_body(Omega), self._omega_at_zero, t)
+
+    def _started(self, values: FloatArray, start: Callable[[], FloatArray], t: Any, rank: int = 1) -> FloatArray:
+        """Return vectors (rank 1) or matrices (rank 2) with those at t = 0 exactly as given, by `start`."""
+        exact = self._placement is None and self._is_exact_at_zero
+        return values if exact or np.all(bare(t, "The time", TIME)) else Placement.started(values, start(), rank, t)
+
+    def _omega_at_zero(self) -> FloatArray:
+        """Angular velocity at t = 0 as given, (..., 3)."""
+        if self._placement is not None:
+            return self._placement.omega
+        omega: tuple[RealArrayLike, ...] = self.omega  # type: ignore[attr-defined]  # of classes that have it
+        return np.stack(np.broadcast_arrays(*omega), -1)
 
     def _in_body(self, v: FloatArray) -> FloatArray:
         """Return vectors along the axes of the class along those of the body."""

@@ -5,11 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from flint import fmpq
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.arithmetic.quaternions import product
+from atlas.motions.nutation.certified_general import GeneralMotion
 
 FALLS = 2 * 3**0.5
 """Spin below which the top of `MOTIONS` falls over."""
@@ -140,3 +142,23 @@ def test_components_zero_at_all_times_are_exactly_zero(field: Any, omega: Any, z
     """A body that turns about one axis has the quaternion of that axis; where there is no zero, there is none."""
     q = atlas.GeneralMotion(1.5, field, omega).quaternion(np.linspace(0.1, 60.0, 400))
     assert np.flatnonzero((q == 0.0).all(0)).tolist() == zeros
+
+
+def test_a_motion_begins_exactly_as_given() -> None:
+    """Of classes whose formulas turn a frame there and back: one motion and an array, of any time and at zero."""
+    tops = atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), (0.1, 0.0, 5.0), linear=3.0)
+    several = atlas.GeneralMotion(np.linspace(0.3, 1.9, 20), (-1.0, -0.7), (0.0, -0.7, 0.0))
+    elliptic = atlas.EllipticMotion((0.8, 1.0, 1.3), (1.0, 0.5, 0.0), 0.9)
+    for motion in (atlas.GeneralMotion(2.0, (-1.0, -0.7), (0.0, -0.7, 0.0)), tops, several, elliptic):
+        omega = np.stack(np.broadcast_arrays(*motion.omega), -1)
+        assert (motion.rotation(0.0) == np.eye(3)).all()
+        assert (motion.quaternion(0.0) == (0, 0, 0, 1)).all()
+        assert (motion.column(2, 0.0) == (0, 1, 0)).all()
+        assert (motion.angular_velocity(0.0) == omega).all()
+        assert abs(motion.rotation(1e-9) - np.eye(3)).max() < 1e-7
+
+
+def test_a_component_of_a_proven_quaternion_that_is_always_zero_is_zero() -> None:
+    """A free body that turns about an axis across its own; fails where q comes of two parameters in balls."""
+    q = GeneralMotion(fmpq(1, 2), (0, 0), (-1, 1, 0)).quaternion(fmpq(3))
+    assert q[3] == 0

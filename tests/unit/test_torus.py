@@ -177,3 +177,14 @@ def test_motions_without_a_torus_have_no_curve() -> None:
             _ = atlas.AsymmetricMotion(inertia, FIELD, omega).curve
     with pytest.raises(AtlasError, match="one motion"):
         _ = atlas.AsymmetricMotion(BODY, FIELD, (np.array([0.3, 0.4]), 0.7, 0.2)).curve
+
+
+def test_frequencies_of_a_torus_without_a_lattice_are_positive() -> None:
+    """Real periods alone, whose signs came by chance: f1 and f2 by either of their pairs."""
+    for sign in (1, -1):
+        found = Torus(kept().moments, kept().W, kept().K)
+        found._no_lattice = "none"
+        (H1, F1), (H2, F2) = torus._signed([(sign * x, sign * y) for x, y in found._approximate()])
+        area = H1 * F2 - H2 * F1
+        assert F2 / area > 0 > F1 / area
+        assert found._approximate() == [(H1, F1), (H2, F2)]

@@ -12,7 +12,7 @@ from flint import acb, arb, ctx, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rational, sin_cos
 from atlas.arithmetic.certified_rotation import AXES, Matrix, identity, product, turn, turned_back, turns
-from atlas.arithmetic.numbers import by_precision, dot, length, workprec
+from atlas.arithmetic.numbers import by_precision, cross, dot, length, workprec
 from atlas.errors import DomainError
 from atlas.motions.nutation.certified_cayley_klein import Solution, infinite, matrix, steady, turning_rate
 from atlas.motions.nutation.certified_constants import Nutation
@@ -190,7 +190,14 @@ class Nutating:
         return precession, T * solution.spin + difference_of_angles + further
 
     def quaternion(self, t: Any) -> list[arb]:
-        """Return a unit quaternion of R(t), scalar first."""
+        """Return a unit quaternion of R(t), scalar first: the product of two where theta is constant."""
+        if self.is_steady and self.kind != "at rest":
+            (k, phi), last = self.steady_rates(), AXES[self.places[2]]
+            (s, c), (S, C) = (sin_cos(rate * rational(t, "the time") / 2) for rate in (k, phi))
+            n = [x * s / length(*self.turning_axis) for x in self.turning_axis]
+            across = cross(n, last)
+            along = [c * S * x + C * y + S * z for x, y, z in zip(last, n, across, strict=True)]
+            return [c * C - S * dot(n, last), *along]
         a, b, _, _ = self.solution.parameters(t)
         q = self.from_frame(a, b)
         size = sum((x * x for x in q), arb(0)).sqrt()

@@ -34,6 +34,7 @@ class NutatingMotion(Motion[Nutation]):
     _in_arrays: Container[str] = ()
     """Names of the values that `_scalars` has for all motions at once; others are computed motion by motion."""
     _min_array_motions = 12
+    _is_exact_at_zero = False
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
     _blocks_of: type[Blocks] = Blocks

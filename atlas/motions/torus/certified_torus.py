@@ -151,7 +151,7 @@ class Torus:
                     break
                 starts.append(r)
             else:
-                self._starts = starts
+                self._starts = _signed(starts)
         if self._starts is None:
             try:
                 rows = [(x.real, y.real) for x, y, _ in self.lattice.real]
@@ -159,7 +159,7 @@ class Torus:
                 rows = real_periods(self.integrals)
             if len(rows) != 2:
                 raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
-            self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in rows]
+            self._starts = _signed([(x.mid().fmpq(), y.mid().fmpq()) for x, y in rows])
         return self._starts
 
     def _starts_of_proof(self) -> list[tuple[fmpq, fmpq]]:
@@ -249,6 +249,14 @@ class Torus:
         ]
         remaining = [n for n in range(6) if n not in chosen]
         return not arb_mat([[row[n] for n in remaining] for row in gradients]).det().contains(0)
+
+
+def _signed(periods: list[tuple[fmpq, fmpq]]) -> list[tuple[fmpq, fmpq]]:
+    """Return two periods (T_H, T_F) with the signs that make the frequencies f1 and f2 positive."""
+    (H_1, F_1), (H_2, F_2) = periods
+    area = H_1 * F_2 - H_2 * F_1
+    signs = (1 if rate * area >= 0 else -1 for rate in (F_2, -F_1))
+    return [(sign * H, sign * F) for sign, (H, F) in zip(signs, periods, strict=True)]
 
 
 def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
