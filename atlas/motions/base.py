@@ -313,7 +313,7 @@ class Motion(Shown, Generic[Single]):
         if self._placement is not None:
             return self._placement.omega
         omega: tuple[RealArrayLike, ...] = self.omega  # type: ignore[attr-defined]  # of classes that have it
-        return np.stack(np.broadcast_arrays(*omega), -1)
+        return np.stack(np.broadcast_arrays(*map(np.asarray, omega)), -1)
 
     def _in_body(self, v: FloatArray) -> FloatArray:
         """Return vectors along the axes of the class along those of the body."""
