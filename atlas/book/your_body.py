@@ -43,6 +43,13 @@ NAME = "your_body"
 """Name of the report, before the digest of its inputs."""
 PICTURE = f"{NAME}.py"
 """File of this recipe beside the reports, one for all."""
+SOFTWARE = """@software{{atlas,
+  author  = {{{{the atlas developers}}}},
+  title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
+  version = {{{version}}},
+}}
+"""
+"""BibTeX of a version of the atlas."""
 PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stability": "maps", "motion_map": "maps",
         "energy_momentum": "maps"}  # fmt: skip
 """Part of a report to which a figure belongs, by recipe; all others are of the motion."""
@@ -144,8 +151,16 @@ def inputs_of(request: Asked) -> str:
     return f"# {request.command}\n" + "".join(toml.lines(content))
 
 
+def works() -> str:
+    """Return BibTeX for the paper and for this version of the atlas."""
+    entries = (folder("reports") / "references.bib").read_text(encoding="utf-8")
+    paper = re.search(r"@article\{deriglazov2024,.*?\n\}\n", entries, re.DOTALL)
+    version = SOFTWARE.format(version=versions()["atlas"])
+    return f"{paper[0] if paper else ''}\n{version}"
+
+
 def files_of(request: Asked) -> dict[str, str]:
-    """Return the files of a report by name: its Markdown, its card, its inputs, the recipe of its picture.
+    """Return the files of a report by name: its Markdown, card, inputs and BibTeX, the recipe of its picture.
 
     Raises
     ------
@@ -161,6 +176,7 @@ def files_of(request: Asked) -> dict[str, str]:
         f"{name}.md": content,
         f"{name}.card.json": json.dumps(record, indent=1, ensure_ascii=False) + "\n",
         f"{name}.inputs.toml": inputs_of(request),
+        f"{name}.bib": works(),
     }
     if PICTURE in content:
         recipe = (folder("templates") / "report" / "body.py.txt").read_text(encoding="utf-8")
