@@ -7,7 +7,7 @@ import click
 
 from atlas import files
 from atlas.cli.figure import FigureCommand, setting
-from atlas.cli.options import examples, out_option, style_option
+from atlas.cli.options import choice, examples, out_option, several, style_option
 from atlas.cli.present import bar
 
 
@@ -29,21 +29,8 @@ from atlas.cli.present import bar
     help="Parameter that changes from frame to frame: its first and last value (a number or a list a,b,c) and the "
     "number of frames. Default: the figure's time t.",
 )
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="KEY=VALUE [...]",
-    help="Fixed parameters of the figure; a list is a,b,c.",
-)
-@click.option(
-    "--format",
-    "kind",
-    type=click.Choice(["mp4", "gif", "apng"]),
-    default="gif",
-    show_default=True,
-    help="Format of the file; mp4 needs the program ffmpeg.",
-)
+@several("set", "KEY=VALUE [...]", "Fixed parameters of the figure; a list is a,b,c.", "settings")
+@choice("format", ["mp4", "gif", "apng"], "gif", "Format of the file; mp4 needs the program ffmpeg.", "kind")
 @click.option(
     "--fps",
     type=click.FloatRange(1, 60),

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import TABLE, Place, examples, given, json_option, numbers, stack
+from atlas.cli.options import TABLE, examples, figure_option, given, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 from atlas.cli.words import Command
 
@@ -17,11 +17,7 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 file_argument = click.argument("files", type=TABLE, metavar="FILE.csv...", nargs=-1, required=True)
 graded_options: Callable[[Any], Any] = stack(
     numbers("threshold", "Number of correct digits below which a column fails.", default="6", show_default=True),
-    click.option(
-        "--figure",
-        type=Place(dir_okay=False, path_type=Path),
-        help="File for a plot of the error against time: .svg, .pdf or .png.",
-    ),
+    figure_option("File for a plot of the error against time: .svg, .pdf or .png."),
     click.option(
         "--order",
         is_flag=True,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import examples, jobs_option, out_option, pair, style_option
+from atlas.cli.options import choice, examples, jobs_option, out_option, pair, several, style_option
 from atlas.cli.present import bar, explained, show
 from atlas.cli.typed import Typed
 from atlas.cli.words import Command
@@ -67,9 +67,7 @@ class FigureCommand(Command):
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
 @click.option("--all", "everything", is_flag=True, help="Draw all figures.")
-@click.option(
-    "--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Parameters of the figure; a list is a,b,c."
-)
+@several("set", "KEY=VALUE [...]", "Parameters of the figure; a list is a,b,c.", "settings")
 @click.option(
     "--format",
     "formats",
@@ -77,13 +75,7 @@ class FigureCommand(Command):
     type=click.Choice(["svg", "pdf", "png", "pgf", "csv"]),
     help="Formats of the files; csv has the points drawn. Default: svg, pdf and png.",
 )
-@click.option(
-    "--renderer",
-    type=click.Choice(["vector", "shaded"]),
-    default="vector",
-    show_default=True,
-    help="Line drawing, or a shaded picture as PNG.",
-)
+@choice("renderer", ["vector", "shaded"], "vector", "Line drawing, or a shaded picture as PNG.")
 @click.option(
     "--for",
     "target",

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import TABLE, Place, examples, json_option, numbers, stack
+from atlas.cli.options import TABLE, choice, examples, figure_option, json_option, numbers, several, stack
 from atlas.cli.present import dump, picture
 from atlas.cli.typed import REAL
 from atlas.cli.words import Command
@@ -17,43 +17,25 @@ KINDS = ("rotation", "quaternion", "axis", "angular_velocity", "field_in_body", 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
 fit_options: Callable[[Any], Any] = stack(
-    click.option(
-        "--family",
-        type=click.Choice(FAMILIES),
-        default="general",
-        show_default=True,
-        help="Family of motions that is fitted.",
-    ),
+    choice("family", FAMILIES, "general", "Family of motions that is fitted."),
     click.option(
         "--of", "kind", type=click.Choice(KINDS), help="Quantity that is fitted, if the file has columns of several."
     ),
     numbers("sigma", "Standard error of each measured number; of attitudes in radians or with a unit, 1deg."),
-    click.option(
-        "--fix",
-        multiple=True,
-        metavar="NAME=VALUE [...]",
-        help="Parameters that are known and stay fixed, such as ratio=1.5.",
-    ),
-    click.option(
-        "--start",
-        multiple=True,
-        metavar="NAME=VALUE [...]",
-        help="Start values of parameters for the fit; none is needed.",
-    ),
+    several("fix", "NAME=VALUE [...]", "Parameters that are known and stay fixed, such as ratio=1.5."),
+    several("start", "NAME=VALUE [...]", "Start values of parameters for the fit; none is needed."),
     numbers("epoch", "Time t at which the fitted initial velocity and attitude hold.", default="0", show_default=True),
-    click.option(
-        "--loss",
-        type=click.Choice(LOSSES),
-        default="linear",
-        show_default=True,
-        help="Loss function of the residuals, as in SciPy; all but linear are robust against outliers.",
+    choice(
+        "loss",
+        LOSSES,
+        "linear",
+        "Loss function of the residuals, as in SciPy; all but linear are robust against outliers.",
     ),
-    click.option(
-        "--predict",
-        multiple=True,
+    several(
+        "predict",
+        "T [T ...]",
+        "Print predictions of the measured quantity at these times, with standard errors.",
         type=REAL,
-        metavar="T [T ...]",
-        help="Print predictions of the measured quantity at these times, with standard errors.",
     ),
     numbers("horizon", "Print the time until which predictions have a standard error below ERROR.", "ERROR"),
 )
@@ -71,11 +53,7 @@ fit_options: Callable[[Any], Any] = stack(
 )
 @click.argument("file", type=TABLE, metavar="FILE.csv")
 @fit_options
-@click.option(
-    "--figure",
-    type=Place(dir_okay=False, path_type=Path),
-    help="File for a plot of data, curve and residuals: .svg, .pdf or .png.",
-)
+@figure_option("File for a plot of data, curve and residuals: .svg, .pdf or .png.")
 @json_option
 def command(file: Path, **options: Any) -> int:
     """Find inertia, field and start of a motion from measured attitudes, axes, angular velocities or fields.

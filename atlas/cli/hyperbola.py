@@ -14,7 +14,7 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.options import examples, output_options
+from atlas.cli.options import examples, output_options, several
 from atlas.cli.present import Line, Printout, along, answer, certificate, show
 from atlas.cli.typed import REAL, exactly
 from atlas.cli.words import Command
@@ -33,13 +33,7 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @body_options
 @field_options
-@click.option(
-    "--omega2",
-    multiple=True,
-    type=REAL,
-    metavar="W [W ...]",
-    help="Values of omega2, in 1/time, at which the curve is tabulated.",
-)
+@several("omega2", "W [W ...]", "Values of omega2, in 1/time, at which the curve is tabulated.", type=REAL)
 @click.option(
     "--count",
     type=click.IntRange(2, 100_000),

@@ -66,6 +66,22 @@ def numbers(name: str, says: str, metavar: str = "", **settings: Any) -> Callabl
     return click.option(f"--{name}", type=REAL, help=says, **vector_settings, **settings)
 
 
+def several(name: str, metavar: str, says: str, variable: str = "", **settings: Any) -> Callable[[F], F]:
+    """Return the decorator of an option with one value or more, kept under the name `variable`, by default `name`."""
+    return click.option(f"--{name}", variable or name, multiple=True, metavar=metavar, help=says, **settings)
+
+
+def choice(name: str, choices: Sequence[str], default: str, says: str, variable: str = "") -> Callable[[F], F]:
+    """Return the decorator of an option with one of several words, kept under `variable`, by default `name`."""
+    kind = click.Choice(choices)
+    return click.option(f"--{name}", variable or name, type=kind, default=default, show_default=True, help=says)
+
+
+def figure_option(says: str) -> Callable[[F], F]:
+    """Return the option for the file of a plot."""
+    return click.option("--figure", type=Place(dir_okay=False, path_type=Path), help=says)
+
+
 json_option: Callable[[F], F] = click.option(
     "--json", "as_json", is_flag=True, help="Print JSON on standard output, and nothing else."
 )
@@ -99,12 +115,14 @@ def out_option(standard: str) -> Callable[[F], F]:
     return click.option("--out", type=kind, default=standard, show_default=True, help="Folder for the files.")
 
 
-jobs_option: Callable[[F], F] = click.option(
-    "--jobs",
-    "-j",
-    type=click.IntRange(min=1),
-    help="Number of figures drawn at the same time; one per core by default.",
-)
+def jobs_option_of(workers: str) -> Callable[[F], F]:
+    """Return the option for the number of processes; `workers` names them in the help."""
+    return click.option(
+        "--jobs", "-j", type=click.IntRange(min=1), help=f"Number of {workers}; one per core by default."
+    )
+
+
+jobs_option: Callable[[F], F] = jobs_option_of("figures drawn at the same time")
 
 
 style_option: Callable[[F], F] = click.option(
@@ -115,13 +133,12 @@ style_option: Callable[[F], F] = click.option(
 
 
 times_options: Callable[[F], F] = stack(
-    click.option(
-        "--times",
-        multiple=True,
+    several(
+        "times",
+        "T [T ...]",
+        "Times to print, such as 0 1 2.5 or START:STOP:COUNT (:log for even steps of the logarithm), in s or in the "
+        "unit of time of the other options.",
         type=REAL,
-        metavar="T [T ...]",
-        help="Times to print, such as 0 1 2.5 or START:STOP:COUNT (:log for even steps of the logarithm), in s or in "
-        "the unit of time of the other options.",
     ),
     numbers("grid", "Uniform times: the first, the step, their number; or START:STOP:COUNT.", "START STEP COUNT"),
 )

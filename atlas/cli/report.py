@@ -1,21 +1,19 @@
 """``atlas report|data|tex``: a report as HTML pages and a PDF, as data to cite, as LaTeX."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import click
 
-from atlas.cli.options import examples, jobs_option, out_option, pair, style_option
+from atlas.cli.options import examples, jobs_option, out_option, pair, several, style_option
 from atlas.cli.present import bar, dump, explain_build, status_of
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
 
-set_option = click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="NAME=VALUE [...]",
-    help="Inputs of the report; `atlas report NAME --help` lists them.",
+set_option: Callable[[Any], Any] = several(
+    "set", "NAME=VALUE [...]", "Inputs of the report; `atlas report NAME --help` lists them.", "settings"
 )
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 

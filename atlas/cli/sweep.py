@@ -12,7 +12,7 @@ import click
 from atlas.arithmetic.uncertainty import is_uncertain
 from atlas.cli import body
 from atlas.cli.axes import along_principal_axes, motion_in_given_axes
-from atlas.cli.options import Place, examples, given, numbers, pair, stack
+from atlas.cli.options import Place, examples, given, jobs_option_of, numbers, pair, several, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.cli.typed import REAL, check_units
@@ -71,13 +71,12 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
     """Return the decorator of a sweep's options, including those of body, field and start."""
     return stack(
         click.argument("family", required=False),
-        click.option(
-            "--set",
+        several(
+            "set",
+            "NAME=VALUES [...]",
+            "Values of a parameter: a number, numbers with commas, or START:STOP:COUNT (:log for even steps of the "
+            "logarithm).",
             "settings",
-            multiple=True,
-            metavar="NAME=VALUES [...]",
-            help="Values of a parameter: a number, numbers with commas, or START:STOP:COUNT (:log for even steps of "
-            "the logarithm).",
         ),
         *of_body,
         click.option(
@@ -86,13 +85,7 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
             type=click.Path(dir_okay=False, path_type=Path),
             help="CSV file of parameters: a heading with their names, and a row for each row of the table.",
         ),
-        click.option(
-            "--quantity",
-            "quantities",
-            multiple=True,
-            metavar="NAME [NAME ...]",
-            help="Quantities to compute, such as k, R11 or R.",
-        ),
+        several("quantity", "NAME [NAME ...]", "Quantities to compute, such as k, R11 or R.", "quantities"),
         click.option(
             "--file",
             "toml",
@@ -109,19 +102,8 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
             type=click.IntRange(1, 1000),
             help="Compute this many certified significant digits; the cells are then text.",
         ),
-        click.option(
-            "--rows",
-            type=click.IntRange(1),
-            default=None,
-            help="Rows per part; by default, as many as take some seconds.",
-        ),
-        click.option(
-            "--jobs",
-            "-j",
-            type=click.IntRange(min=1),
-            default=None,
-            help="Number of processes; one per core by default.",
-        ),
+        click.option("--rows", type=click.IntRange(1), help="Rows per part; by default, as many as take some seconds."),
+        jobs_option_of("processes"),
     )
 
 
