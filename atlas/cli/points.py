@@ -32,7 +32,7 @@ class Masses(NamedTuple):
     masses: Any
     places: Any
     matrix: Any
-    charges: Any | None
+    charges: Any
     exact: Any
 
     @property
@@ -50,7 +50,7 @@ def point_masses(path: Path) -> Masses:
     from atlas.arithmetic.numbers import nearest
     from atlas.bodies.inertia import exact_mass_matrix
 
-    columns = columns_of(path)
+    columns, _ = measured_columns(path, OF_POINTS, {})
     if not {"x", "y", "z", "mass"} <= set(columns) <= {"x", "y", "z", "mass", "charge"}:
         raise click.UsageError(f"{path} must have the columns x, y, z, mass and may have charge; it has "
                                f"{', '.join(columns)}.")  # fmt: skip
@@ -144,11 +144,6 @@ def _one_ratio(path: Path, masses: Any, charges: Any) -> Fraction:
         )
     charge, mass = (sum(map(Fraction, x.tolist())) for x in (charges, masses))
     return Fraction(charge) / mass
-
-
-def columns_of(path: Path) -> dict[str, list[float]]:
-    """Return the columns of point masses, as `measured_columns` does."""
-    return measured_columns(path, OF_POINTS, {})[0]
 
 
 def cells_of(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:

@@ -10,7 +10,7 @@ import click
 
 from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, start_of, units_of
 from atlas.cli.options import FILE, given, numbers, stack
-from atlas.cli.points import columns_of
+from atlas.cli.points import Masses, point_masses
 from atlas.cli.typed import Real
 
 WAYS = ("heavy", "magnetic")
@@ -104,7 +104,7 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
     if options["points"] is None:
         _needs(options, "mass", "--heavy")
     body, (gravity, length) = _body(options), options["heavy"]
-    mass = options["mass"] if options["points"] is None else sum(_points(options["points"])["mass"])
+    mass = options["mass"] if options["points"] is None else sum(_points(options["points"]).masses.tolist())
     return TopMotion.heavy(body, gravity, length, direction, omega, mass=mass)
 
 
@@ -136,8 +136,8 @@ def _body(options: Mapping[str, Any]) -> Any:
     if options["points"] is not None:
         if options["mass"] is not None:
             raise click.UsageError("--mass: the file of --points has the masses; leave it out.")
-        columns = _points(options["points"])
-        return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
+        read = _points(options["points"])
+        return SymmetricBody.from_point_masses(read.masses, read.places)
     _goes_with(options, ("mass",), ("heavy", "shape"))
     if options["inertia"] is not None:
         return SymmetricBody(*options["inertia"])
@@ -152,9 +152,9 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     one_of(options, "charge", CHARGES)
     _goes_with(options, ("charge",), ("coat",))
     if options["points"] is not None:
-        columns = _points(options["points"])
-        from_point = _centred(columns, length or 0.0)
-        return ChargeMoments.points(columns["charge"], from_point, held=length is not None)
+        read = _points(options["points"])
+        to_point = (0.0, 0.0, length or 0.0)
+        return ChargeMoments.points(read.charges, read.places + to_point, held=length is not None)
     if options["charged"] is not None:
         return ChargeMoments(*options["charged"])
     _needs(options, "charge", "--coat")
@@ -162,20 +162,12 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     return coat + ChargeMoments(Fraction(options["charge"]) * Fraction(length or 0) ** 2, 0.0)
 
 
-def _points(path: Path) -> dict[str, Any]:
-    """Return the columns x, y, z, mass and charge of a CSV file by name. Raises click.UsageError for other columns."""
-    columns = columns_of(path)
-    if set(columns) != {"x", "y", "z", "mass", "charge"}:
-        raise click.UsageError(f"{path} must have the columns x, y, z, mass, charge; it has {', '.join(columns)}.")
-    return columns
-
-
-def _centred(columns: Mapping[str, Any], axis: float = 0.0) -> Any:
-    """Return the positions of points, shifted so that the centre of mass is at distance `axis` along the axis."""
-    import numpy as np
-
-    places, masses = np.transpose([columns[name] for name in "xyz"]), np.array(columns["mass"])
-    return places - masses @ places / masses.sum() + np.array([0.0, 0.0, axis])
+def _points(path: Path) -> Masses:
+    """Return the point masses of a file with charges. Raises click.UsageError for other columns."""
+    read = point_masses(path)
+    if read.charges is None:
+        raise click.UsageError(f"{path} must have the columns x, y, z, mass, charge; it has x, y, z, mass.")
+    return read
 
 
 def _needs(options: Mapping[str, Any], name: str, option: str) -> None:

@@ -35,6 +35,9 @@ LEAST = 5
 STEP = 1e-6
 """Step of differences, in the natural unit of the varied quantity."""
 
+SERIES = 1e-3
+"""Angle in rad below which a coefficient of a Jacobian is that of angle zero: its error is rounding."""
+
 NO_ROTATION = 1.1
 """Magnitude of an entry above which a matrix is no rotation: the integration lost the motion."""
 
@@ -134,7 +137,8 @@ class Data:
         derivatives of the `field` (3,) in the laboratory. `differences` (N, 3) are used for rotations only.
         """
         if self.kind == "rotation":
-            return np.asarray((_inverse_right(differences) @ v.swapaxes(1, 2)).reshape(len(v), 3, -1))
+            # log(D exp(-[v]x)) is log(D) minus the inverse of the transposed Jacobian times v
+            return np.asarray(np.linalg.solve(left_jacobian(differences).swapaxes(1, 2), v.swapaxes(1, 2)))
         R = motion.rotation(self.t)
         turns_in_body = v @ R
         """The turns about the axes of the body, (N, P, 3)."""
@@ -171,14 +175,13 @@ def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
     return np.asarray(vectors)
 
 
-def _inverse_right(rho: FloatArray) -> FloatArray:
-    """Return the matrices J (N, 3, 3) with d log(D exp(-[v]x)) = -J v at D = exp([rho]x), for rho (N, 3)."""
-    angle = np.linalg.norm(rho, axis=-1)
-    small = angle < 1e-3
-    x = np.where(small, 1.0, angle)
-    second = np.where(small, 1 / 12, 1 / x**2 - (1 + np.cos(x)) / (2 * x * np.sin(x)))
-    hat = np.cross(np.eye(3), rho[:, None, :])
-    return np.asarray(np.eye(3) + hat / 2 + second[:, None, None] * (hat @ hat))
+def left_jacobian(a: FloatArray) -> FloatArray:
+    """Return the matrices J (..., 3, 3) with R(a + da) = (1 + [J da]x) R(a), for rotation vectors a (..., 3)."""
+    angle = np.linalg.norm(a, axis=-1)[..., None, None]
+    hat = np.cross(np.eye(3), a[..., None, :])
+    is_small = angle < SERIES
+    cubic = np.where(is_small, 1 / 6, (1 - np.sinc(angle / np.pi)) / np.where(is_small, 1.0, angle) ** 2)
+    return np.asarray(np.eye(3) + np.sinc(angle / (2 * np.pi)) ** 2 / 2 * hat + cubic * (hat @ hat))
 
 
 def of_arrays(

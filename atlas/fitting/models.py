@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import AtlasError
-from atlas.fitting.data import STEP
+from atlas.fitting.data import STEP, left_jacobian
 from atlas.fitting.flow import Flow
 from atlas.motions.any_body import motion as of_any
 from atlas.motions.elementary.kernel import ElementaryMotion
@@ -70,7 +70,7 @@ def _started(p: Values) -> dict[str, FloatArray]:
         raise AtlasError(
             "On a vertical line of the hyperbola omega2 and the field do not determine Omega: fit the family general."
         )
-    field_by_attitude = A.T @ np.cross(field, _left_jacobian(vector(p, ATTITUDE)), axisb=0, axisc=0)
+    field_by_attitude = A.T @ np.cross(field, left_jacobian(vector(p, ATTITUDE)), axisb=0, axisc=0)
     by = {"ratio": slopes[:, 0], "omega2": slopes[:, 4]}
     return by | dict(
         zip((*B, *ATTITUDE), [*(slopes[:, 1:4] @ A.T).T, *(slopes[:, 1:4] @ field_by_attitude).T], strict=True)
@@ -199,7 +199,7 @@ class Model:
         A change da of the rotation vector turns the start by J da. On the hyperbola (67) a parameter changes Omega as
         `start` says. Of a direction n of any length the part of dn across n counts, as the field of `sensitivity`.
         """
-        blocks = [(ATTITUDE, dict(zip(ATTITUDE, _left_jacobian(vector(p, ATTITUDE)).T, strict=True)))]
+        blocks = [(ATTITUDE, dict(zip(ATTITUDE, left_jacobian(vector(p, ATTITUDE)).T, strict=True)))]
         if self.has_direction:
             n = direction_of(p)
             slopes = (np.eye(3) - np.outer(n, n)) / np.linalg.norm(vector(p, DIRECTION))
@@ -222,16 +222,6 @@ class Model:
             return self.make({**p, name: p[name] + step}), step
         except AtlasError:
             return self.make(p), 0.0
-
-
-def _left_jacobian(a: FloatArray) -> FloatArray:
-    """Return the matrix J (3, 3) with R(a + da) = (1 + [J da]x) R(a), for a rotation vector a (3,)."""
-    angle = float(np.linalg.norm(a))
-    hat = np.cross(np.eye(3), a)
-    if angle < STEP:
-        return np.asarray(np.eye(3) + hat / 2)
-    sine, quadratic = np.sinc(angle / np.pi), 2 * np.sin(angle / 2) ** 2 / angle**2
-    return np.asarray(np.eye(3) + quadratic * hat + (1 - sine) / angle**2 * (hat @ hat))
 
 
 _FIELD = (*B, *OMEGA, *ATTITUDE)

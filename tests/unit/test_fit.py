@@ -21,7 +21,7 @@ import atlas
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.errors import AtlasError
-from atlas.fitting.data import Data, _inverse_right, of_arrays, of_file
+from atlas.fitting.data import Data, left_jacobian, of_arrays, of_file
 from atlas.fitting.models import MODELS, model_of
 from atlas.fitting.parameters import Parameter, Parameters, parameters_of
 from atlas.fitting.problem import Problem
@@ -713,7 +713,7 @@ def test_standard_errors_agree_with_many_measurements(loss: str) -> None:
 def test_a_rotation_vector_follows_a_small_turn() -> None:
     """The derivative of log(D exp(-[v]x)) in v is that of SciPy's rotation vectors, for differences of any size."""
     rho, h = np.array([[0.9, -0.4, 0.7], [-1e-4, 2e-4, 3e-4]]), 1e-5
-    for one, J in zip(rho, _inverse_right(rho), strict=True):
+    for one, J in zip(rho, np.linalg.inv(left_jacobian(rho).swapaxes(1, 2)), strict=True):
         D = Rotation.from_rotvec(one)
         ends = [[(D * Rotation.from_rotvec(-s * h * e)).as_rotvec() for e in np.eye(3)] for s in (1, -1)]
         assert np.abs((np.subtract(*ends) / (2 * h)).T + J).max() <= 1e-8
