@@ -42,16 +42,19 @@ def points_option(axes: str) -> Callable[[F], F]:
     return click.option("--points", type=FILE, metavar="FILE", help=says)
 
 
+size_options: Callable[[F], F] = stack(
+    numbers("radius", "Radius of the shape, a number or with its unit, 1.2um."),
+    numbers("height", "Height of a cylinder or cylindrical shell, in the unit of --radius."),
+    numbers("equatorial", "Equatorial semi-axis of a spheroid, a number or with its unit, 1.2um."),
+    numbers("polar", "Polar semi-axis of a spheroid, in the unit of --equatorial."),
+)
 shape_options: Callable[[F], F] = stack(
     numbers(
         "ratio", "Ratio I3/I2 of the moments of inertia along and across the axis, in (0, 2].", callback=nearest_moments
     ),
     click.option("--shape", metavar="NAME", help="Shape of the body, such as ring; `atlas list shapes` names them."),
-    numbers("radius", "Radius of the shape, a number or with its unit, 1.2um."),
-    numbers("height", "Height of a cylinder or cylindrical shell, in the unit of --radius."),
+    size_options,
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
-    numbers("equatorial", "Equatorial semi-axis of a spheroid, a number or with its unit, 1.2um."),
-    numbers("polar", "Polar semi-axis of a spheroid, in the unit of --equatorial."),
     numbers("density", "Mass density of a solid shape, instead of --mass; with its unit, 2200kg/m3."),
 )
 body_options: Callable[[F], F] = stack(

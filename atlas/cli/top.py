@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, start_of, units_of
+from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, size_options, start_of, units_of
 from atlas.cli.options import FILE, given, numbers, stack
 from atlas.cli.points import Masses, point_masses
 from atlas.cli.typed import Real
@@ -29,10 +29,7 @@ top_options: Callable[[F], F] = stack(
     numbers("mass", "Mass of the body; goes with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="Shape of the body instead of --inertia, such as disk; `atlas list "
                  "shapes` names them."),
-    numbers("radius", "Radius of the shape."),
-    numbers("height", "Height of a cylinder or cylindrical shell."),
-    numbers("equatorial", "Equatorial semi-axis of a spheroid."),
-    numbers("polar", "Polar semi-axis of a spheroid."),
+    size_options,
     click.option("--points", type=FILE, metavar="FILE", help="CSV file of point "
                  "masses and charges, with the columns x, y, z, mass, charge; the axis is z."),
     numbers("charged", "Second moments of the charge (charge times length squared) about the transverse axis and about "
