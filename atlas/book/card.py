@@ -11,7 +11,7 @@ from atlas.book.parts import Asked, case_of
 from atlas.book.tables.properties import Thing
 from atlas.book.tables.table import Request, certified, quantity
 from atlas.errors import AtlasError, DomainError
-from atlas.motions.register import Family
+from atlas.motions.register import FAMILIES, Family
 
 
 @dataclass(frozen=True)
@@ -88,6 +88,10 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
         raise DomainError(NO_START)
     if key == "nutation":
         return _nutation(family, motion, functions)
+    if _is_steady(motion, arguments):  # which has rates also where it has no period, as it is not stable
+        family = FAMILIES["elementary"]
+        steady = family.kernels() if functions is math else family.balls()
+        motion = steady(arguments["ratio"], arguments["field"], arguments["omega"][1])
     names = ("precession_rate", "spin_rate") if family.quantity("precession_rate") else ("k", "phi")
     rate = getattr(motion, names[key == "spin"])
     if key == "spin":
@@ -95,6 +99,13 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
     if rate == 0:
         raise DomainError("the axis does not go round")
     return 2 * functions.pi / abs(rate)
+
+
+def _is_steady(motion: Any, arguments: Mapping[str, Any]) -> bool:
+    """Return whether a start by all three rates lies on the hyperbola, where omega2 alone gives it."""
+    if not {"ratio", "omega"} <= arguments.keys() or motion.kind != "precession":
+        return False
+    return bool(arguments["field"][0]) and arguments["omega"][1] != -arguments["field"][0]
 
 
 def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:

@@ -16,11 +16,12 @@ from atlas.bodies.laboratory import Spinning, anisotropy, demagnetization, distu
 from atlas.book.card import ONE_PERIOD, card, thing_of
 from atlas.book.load import load
 from atlas.book.parts import Asked
-from atlas.book.verdict import spins_on, stands, verdict
+from atlas.book.verdict import stands, verdict
 from atlas.book.your_body import files_of, name_of, sign_of, title_of
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
 from atlas.errors import AtlasError
+from atlas.motions.spin_stability import spins_on
 
 SHELL = (
     "--shape cylindrical-shell --radius 1um --height 0.9um --mass 1.5e-15kg --charge 2e-15C --magnetic 0.8T "
@@ -268,3 +269,13 @@ def test_magnetism_at_the_stated_susceptibility_equals_the_charge() -> None:
     chi = next(disturbances(body)).value
     energy = anisotropy(chi, 4 / 3 * pi * 2e-18, demagnetization(2.0)) * 0.5**2
     assert abs(energy) == pytest.approx(body.potential, rel=1e-3)
+
+
+def test_an_unstable_precession_has_the_same_turn_by_all_three_rates() -> None:
+    """The start (0, omega2, omega3) on the curve is that of omega2 alone, also where there is no period."""
+    body = ["--ratio", "0.5", "--field", "1", "0.125"]
+    by_all, by_one = (
+        card(request_of([*body, *start])) for start in (["--omega", "0", "-0.5", "-0.25"], ["--omega2", "-0.5"])
+    )
+    assert by_one["turn"]["proven_digits"] == 10
+    assert all(by_all[key]["digits"] == by_one[key]["digits"] for key in ("turn", "spin"))
