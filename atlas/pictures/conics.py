@@ -71,8 +71,7 @@ def _spans(
     ends.sort()
     stretches = [(a, b) for a, b in pairwise(ends) if b - a > _FLAT * (stop - start)]
     middles = point(np.array([0.5 * (a + b) for a, b in stretches]))
-    kept = (middles @ normals.T <= distances).all(axis=1)
-    return [stretch for stretch, is_inside in zip(stretches, kept, strict=True) if is_inside]
+    return [stretches[k] for k in np.flatnonzero((middles @ normals.T <= distances).all(axis=1))]
 
 
 def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> list[_Arc]:
