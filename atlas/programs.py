@@ -29,10 +29,9 @@ def environment() -> dict[str, str]:
 
 
 def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> subprocess.CompletedProcess[str]:
-    """Run a program to its end, in a locale of UTF-8 and with `text` as its input, and return what it wrote.
+    """Run a program with `text` on its standard input, in a UTF-8 locale; return its output and return code.
 
-    It ends when this process does, however that was, and has no more than so many seconds of a processor. Raises
-    TimeoutExpired where these were not enough.
+    The program ends when this process does. Raises TimeoutExpired after so many `seconds` of processor time.
     """
     started = partial(_bound, os.getpid(), seconds)
     with ThreadPoolExecutor(1) as thread:  # an interrupt in the midst of a fork would leave locks held for ever

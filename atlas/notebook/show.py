@@ -76,7 +76,7 @@ def picture(subject: Shown) -> str:
 
 
 def _image(draw: Callable[[], Any]) -> str:
-    """Return a figure as an HTML image of few colours; "" where it cannot be drawn."""
+    """Return an HTML img element with the figure that `draw` returns, as a PNG of few colours; "" for AtlasError."""
     from PIL import Image
 
     with suppress(AtlasError):

@@ -25,9 +25,10 @@ Panel = Literal["plane", "space", "body", "frequencies", "portrait", "rosette"]
 
 
 class Step(StrictStruct, frozen=True):
-    """One step of a page that scrolls past a scene: a title and a text in Markdown, and the motion that is seen.
+    """One step of a page that scrolls past a scene: title and text in Markdown, and the motion shown beside it.
 
-    ``motion`` sets sliders by name; omega3 is that of the hyperbola where it is not set. ``panel`` is seen in space.
+    ``motion`` has values of sliders by name; omega3 is that of the hyperbola where it is left out. ``panel`` is the
+    panel shown.
     """
 
     title: str

@@ -36,7 +36,7 @@ class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
 
 @dataclass(frozen=True)
 class ProseView:
-    """Number of a text, and of its heading or None."""
+    """View of prose: index of its text among the document's texts, and index of its heading or None."""
 
     text: int
     title: int | None = None

@@ -33,7 +33,7 @@ def _ratio_and_field(motion: Any) -> tuple[Any, Any]:
 
 
 def _verdict(motion: Any) -> str:
-    """Return, decided exactly, in a word whether a single motion is stable against nutation."""
+    """Return "stable" or "unstable": a single motion's stability against nutation, decided exactly."""
     return "stable" if _curve(motion).stable(motion.omega2) else "unstable"
 
 

@@ -57,7 +57,7 @@ def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) 
 
 @dataclass(frozen=True)
 class Grid:
-    """A motion at the times start + i step."""
+    """A motion on the uniform grid of times start + i step; `fill` writes its matrices for indices i."""
 
     motion: SingleMotion
     start: float

@@ -87,7 +87,10 @@ class Lattice:
 
 
 def lattice(motion: Integrals) -> Lattice:
-    """Return the periods of a motion's torus. Raises NotCertifiedError where they cannot be distinguished."""
+    """Return the periods of a motion's torus as a `Lattice`, computed along paths in floats.
+
+    Raises NotCertifiedError for a body too near a ball, and where periods cannot be distinguished.
+    """
     if max(motion.moments) - min(motion.moments) < NEARLY_A_BALL * max(motion.moments):
         raise NotCertifiedError("not certified: the body is so nearly a ball that its slowest period is not found.")
     with workprec(BITS):
