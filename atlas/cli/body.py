@@ -8,9 +8,9 @@ from typing import Any, TypeVar
 import click
 
 from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
-from atlas.cli.options import FILE, given, numbers, stack
+from atlas.cli.options import FILE, chosen_times, given, numbers, stack
 from atlas.cli.points import exact_inertia, oblique_tensor, point_masses, points, principal_moments, ratio_of_points
-from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured
+from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured, parts_of
 from atlas.errors import DomainError, nearest
 from atlas.measured import RATE, WANTED
 
@@ -418,6 +418,8 @@ def exact_field(options: dict[str, Any]) -> Any:
 def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = None) -> None:
     """Warn of speeds above a tenth of that of light, of a charge or of a body's points at t = 0, if units are known.
 
+    Of a charge also at its times, since the part of E along B accelerates it for ever.
+
     `start` is the angular velocity of the body where no option gives it.
 
     Raises DomainError where the drift in crossed fields is not below the speed of light.
@@ -433,7 +435,8 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
     units = system(system_of(options)) if has_units else system("SI")
     if charge:
         check_drift(options["electric"] or (0, 0, 0), options["magnetic"], units)
-        speed, place = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"
+        speed, t = _fastest(options)
+        place = f"the velocity at t = {t:g}"
     else:
         start = start or options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
         sizes = {name: float(size) for name, size in given(options, SIZES).items()}
@@ -442,6 +445,18 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
         else:
             speed, place = fastest_point(shape.replace("-", "_"), sizes, start), "the surface at t = 0"
     warn_of(place, speed / speed_of_light(units))
+
+
+def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the largest speed of a charge at t = 0 and at its times, without its gyration, and the time."""
+    velocity, E, B = ([*map(float, options[name] or (0, 0, 0))] for name in ("velocity", "electric", "magnetic"))
+    square = hypot(*B) ** 2
+    pull = sum(x * y for x, y in zip(E, B, strict=True)) / square if square else 0.0
+    along = [pull * x for x in B] if square else E
+    mu = float(charge_to_mass_of(options, "A point charge"))
+    times = [0.0, *map(float, parts_of(chosen_times(dict(options))))] if "times" in options else [0.0]
+    speeds = [hypot(*(v + mu * a * t for v, a in zip(velocity, along, strict=True))) for t in times]
+    return max(speeds), times[speeds.index(max(speeds))]
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:

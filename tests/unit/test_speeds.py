@@ -32,10 +32,12 @@ def run(words: str) -> tuple[int, str]:
     [
         (f"{CHARGE} 0 1e9 0 --units si", 2, "3.33564 times the speed of light"),
         (f"{CHARGE} 0 1 0 --units gaussian", 2, "1 times the speed of light"),
-        (f"{CHARGE} 0 1e8 9e9 --units si", 0, "the drift c [E, B]/B^2 is 0.334 times"),
+        (f"{CHARGE} 0 1e8 1e7 --units si", 0, "the drift c [E, B]/B^2 is 0.334 times"),
         (f"{CHARGE} 0 2e7 0 --units si", 0, ""),
         (f"{CHARGE} 0 2 0", 0, ""),
         (f"{CHARGE} 0 0 0 --units si --velocity 6e7 0 0", 0, "the velocity at t = 0 is 0.2 times"),
+        (f"{CHARGE} 0 0 6e7 --units si", 0, "the velocity at t = 1 is 0.2 times"),
+        (f"{CHARGE} 6e7 0 0 --units si --magnetic 0 0 0", 0, "the velocity at t = 1 is 0.2 times"),
         (f"{SPHERE} 1e8", 0, "the surface at t = 0 is 0.334 times"),
         (f"{SPHERE} 1e7", 0, ""),
     ],
