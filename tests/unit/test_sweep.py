@@ -402,7 +402,7 @@ def test_errors_at_rest_are_zero() -> None:
 def test_ranges_have_units_and_starts_are_options(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In hertz a range is of turns a second, its rates are in 1/s; a spin and omega2 stand for their components."""
     monkeypatch.chdir(tmp_path)
-    words = "--ratio 1.5 --field 1 2 --quantity precession_rate --out"
+    words = "--ratio 1.5 --field 1rad/s 2rad/s --quantity precession_rate --out"
     for start, out in (("--set omega1=0 omega2=0 omega3=1Hz:2Hz:2", "a.csv"), ("--spin 1Hz", "b.csv")):
         assert CliRunner().invoke(program, f"sweep motion {words} {out} {start}".split()).exit_code == 0
     first, second = ([line.split(",") for line in Path(name).read_text().splitlines()] for name in ("a.csv", "b.csv"))
