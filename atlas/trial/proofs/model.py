@@ -10,7 +10,7 @@ Value = Any
 
 
 class _Indexed:
-    """A letter with indices: x[i, j] calls the function with the tuple (i, j)."""
+    """A function of indices, written with brackets."""
 
     def __init__(self, function: Callable[..., Value]) -> None:
         self.function = function
