@@ -10,7 +10,7 @@ from atlas.pictures.captions import listed
 from atlas.pictures.layers import Layer, Plane, Scene
 
 ROW = "a body"
-SEEN = "The more matrices are made at once, the less time each takes."
+SEEN = "The more matrices at once, the less time each takes."
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
 MIN_COUNT = 10_000
@@ -22,7 +22,7 @@ def scene(*, columns: int = 1) -> Scene:
     record = benchmark.read()
     return Scene(
         caption=(
-            "(a) Time for one matrix of the elementary motion among "
+            "(a) Of the elementary motion among "
             "$N$, on one core. (b) The same over "
             "the time in which one core fills that memory with a constant, on one core and on two, with open dots. "
             f"{benchmark.measured(record)}"
