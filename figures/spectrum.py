@@ -14,7 +14,7 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
 
 ROW = "its axis"
-SEEN = "All lines lie at sums of multiples of few frequencies."
+SEEN = "Lines lie at sums of multiples of few frequencies."
 WIDTH, HEIGHT = 120.0, 110.0
 BESIDE = 0.1
 """Part of the width between names that are both written."""
