@@ -198,7 +198,9 @@ class Problem:
         back = Rotation.from_rotvec(a).inv()
         for name in (name for name in ATTITUDE if name in self.names):
             turn = Rotation.from_rotvec(a + STEP * np.eye(3)[ATTITUDE.index(name)]) * back
-            slopes = (self._differences(Rotations(turn.as_matrix()[:, None] @ R), data) - r) / STEP
+            with np.errstate(invalid="ignore"):  # where a motion is lost, its matrices are infinite
+                rotated = turn.as_matrix()[:, None] @ R
+            slopes = (self._differences(Rotations(rotated), data) - r) / STEP
             for field_name, by in zip(B, (turn.apply(field) - field).T / STEP, strict=True):
                 if field_name in self.names:
                     slopes -= by[:, None] * J[:, self.names.index(field_name)]
