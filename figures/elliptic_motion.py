@@ -9,7 +9,7 @@ from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 
 ROW = "three moments"
-SEEN = "In an elliptic motion the angular velocity depends on the field in the body alone."
+SEEN = "All components of the angular velocity swing, and the field in the body alone fixes them."
 
 
 def scene(
