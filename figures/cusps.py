@@ -19,8 +19,10 @@ from atlas.pictures.sample import room
 
 ROW = "tops"
 SEEN = "Momentum and energy decide whether a top's axis waves or loops."
-SIZE, MIN_SWING_DEGREES = 62.0, 5.0
+SIZE, MIN_SWING_DEGREES = 59.0, 5.0
 """A panel in mm, and the least swing of the axis in degrees that is seen in it."""
+CLOSE = 0.2
+"""Part of a nutation before and after the start that the close view of it shows."""
 RANGES = {"nutations": (0.5, 40.0)}
 
 
@@ -60,23 +62,24 @@ def scene(
         )
         for letter, kind, push, top in zip("abc", kinds, omega2, tops, strict=False)
     ]  # fmt: skip
-    panels = (*spheres, plane("abcd"[len(tops)], tops, unit))
+    panels = (*spheres, close("abcd"[len(tops)], tops), plane("bcde"[len(tops)], tops, unit))
     return Scene(
         caption=(
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
-            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) by "
-            r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin, "
-            r"loops above it, waves elsewhere."
+            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations, and near the start (letters: later ends). "
+            r"Last: these motions (dots) by $p$ and $g$, above the least energies (solid). Cusps lie on the dashed "
+            r"segment, from spin to spin, loops above it, waves elsewhere."
         ),
         alt=(
-            f"Unit spheres with the trace of an axis: {listed(kinds)}. A plane of p and g with the curve of the "
-            "steady precessions, and above it a straight segment between the two spins on the axis."
+            f"Unit spheres with the trace of an axis: {listed(kinds)}; their traces near the start. A plane of p and g "
+            "with the curve of the steady precessions, and above it a straight segment between the two spins on the "
+            "axis."
         ),
         panels=panels,
-        columns=min(len(panels), 2),
+        columns=3,
         named={"solid": "main", "dashed": "reference", "dots": "start"},
-        spare=(len(spheres),),
-        size=(2 * SIZE, SIZE * -(-len(panels) // 2) + 6.0),
+        spare=(len(spheres), len(spheres) + 1),
+        size=(3 * SIZE, SIZE * -(-len(panels) // 3) + 6.0),
     )
 
 
@@ -88,6 +91,20 @@ def trace(top: TopMotion) -> str:
         return "cusps"
     low, high = (p - M3 * nu for nu in top.turning_points)
     return "loops" if low * high < 0 else "waves"
+
+
+def close(letter: str, tops: list[TopMotion]) -> Plane:
+    """Return a `Plane` tangent to the unit sphere at the common start, with the traces of the axes near it."""
+    layers: list[Layer] = []
+    for name, top in zip("abc", tops, strict=False):
+        times = np.linspace(-CLOSE, CLOSE, 201) * top.period
+        path = axis_trace.erected(top.third_axis(times), top.direction[:2])
+        start = path[len(path) // 2]
+        east = np.cross([0.0, 0.0, 1.0], start) / np.hypot(*start[:2])
+        points = path @ np.stack([east, np.cross(start, east)], axis=1)
+        layers += [Curve(points, "trace"), Label(points[-1], name, offset=(0.0, -7.0))]
+    layers.append(Points(np.zeros((1, 2)), "start"))
+    return Plane(tuple(layers), "along the parallel", "up the meridian", title=f"({letter}) near the start", equal=True)
 
 
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:

@@ -224,7 +224,7 @@ def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
         ("particle", [[0, 0, 1, 1]]),
         ("figure:geometric_phase", [[0, 0, 1, 1]]),
         ("figure:tipping_disk", [[0, 0, 1, 1]]),
-        ("figure:cusps", [[0, 0, 0.5, 0.5], [0.5, 0, 0.5, 0.5], [0, 0.5, 0.5, 0.5]]),
+        ("figure:cusps", [[0, 0, 1 / 3, 1], [1 / 3, 0, 1 / 3, 1], [2 / 3, 0, 1 / 3, 1]]),
     ],
 )
 def test_panels_that_turn_fill_the_picture(server: Explorer, name: str, places: list[list[float]]) -> None:
@@ -233,7 +233,7 @@ def test_panels_that_turn_fill_the_picture(server: Explorer, name: str, places: 
     scene = drawn.scene(answers.values_of(drawn, {}))
     width, height = found["size"]
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
-    assert [place[:4] for place in found["scene"]["wide"]["places"]] == places
+    assert [place[:4] for place in found["scene"]["wide"]["places"]] == [pytest.approx(x, abs=1e-6) for x in places]
     assert width == scene.size[0]
     assert width * places[0][2] / (height * places[0][3]) == pytest.approx(cell[0] / cell[1])
 

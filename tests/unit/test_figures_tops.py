@@ -56,7 +56,7 @@ def inside(polygon: np.ndarray, x: float, y: float) -> bool:
 def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
     """The least speed of each drawn axis and the sense of its longitude are those of its name; its energies too."""
     scene = made("cusps")
-    *spheres, plane = scene.panels
+    *spheres, near, plane = scene.panels
     (cusps,), (places,) = layers(plane, Curve, "reference"), layers(plane, Points, "start")
     slope = np.ptp(cusps.points[:, 1]) / np.ptp(cusps.points[:, 0])
     for panel, omega2, (p, g) in zip(spheres, (-0.5, 0.0, 0.25), places.points, strict=True):
@@ -73,6 +73,10 @@ def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
         assert p == pytest.approx(top.invariants()["p"], abs=1e-14)
         trace = layers(panel, Curve, "trace")[0].points
         assert trace[:, 2].min() == pytest.approx(top.turning_points[0], abs=1e-3)
+    for trace, name in zip(layers(near, Curve, "trace"), ("loops", "cusps", "waves"), strict=True):
+        later = trace.points[len(trace.points) // 2 + 1 :]
+        assert (later[0, 0] < 0) == (name == "loops")
+        assert (abs(later[0, 0]) < 0.1 * abs(later[0, 1])) == (name == "cusps")
 
 
 def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_does() -> None:
