@@ -263,6 +263,6 @@ def thing_of(request: Asked) -> Thing:
 def centre_of(request: Asked) -> str:
     """Return "the vertical", "the field" or "its momentum": the direction about which the body's axis precesses."""
     if request.family.takes("coupling"):
-        return "the vertical"
+        return "the vertical" if "heavy" in request.options or "magnetic" not in request.options else "the field"
     components = case_of(request).components if request.body else request.values.get("field", ())
     return "the field" if any(components) else "its momentum"

@@ -41,7 +41,10 @@ def measurement_of(
     """Yield the table of a proposed measurement, if there is one; else add the reason to `left_out`."""
     rates = [2 * math.pi / abs(x) for key in ("f1", "f2", "f3") if (x := made[key]["value"])]
     turn = made["turn"]["value"] or made["nutation"]["value"] or max(rates, default=0.0)
-    if not (turn and request.family.sampled and has_card(request.family)) or request.family.takes("coupling"):
+    if request.family.takes("coupling"):
+        left_out.append("What to measure: errors are foreseen of bodies in a field or free, not yet of tops.")
+        return
+    if not (turn and request.family.sampled and has_card(request.family)):
         return
     case, unit = case_of(request), "s" if request.time in {"s", "1/s"} else request.time
     field = np.array((0.0, *(case.components if request.body else request.values.get("field", (0.0, 0.0))))[-3:])

@@ -146,9 +146,10 @@ def command() -> None:
     """Build the report of a body, in a field or free, and of its motion from a start.
 
     The options are those of `atlas motion`: shapes or moments, field, start, units, uncertainties. It has a card of
-    six numbers, also as NAME.card.json, the body, its motion, all its motions, and what is left out, with the reason.
-    NAME is your_body with eight characters that stand for the inputs as evaluated. NAME.inputs.toml holds them as
-    typed and as evaluated; --from NAME.inputs.toml builds the same bytes, --from toutatis a body of the gallery.
+    six numbers, also as NAME.card.json, an explorer with sliders, the body, its motion, all its motions, what to
+    measure, and what is left out, with the reason. NAME is your_body with eight characters that stand for the inputs
+    as evaluated. NAME.inputs.toml holds them as typed and as evaluated; --from NAME.inputs.toml builds the same
+    bytes, --from toutatis a body of the gallery. NAME.bib cites the paper and this version.
     --explain says for each figure why it was drawn or taken from the cache, and which of its inputs changed.
 
     --each FILE.csv builds a report for each row of a table: its columns are options, as radius [um] or charge [e]; a

@@ -15,9 +15,10 @@ from syrupy.assertion import SnapshotAssertion
 from atlas.bodies.laboratory import Spinning, anisotropy, demagnetization, disturbances
 from atlas.book.card import ONE_PERIOD, card, thing_of
 from atlas.book.load import load
+from atlas.book.markdown import fenced, read
 from atlas.book.parts import Asked
 from atlas.book.verdict import stands, verdict
-from atlas.book.your_body import files_of, name_of, sign_of, title_of
+from atlas.book.your_body import explorer_of, files_of, name_of, sign_of, title_of
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
 from atlas.errors import AtlasError
@@ -279,3 +280,13 @@ def test_an_unstable_precession_has_the_same_turn_by_all_three_rates() -> None:
     )
     assert by_one["turn"]["proven_digits"] == 10
     assert all(by_all[key]["digits"] == by_one[key]["digits"] for key in ("turn", "spin"))
+
+
+def test_an_explorer_starts_from_the_body_in_its_field() -> None:
+    """Fails where its values are written as its text, so that it shows another field and its own source."""
+    words = "--shape disk --radius 5um --mass 3e-13kg --charge 2.2e-13C --magnetic 0.9 1.6 --omega 0.2 -0.5 0.35"
+    (block,) = explorer_of(words_to_request(words.split())[0], [])
+    pages = read(f"+++\nname = 'mine'\n+++\n\n# A page\n\n{fenced(block)}")[0]["pages"]
+    assert pages[0]["blocks"] == [block]
+    assert hypot(*block["at"]) == pytest.approx(1)
+    assert block["at"][1] / block["at"][0] == pytest.approx(1.6 / 0.9)
