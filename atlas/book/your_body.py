@@ -63,7 +63,8 @@ def body_named(request: Asked, made: Mapping[str, Any]) -> str:
         for name in ("radius", "length", "equatorial", "polar"):
             if name in options:
                 size = options[name][0]
-                unit = " m" if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
+                length = " cm" if options.get("units") == ("gaussian",) else " m"
+                unit = length if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
                 return f"{shape} of {name}{' radius' if name in {'equatorial', 'polar'} else ''} {size}{unit}"
         return shape
     if made["ratio"]["value"] is not None:
@@ -226,6 +227,7 @@ def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]
 def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the explorer of a symmetric body in a field, from its start; else add the reason to `left_out`."""
     if not (request.body and request.family.sampled and any(case_of(request).components)):
+        left_out.append("An explorer: its sliders are those of a symmetric body in a field, with a start.")
         return
     case, values = case_of(request), request.values
     unit = math.hypot(*case.components) if request.time != "time" else 1.0

@@ -241,10 +241,10 @@ def test_the_front_page_shows_a_cut_of_a_figure_of_each_page(tmp_path: Any) -> N
             f"[[pages]]\nslug = '{slug}'\ntitle = 'T'\n{more}" * bool(figures) + "".join(blocks)
         )
 
-    named = "thumbnail = {figure = 'index-loop', at = [0.25, 1.0], zoom = 1.5}\n"
+    named = "thumbnail = {figure = 'index-quadrics', at = [0.25, 1.0], zoom = 1.5}\n"
     file = tmp_path / "mine.toml"
     file.write_text(
-        "name = 'mine'\ntitle = 'M'\n" + page("index", "", "cone loop") + page("other", named) + page("none")
+        "name = 'mine'\ntitle = 'M'\n" + page("index", "", "cone quadrics") + page("other", named) + page("none")
     )
     report = load(file)
     document = compose(report, pictures(report))
@@ -252,7 +252,7 @@ def test_the_front_page_shows_a_cut_of_a_figure_of_each_page(tmp_path: Any) -> N
     made = cards(document)
     assert [(card.page.slug, card.figure.id, card.cut.zoom) for card in made] == [
         ("index", "fig-index-cone", 1.0),
-        ("other", "fig-index-loop", 1.5),
+        ("other", "fig-index-quadrics", 1.5),
     ]
     assert [card.file in pages(document)["index.html"] for card in made] == [True, True]
 
