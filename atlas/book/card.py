@@ -125,8 +125,10 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
 
 def _pole(key: str, arguments: Mapping[str, Any]) -> str:
     """Return words on the rates of an axis that passes through the direction of the field, "" for other motions."""
-    (*across, along), (W1, W2, *_) = arguments.get("field") or (0.0,), arguments.get("omega") or (0.0, 0.0)
-    through = key in {"turn", "spin"} and "ratio" in arguments and along and not any(across) and any((W1, W2))
+    *across, along = arguments.get("field") or arguments.get("direction") or (0.0,)
+    W1, W2, *_ = arguments.get("omega") or (0.0, 0.0)
+    symmetric = "ratio" in arguments or "direction" in arguments
+    through = key in {"turn", "spin"} and symmetric and along and not any(across) and any((W1, W2))
     return ", by the mean of the rates on both sides of the pole, through which the axis goes" * bool(through)
 
 
