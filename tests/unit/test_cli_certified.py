@@ -133,17 +133,19 @@ def test_the_field_of_a_charge_is_exact(units: str, c: int) -> None:
 def test_rounding_of_typed_numbers_is_reported(tmp_path: Path) -> None:
     """The sentence on the inputs names what is computed in doubles first, in a table as in JSON; none is a decimal."""
     (tmp_path / "ring.csv").write_text("x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n", encoding="utf-8")
-    start = "motion --omega2 0.1 --digits 40"
+    start = "motion --digits 40"
     for words, says in (
-        ("--ratio 1.5 --field 2 --angle 1", "a field at an angle"),
-        ("--ratio 1.5 --magnetic 2 --mu 1 --angle 30deg", "a field at an angle"),
-        ("--ratio 1.5 --field 1Hz 2Hz", "numbers in turns or degrees"),
-        (f"--points {tmp_path / 'ring.csv'} --field 1 2", "sums over more than 4096 points"),
+        ("--ratio 1.5 --omega2 0.1 --field 2 --angle 1", "a field at an angle"),
+        ("--ratio 1.5 --omega2 0.1 --magnetic 2 --mu 1 --angle 30deg", "a field at an angle"),
+        ("--ratio 1.5 --omega2 0.1rad/s --field 1Hz 2Hz", "numbers in turns or degrees"),
+        (f"--points {tmp_path / 'ring.csv'} --omega2 0.1 --field 1 2", "sums over more than 4096 points"),
     ):
         whole = f"the doubles nearest to what was typed, and, rounded to doubles, {says}"
         assert answer(f"{start} {words}")["inputs"] == whole
         assert f"inputs: {whole}." in CliRunner().invoke(command, [*start.split(), *words.split()]).stdout
-    angle = CliRunner().invoke(command, [*start.split(), *"--ratio 1.5 --field 2 --angle 1 --decimal".split()])
+    angle = CliRunner().invoke(
+        command, [*start.split(), *"--ratio 1.5 --omega2 0.1 --field 2 --angle 1 --decimal".split()]
+    )
     assert "or --angle" in angle.output
     heavy = "top --inertia 1 0.5 --mass 1 --heavy 9.81 0.5 --direction 0 1 --omega 0 0 9 --digits 20"
     assert answer(heavy)["inputs"].endswith("the moments and couplings of the top")

@@ -59,7 +59,7 @@ def full(form: list[float]) -> FloatArray:
 
 def test_points_of_surfaces_lie_on_the_given_quadric() -> None:
     """In the units of the view the grid of each surface lies on its quadric, within its planes and in its box."""
-    scene = recipes.load("quadric").scene()
+    scene = recipes.load("quadric").scene(ratio=0.5)
     (panel,) = scene.panels
     assert isinstance(panel, Space)
     (surface,) = (layer for layer in panel.layers if isinstance(layer, Surface))

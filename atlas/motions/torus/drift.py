@@ -300,7 +300,13 @@ def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatA
         return np.append(torus.change(growth, drag / rate), torus.rates(y[:count])[0])
 
     reached, records = start, []
-    torus.follow(start[:count])
+    try:
+        torus.follow(start[:count])
+    except LostTorusError as fault:
+        raise DomainError(
+            f"The motion has no torus wide enough to average over ({fault}): it is at a separatrix, or has one nutation. "
+            "Start beside it."
+        ) from None
     spread = abs(torus.rates(start[:count])[0]).max() * end + 1.0
     least = TOLERANCE * np.array([abs(start[0])] * count + [spread] * 3)
     pace = abs(slopes(0.0, start)[:count]).max()
