@@ -304,8 +304,8 @@ def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatA
         torus.follow(start[:count])
     except LostTorusError as fault:
         raise DomainError(
-            f"The motion has no torus wide enough to average over ({fault}): it is at a separatrix, or has one nutation. "
-            "Start beside it."
+            f"The motion has no torus wide enough to average over ({fault}): it is at a separatrix, or has one "
+            "nutation. Start beside it."
         ) from None
     spread = abs(torus.rates(start[:count])[0]).max() * end + 1.0
     least = TOLERANCE * np.array([abs(start[0])] * count + [spread] * 3)
