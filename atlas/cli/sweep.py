@@ -214,7 +214,7 @@ def of_three_moments() -> click.Command:
         "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
         "atlas sweep elementary --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3 "
         "--set omega2=-0.7:2:271 --quantity k --out ring.csv",
-        "atlas sweep general --ratio 1.5 --field 1 2 --set omega1=0 omega2=0 omega3=1kHz:2MHz:100:log --quantity "
+        "atlas sweep general --ratio 1.5 --field 1kHz 2kHz --set omega1=0 omega2=0 omega3=1kHz:2MHz:100:log --quantity "
         "precession_rate --out spins.csv",
         "atlas sweep asymmetric --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --quantity f1 --out f.csv",
         "atlas sweep --file sweep.toml --out table.parquet/",
