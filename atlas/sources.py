@@ -171,7 +171,10 @@ def _below(folder: Path, name: str) -> tuple[Path | None, Path | None]:
 
 @lru_cache(maxsize=4096)
 def _place(path: Path) -> str:
-    """Return the path from the folder that holds the package, whatever it is called here."""
+    """Return a path as text relative to the package's folder `_data`, or to the folder that holds the package.
+
+    Of a path in neither it is the file's name alone.
+    """
     text = path.as_posix()
     for base in (f"{PACKAGE.as_posix()}/_data/", f"{PACKAGE.parent.as_posix()}/"):
         if text.startswith(base):

@@ -44,7 +44,11 @@ def integrals(ratio: Any, Omega: Any, K: Any) -> Integrals:
 
 
 def shape_factors(ratio: Any) -> tuple[Any, Any, Any]:
-    """Return I, 1 - I and 2 - I of I = I3/I2, (33), each rounded once."""
+    """Return I, 1 - I and 2 - I for I = I3/I2, (33), each rounded once: floats, or arrays for an array.
+
+    ``ratio`` is a number, an array or a SymmetricBody, whose moments are not rounded to their quotient first. Raises
+    DomainError unless 0 < I3 <= 2 I2.
+    """
     I, one_less, two_less = over(
         lambda I2, I3: (I3 / I2, (I2 - I3) / I2, (2 * I2 - I3) / I2), *exact_moments(ratio), degree=(0, 0, 0)
     )

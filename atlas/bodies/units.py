@@ -63,7 +63,10 @@ GAUSSIAN = System("Gaussian", SPEED_OF_LIGHT * 100, "statC/g", "G", "statV/cm", 
 
 
 def system(name: str | System) -> System:
-    """Return the system of units of that name, in capitals or not."""
+    """Return the system of units called "SI" or "Gaussian", in any case of letters; a `System` is returned unchanged.
+
+    Raises AtlasError for any other name.
+    """
     if isinstance(name, System):
         return name
     for candidate in (SI, GAUSSIAN):

@@ -44,7 +44,11 @@ class Masses(NamedTuple):
 
 
 def point_masses(path: Path) -> Masses:
-    """Read point masses, and charges if given. Raises click.UsageError for a file without the columns."""
+    """Read point masses from columns x, y, z, mass and optionally charge; return `Masses`.
+
+    Positions (N, 3) are relative to the centre of mass; `charges` is None without that column. Raises click.UsageError
+    for a missing or any other column.
+    """
     import numpy as np
 
     from atlas.arithmetic.numbers import nearest

@@ -108,7 +108,7 @@ class One:
 
     @cached_property
     def rounded(self) -> dict[str, float]:
-        """Half an ulp of each input that a user gives, by its name; an attitude, which may be any, has none."""
+        """Half an ulp of each input by name, for the names in `changes`; an attitude has no entry."""
         values = {x: nearest(value) for x, value in zip(self.inputs.names, self.inputs.values, strict=True)}
         if self.motion.is_placed:
             shape = (*self.motion.shape, 3)

@@ -51,7 +51,10 @@ class Placement:
         return R if left is None else np.matmul(left, R, out=R)
 
     def vectors(self, v: FloatArray) -> FloatArray:
-        """Return vectors along the axes of the class, (..., 3), along those of the body."""
+        """Return components along the axes of the body from components v (..., 3) along the axes of the class.
+
+        That is v itself where `right` is None.
+        """
         return v if self.right is None else np.asarray(np.vecmat(v, self.right))
 
     def along_class(self, v: FloatArray) -> FloatArray:

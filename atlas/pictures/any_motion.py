@@ -208,7 +208,10 @@ def period(motion: Any) -> float:
 
 
 def axis_period(motion: Any) -> float:
-    """Return the time after which the axis of one motion repeats up to a rotation, 0 where there is none."""
+    """Return the time after which the third axis of one motion repeats up to a rotation about the field.
+
+    It is 2 pi/rate of a steady precession, with the sign of the rate, otherwise `period`; 0 where there is none.
+    """
     if name := FAMILIES[motion.family].axis_rate:
         rate = getattr(motion, name)
         return float(2 * pi / rate) if rate else 0.0

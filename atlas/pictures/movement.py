@@ -34,7 +34,10 @@ def rotations_about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, 
 
 
 def body_path(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return rotations (N, 3, 3) and shifts (N, 3) at times t (N,) of a body drawn at ``start``."""
+    """Return rotations R (N, 3, 3) and shifts d (N, 3) that move a body drawn at time ``start``: x -> R x + d.
+
+    Times t (N,) are counted from ``start``; R = R(start + t) R(start)^T, and ``centre`` (3,) stays where it is.
+    """
     return rotations_about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
 
 

@@ -186,9 +186,10 @@ def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[La
 
 
 def canonical(quadric: Quadric, reach: float, side_length: float) -> list[Layer]:
-    """Return the canonical axes omega'_1..3 through -B', (53), and the angle beta/2 + pi/4 from e2 to omega'_2.
+    """Return layers of the canonical axes omega'_1..3, (53), the centre -B', and the angle beta/2 + pi/4.
 
-    The axis of the sheets is ``reach`` long, the others ``side_length``.
+    Each axis is an arrow that starts 0.35 ``side_length`` behind -B'. The axis of the sheets ends ``reach`` beyond -B',
+    the others ``side_length``. The angle runs from e2, drawn as a line, to omega'_2.
     """
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
     w = quadrics.sheet_axis(quadric)

@@ -41,7 +41,10 @@ class Quadric(BodyInField):
 
     @property
     def a3(self) -> Real:
-        """2 sin(beta)/(1 + sin(beta)), (54)."""
+        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54), dimensionless.
+
+        Raises DomainError for B2 = 0 with B3 < 0, where it is infinite, and where beta is undefined.
+        """
         check_a3(self.B2, self.B3)
         a3: Real = quadric.a3(*self._constants)
         return a3

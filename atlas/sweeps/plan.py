@@ -123,7 +123,11 @@ class Plan:
 
     @property
     def conventions(self) -> list[str]:
-        """Sentences on the frames of matrices and vectors, where the table has functions of time or turned axes."""
+        """Sentences on the columns of the table; an empty list where none applies.
+
+        They are on frames if R and other functions of time are sampled, on `_principal` columns for turned axes, and on
+        `_sigma` columns for uncertain inputs.
+        """
         sentence = f"Columns in _principal are along the principal axes of the body, {self.axes} in those given"
         has_samples = "R11" in self._sampled and not self._sampled.isdisjoint(self._names)
         inputs = (f"{name} = {concise(float(self.parameters[name][0]), hypot(*x))}" for name, x in self.slopes.items())

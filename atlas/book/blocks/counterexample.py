@@ -66,7 +66,10 @@ class _Letters:
         return f"{partner}${self.formula(name.removeprefix(partner))}={number}$"
 
     def told(self, side: str) -> str:
-        """Return one side of a relation as TeX: its number, or a formula with " has ..." after it as words."""
+        """Return the text of one side of a relation, a number or a formula, as TeX between dollar signs.
+
+        Of a text "formula has remark" only the formula becomes TeX; " has remark" follows as words.
+        """
         formula, says, remainder = side.partition(" has ")
         return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{remainder}"
 

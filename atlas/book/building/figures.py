@@ -64,7 +64,7 @@ class FigureBuild:
 
     @property
     def name(self) -> str:
-        """Title of this figure for messages: the recipe's name and the parameters that differ."""
+        """Title of this figure for messages, such as ``stem(key=value)``; " shaded" and the names of targets follow."""
         from atlas.book.digits import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())

@@ -106,7 +106,11 @@ def _has(balls: Any, q: Quantity) -> bool:
 
 
 def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
-    """Return (proven digits of a quantity, words on their number)."""
+    """Return (text of a quantity, verdict on its digits) for one motion.
+
+    The verdict is "10 digits proven" (`DIGITS`), "fewer than 10 digits are proven", "no digit is proven", or "decided
+    exactly" for a text without digits.
+    """
     text = _joined(q, certified(lambda: q.value(motion, exact=True), DIGITS, spare=SPARE))
     if NOT_CERTIFIED in text or MARK in text:
         return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"

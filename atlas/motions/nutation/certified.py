@@ -21,7 +21,11 @@ from atlas.motions.nutation.certified_spheres import Sphere
 
 
 class Nutating:
-    """Base of certified motions with nutation: `quartic`, `kind`, `sphere` of the axis, `solution` (alpha, beta)."""
+    """Base of certified motions with nutation.
+
+    Subclasses give `quartic`, `kind` (a string), the exact `omega` and `field` in the body at t = 0, and `sphere`, the
+    `Sphere` of the field at the current working precision. Members that raise NotImplementedError are to be overridden.
+    """
 
     quartic: Quartic
     kind: str

@@ -138,7 +138,10 @@ class GeneralMotion(Nutating):
 
     @property
     def period(self) -> arb:
-        """Period of nutation, see `Nutating.period`; of a free body that of Omega, 2 pi/|phi|, as of `FreeMotion`."""
+        """Period of nutation as a ball, in time, see `Nutating.period`.
+
+        Of a free body it is the period of Omega, 2 pi/|phi|, as in `FreeMotion`; infinite for phi = 0.
+        """
         if self.quartic.K2 != 0:
             return super().period
         phi = self.steady_rates()[1]

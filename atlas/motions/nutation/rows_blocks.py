@@ -112,7 +112,7 @@ class Block:
         )
 
     def constants_of(self, pair: SpherePair) -> Constants:
-        """Return the constants of a pair."""
+        """Return the `Constants` of a `SpherePair` for all motions of this block, last axis over motions."""
         r, means, sphere = self.roots, pair.means, pair.sphere
         (words, error), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
         even, odd, terms, *_ = pair.sums

@@ -61,7 +61,10 @@ class Means:
         self.levels = self._levels()
 
     def _levels(self) -> list[Level]:
-        """Return the levels of the arithmetic-geometric mean, from the first until all rows are merged."""
+        """Return the levels of the arithmetic-geometric mean, until all rows are merged or `MAX_MEANS` levels are made.
+
+        A row that has merged keeps its numbers in later levels.
+        """
         a, g = self.plus.sqrt().scaled(-1), self.N.sqrt()
         total = a + g
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)

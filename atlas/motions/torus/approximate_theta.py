@@ -87,7 +87,10 @@ class ThetaMotion:
         return [(theta[0, 4 * e + d], theta[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
 
     def state(self, zeta: Sequence[acb]) -> State:
-        """Return M and K at zeta."""
+        """Return the `State` at a point zeta of the complex torus: vectors M and K, three complex components each.
+
+        Components are midpoints of balls: no bound on their error is kept. N is the empty list.
+        """
         pairs = self.pairs(zeta)
         D = self.denominator.value(pairs)
         M, K = ([centre(form.value(pairs) / D) for form in forms] for forms in (self.M, self.K))

@@ -83,12 +83,13 @@ class SpectralCurve:
         return ThetaMotion(self.torus.integrals, self.torus.W, self.torus.K, self.torus.lattice)
 
     def record(self, digits: int = 20) -> dict[str, Any]:
-        """Return the curve by name: rational coefficients, lowest first, and numbers with `digits` proven digits.
+        """Return the curve as a dictionary of texts and lists, with `digits` proven digits of each real number.
 
-        A complex number is a pair. The Riemann matrix has the digits of its integrals proved; that
-        the cycles are a basis of type (1,2) rests on integer relations. Under `not_proved` stand the characteristics
-        [e; d] of the theta functions of K and M, or why there are none; and where a zero of eta is so near to another
-        that integrals are not proved, the matrix, to 30 digits, and why there are no actions.
+        `g`, `P`, `quartic` (coefficients, lowest power first), `c` and `body_branch_points` are rational. A complex
+        number is a pair. `actions` and `riemann_matrix` are proven, but that the cycles are a basis of type (1,2) rests
+        on integer relations. `not_proved` is a dictionary of what is computed alone: `characteristics` [e; d] of the
+        theta functions of K and M, or `missing` with the reason. Where a zero of eta is so near to another that
+        integrals are not proved, it has the reason under `actions`, and `riemann_matrix` to 30 digits if found.
         """
         i = self.integrals
         record, less = certified(self._proven, digits), self._approximate()

@@ -187,7 +187,10 @@ class SingleAsymmetric:
         return self._started("quaternion", np.eye(4)[3], t, out)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t), shape (..., 3)."""
+        """Return the angular velocity Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
+
+        At t = 0 it is exactly the initial one. The result is written into ``out`` if given.
+        """
         return self._started("angular_velocity", floats(self.exact.omega), t, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -248,9 +248,10 @@ def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: Fl
 
 
 def _edge(grid: FloatArray, height: FloatArray) -> Edge:
-    """Return the edge of the part of a mesh (M, N, 3) where the height, linear on each side of its cells, is positive.
+    """Return the outline of the part of a mesh (M, N, 3) where ``height`` (M, N) is positive, as (points, codes).
 
-    Where the mesh closes on itself the edge runs along the seam there and back, which fills nothing.
+    Points are (K, 3), path codes (K,), both empty if there is no such part. Heights are interpolated linearly along the
+    sides of cells. On a closed mesh the outline runs along the seam there and back, which encloses no area.
     """
     (outlines,), (codes,) = contour_generator(z=height, fill_type="ChunkCombinedCode").filled(0.0, np.inf)
     if outlines is None or codes is None:

@@ -45,9 +45,9 @@ class Placement:
 
 @dataclass(frozen=True)
 class View(Placement):
-    """A panel with its projection to paper.
+    """A panel with its projection to paper, in the scaled coordinates of `Placement`.
 
-    ``panel`` is the panel in these coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
+    ``panel`` is the panel in those coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
     the panel's (width, height) in points; ``tags`` are the names, anchored on paper.
     """
 
