@@ -68,7 +68,7 @@ def scene(
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations, and near the start (letters: later ends). "
             r"Last: these motions (dots) by $p$ and $g$, above the least energies (solid). Cusps lie on the dashed "
-            r"segment, from spin to spin, loops above it, waves elsewhere."
+            r"segment, loops above, waves elsewhere."
         ),
         alt=(
             f"Unit spheres with the trace of an axis: {listed(kinds)}; their traces near the start. A plane of p and g "
