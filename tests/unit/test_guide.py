@@ -5,9 +5,11 @@ import inspect
 import re
 import shlex
 import shutil
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import atlas
@@ -30,7 +32,15 @@ def blocks() -> list[tuple[str, str, str]]:
     return [(slug, *found) for slug, text in texts for _, *found in BLOCK.findall(text)]
 
 
+@pytest.fixture
+def _print_options() -> Iterator[None]:
+    """Set NumPy's print options back, when the guide has set its own."""
+    with np.printoptions():
+        yield
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("_print_options")
 def test_every_block_of_the_guide_prints_its_output(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -72,7 +72,9 @@ def answered(call: Callable[[Any], Any], thing: Any) -> str:
     except (atlas.AtlasError, TypeError) as error:  # no line in closed form, no such input
         return f"{type(error).__name__}: {error}"
     plain = found.tolist() if isinstance(found, np.ndarray) else found
-    return "" if " object at " in repr(plain) else repr(plain)
+    with np.printoptions(precision=17, floatmode="unique", threshold=10**6):  # each thread has options of its own
+        text = repr(plain)
+    return "" if " object at " in text else text
 
 
 def alone(name: str) -> dict[str, str]:
