@@ -2,8 +2,9 @@
 
 `certified` computes a quantity at rising precision until the digits asked for are proven, and returns their text.
 `printed` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
-number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven; `NOT_CERTIFIED`
-stands where not even the first is, and `INFINITE` for an infinite number.
+number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven. ``0 within 1e-30`` stands
+for a number that is not told from zero, and proven to be smaller than 1e-30 in size; `NOT_CERTIFIED` where not even
+that is proven, and `INFINITE` for an infinite number.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,7 +20,7 @@ from atlas.errors import AtlasError
 Layout: TypeAlias = Literal["plain", "scientific", "fixed", "tex"]
 LAYOUTS = ("plain", "scientific", "fixed", "tex")
 MARK = "?"
-NOT_CERTIFIED, INFINITE = "not certified", "infinite"
+NOT_CERTIFIED, INFINITE, ZERO_WITHIN = "not certified", "infinite", "0 within "
 BITS_A_DIGIT = 3.3220
 NO_FLOAT = arb(2) ** -4000  # less than half of the least float
 SPARE_BITS = 1 << 16  # bits of precision beyond those asked for at which the search for a proof ends
@@ -39,8 +40,8 @@ def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain"
 
     ``function`` takes no argument and computes at the current precision. It returns a number or nested lists, tuples
     and dictionaries of numbers; other items (names, None) are unchanged. ``digits`` counts significant digits, in the
-    layout ``fixed`` decimals. Zero is proven only where it is exact; the search for digits of any other number ends
-    ``spare`` bits beyond.
+    layout ``fixed`` decimals. Only an exact zero has the text ``0``. The search for digits of any other number ends
+    ``spare`` bits beyond; a number that is then not told from zero has the text ``0 within 1e-k``, k >= ``digits``.
     """
     _check(digits, layout)
 
@@ -82,7 +83,8 @@ def printed(value: Real, digits: int, layout: Layout) -> Printed:
         if low == high:
             mark = "" if count == digits else MARK
             return Printed(_decimal_text(*low, count, layout, mark), count, complete=count == digits)
-    return Printed(NOT_CERTIFIED, 0, complete=False)
+    power = _exponent(max(-lower, upper)) + 1 if lower <= 0 <= upper else 0
+    return Printed(f"{ZERO_WITHIN}1e{power}" if power <= -digits else NOT_CERTIFIED, 0, complete=False)
 
 
 def numbers(value: Any) -> Iterator[Real]:

@@ -46,10 +46,7 @@ SPARE = 1 << 12
 AT_ONCE = 200
 """Times whose rows of a table are computed together, then printed."""
 
-UNKNOWN = (
-    f"with {SPARE} binary digits the number cannot be told from zero, and that it is zero does not follow from a "
-    "symmetry of the motion."
-)
+SMALL = "proven to be smaller than that in size; that it is zero does not follow from a symmetry of the motion."
 
 CHARGE = ("mass", "charge")
 """Options that may stand for the charge-to-mass ratio of a point charge."""
@@ -327,23 +324,24 @@ class Question:
 
     def printout(self, texts: dict[str, Any], worth: str, more_lines: Iterable[Line]) -> Printout:
         """Return the certified texts as a `Printout`: lines of quantities, and three rows for each time."""
-        from atlas.arithmetic.certified_digits import NOT_CERTIFIED
+        from atlas.arithmetic.certified_digits import ZERO_WITHIN
 
         family, described, options = self.family, self.described, self.options
-        uncertain_rows = False
+        is_small = False
 
         def rows() -> Iterator[list[str]]:
-            nonlocal uncertain_rows
+            nonlocal is_small
             for row in in_threes(texts.get("samples", [])):
-                uncertain_rows |= NOT_CERTIFIED in row
+                is_small |= any(text.startswith(ZERO_WITHIN) for text in row)
                 yield row
 
         def notes() -> Iterator[str]:
             yield from (f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text)
             yield from dict.fromkeys(texts.get("missing", {}).values())
             yield worth.replace("printed", "printed, but of rounded lines,") if units else worth
-            if described.undecided and uncertain_rows:
-                yield f"{NOT_CERTIFIED}: {UNKNOWN}"
+            yield from [self.best.reason] * bool(self.best.reason)
+            if is_small or any(ZERO_WITHIN in line.value for line in lines):
+                yield f"{ZERO_WITHIN}1e-k: {SMALL}"
 
         case = texts[described.named] if described.named else ""
         units = _units(family, options)

@@ -117,7 +117,7 @@ class Swept:
             row = dict(zip(parameters, values, strict=True)) | exact
             for name, text in certified(partial(self._balls, row, names), digits).items():
                 texts[name].append(text)
-        return self._explained({name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()})
+        return self._explained({name: np.array(column, dtype=f"U{digits + 16}") for name, column in texts.items()})
 
     def _balls(self, row: Row, names: Sequence[str]) -> dict[str, Any]:
         motion = self.make(row, exact=True)

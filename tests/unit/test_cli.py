@@ -474,10 +474,10 @@ def test_a_separatrix_lacks_angles_per_period_with_a_reason() -> None:
 
 
 def test_general_says_why_a_number_has_no_digits() -> None:
-    """What is zero by symmetry is printed as 0; what falls off as exp(-t) is not certified, and the table says why."""
+    """What is zero by symmetry is printed as 0; what falls off as exp(-t) has a proven bound, and the table says so."""
     motion = "--ratio 2 --field 1 0.5 --omega 1 -1 -0.5 --times 1e5"
     out = CliRunner().invoke(command, ["motion", *motion.split()], catch_exceptions=False).stdout
-    assert out.count("not certified") == 5
-    assert "not certified: with 4096 binary digits" in out
+    assert len(re.findall(r"0 within 1e-\d{4}", out)) == 5
+    assert "0 within 1e-k: proven to be smaller than that in size" in out
     motion = "--ratio 1.5 --field 1 0 --omega 0.3 -1 0 --times 1"
-    assert "not certified" not in CliRunner().invoke(command, ["motion", *motion.split()]).stdout
+    assert "within" not in CliRunner().invoke(command, ["motion", *motion.split()]).stdout

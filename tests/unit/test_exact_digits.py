@@ -9,7 +9,7 @@ from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, Layout, certified, enclosed, printed
+from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, ZERO_WITHIN, Layout, certified, enclosed, printed
 from atlas.arithmetic.certified_inputs import rational
 from atlas.errors import AtlasError
 
@@ -25,6 +25,12 @@ def half_unit(text: str) -> Fraction:
     mantissa, _, exponent = text.partition("e")
     decimals = len(mantissa.partition(".")[2])
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
+
+
+def power_of(text: str) -> int:
+    """Return -k of the text `0 within 1e-k`."""
+    assert text.startswith(f"{ZERO_WITHIN}1e-")
+    return int(text.removeprefix(f"{ZERO_WITHIN}1e"))
 
 
 def proven(value: arb | Fraction | float, count: int, layout: Layout = "plain") -> str:
@@ -47,8 +53,11 @@ def test_every_number_in_the_ball_rounds_to_the_text(
         # With two digits to try, only a wide ball proves neither; the one digit of 15 +- 0.015 is a tie.
         assert count == 1 or radius > (Fraction(1, 20) if layout == "fixed" else abs(middle) / 100)
         return
-    text = text.removesuffix(MARK)
     inside = middle + radius * Fraction(place)
+    if text.startswith(ZERO_WITHIN):
+        assert abs(inside) <= Fraction(10) ** power_of(text) <= Fraction(1, 10**count)
+        return
+    text = text.removesuffix(MARK)
     assert abs(Fraction(text) - inside) <= half_unit(text)
 
 
@@ -82,14 +91,18 @@ def test_precision_rises_until_cancellation_is_overcome() -> None:
     assert certified(difference, 30) == "5.00000000000000000000000000000e-301"
 
 
-def test_a_hidden_zero_ends_as_not_certified() -> None:
-    """sin^2 + cos^2 - 1 is zero, which no ball can prove: the search ends and says so."""
+def test_a_hidden_zero_ends_with_a_proven_bound() -> None:
+    """sin^2 + cos^2 - 1 is zero, which no ball can prove: the search ends with a bound that grows with its effort."""
 
     def hidden() -> arb:
         sine, cosine = arb(1).sin_cos()
         return sine**2 + cosine**2 - 1
 
-    assert certified(hidden, 10) == NOT_CERTIFIED
+    near, far = (certified(hidden, 10, spare=spare) for spare in (1000, 8000))
+    assert -300 > power_of(near) > -2400 > power_of(far)
+    with ctx.workprec(200):
+        value = arb(fmpq(1, 10**40), fmpq(2, 10**40))
+    assert (proven(value, 39), proven(value, 40)) == (f"{ZERO_WITHIN}1e-39", NOT_CERTIFIED)
 
 
 def test_an_exact_zero_is_printed_as_zero() -> None:

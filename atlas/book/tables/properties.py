@@ -203,7 +203,7 @@ def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
 
 def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
     """Return (value, words on its certainty); a value that is not certified comes from the class in doubles."""
-    from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED
+    from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, ZERO_WITHIN
 
     if text == NOT_CERTIFIED:
         value = q.value(item.kernels())
@@ -214,6 +214,7 @@ def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int
         return Number(plain(value), proven=False), f"float, {promised}"
     if not re.fullmatch(r"-?\d[\d.]*(e[+-]\d+)?\??", text):
         certainty = NOT_CERTIFIED if NOT_CERTIFIED in text else f"{digits}{SPACE}digits each"
+        certainty = "proven" if text.startswith(ZERO_WITHIN) else certainty
         return re.sub(r"-(?=\d)", MINUS, text), certainty if re.search(r"\d", text) else "exactly"
     proven = text.removesuffix(MARK)
     if text == "0":

@@ -111,7 +111,7 @@ def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> 
     """Return the proven digits of a number; an exact zero has no decimals."""
     from flint import fmpq
 
-    from atlas.arithmetic.certified_digits import INFINITE, MARK, NOT_CERTIFIED, printed
+    from atlas.arithmetic.certified_digits import INFINITE, MARK, NOT_CERTIFIED, ZERO_WITHIN, printed
 
     if isinstance(value, Number):
         return value
@@ -120,6 +120,6 @@ def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> 
     if isinstance(value, float):
         value = fmpq(*value.as_integer_ratio())
     number = printed(value, digits, layout)
-    if number.text in {NOT_CERTIFIED, INFINITE}:
+    if number.text.startswith((NOT_CERTIFIED, INFINITE, ZERO_WITHIN)):
         return Number("", proven=False)
     return Number(number.text.removesuffix(MARK), proven=number.complete)

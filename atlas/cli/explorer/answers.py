@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, certified
+from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, ZERO_WITHIN, certified
 from atlas.cli.explorer.subjects import OfFamily, Subject
 from atlas.errors import AtlasError, DomainError
 from atlas.families.family import Quantity
@@ -108,12 +108,14 @@ def _has(balls: Any, q: Quantity) -> bool:
 def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
     """Return (text of a quantity, verdict on its digits) for one motion.
 
-    The verdict is "10 digits proven" (`DIGITS`), "fewer than 10 digits are proven", "no digit is proven", or "decided
-    exactly" for a text without digits.
+    The verdict is "10 digits proven" (`DIGITS`), "fewer than 10 digits are proven", "no digit is proven", "proven" for
+    a bound on a number not told from zero, or "decided exactly" for a text without digits.
     """
     text = _joined(q, certified(lambda: q.value(motion, exact=True), DIGITS, spare=SPARE))
     if NOT_CERTIFIED in text or MARK in text:
         return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"
+    if ZERO_WITHIN in text:
+        return text, "proven"
     return text, f"{DIGITS} digits proven" if re.search(r"\d", text) else EXACT
 
 
