@@ -2,9 +2,9 @@
 
 `certified` computes a quantity at rising precision until the digits asked for are proven, and returns their text.
 `printed` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
-number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven. A number that is not told
-from zero, and proven to be smaller than 1e-30 in size, has the text ``0 within 1e-30``. `NOT_CERTIFIED` stands where
-not even that is proven, and `INFINITE` for an infinite number.
+number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven. A number that is
+not told from zero, and proven to be smaller than 1e-30 in size, has the text ``0 within 1e-30``. `NOT_CERTIFIED` stands
+where not even that is proven, and `INFINITE` for an infinite number.
 """
 
 from collections.abc import Callable, Iterator
