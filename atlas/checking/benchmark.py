@@ -130,12 +130,13 @@ class Cost(Item, frozen=True):
 
 
 class Limit(Item, frozen=True):
-    """A limit of speed: its meaning and the limit as texts, the measured value or None, and the verdict."""
+    """A limit of speed: its meaning and the limit as texts, the measured value or None, the verdict and its reason."""
 
     says: str
     wanted: str
     found: float | None
     verdict: Verdict
+    why: str = ""
 
 
 class Results(Item, frozen=True):

@@ -27,17 +27,6 @@ ROWS = (
 )
 """Words, method and tolerance of each row: of SciPy the smallest errors that the record holds at this horizon."""
 
-WHY = {
-    "uniform grid of 1e4, a matrix (ns)": "35 µs of each call are checks and constants; from 1e5 matrices on, 17",
-    "ours over the plain formula, below N = 1000, at worst": "a call's fixed 30 µs are twice those of the formula",
-    "uniform grid over the same times one by one, at worst": "the grid's fixed 35 µs, which count below N = 1000",
-    "R of the general motion on a grid (ns)": "each matrix needs two theta functions",
-    "derivatives in six parameters, over R": "one derivative costs about as much as R",
-    "R of the general motion at any times, heyoka's dense output over ours": "4 % short, less than such timings decide",
-    "R of the general motion on a grid, heyoka's dense output over ours": "15 would take 14 ns; R = R_B R_z needs 17",
-}
-"""Reason for each limit that the record misses, by its words; the trial's page on speed explains them."""
-
 TEXT = """
 1024 rotation matrices of an elementary motion up to t = 10 000, from `reports/data/bench.json` (`make bench`, on an
 {processor}):
@@ -82,9 +71,7 @@ def section() -> str:
         ),
         count=len(record.limits),
         missed=len(missed),
-        list="\n".join(
-            f"- {limit.says}: {limit.found:.3g}, wanted {limit.wanted} ({WHY[limit.says]})" for limit in missed
-        ),
+        list="\n".join(f"- {limit.says}: {limit.found:.3g}, wanted {limit.wanted} ({limit.why})" for limit in missed),
     )
 
 

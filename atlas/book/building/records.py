@@ -136,7 +136,10 @@ def _bench() -> dict[str, Data]:
     stored = benchmark.read()
     line = f"{benchmark.measured(stored, stored.versions)} {stored.machine.system}, `{stored.command}`."
     rows: tuple[tuple[str | Number, ...], ...]
-    rows = tuple((_words(x.says), _words(x.wanted), _three(x.found), x.verdict) for x in stored.limits)
+    rows = tuple(
+        (_words(x.says), _words(x.wanted), _three(x.found), ": ".join(filter(None, (x.verdict, _words(x.why)))))
+        for x in stored.limits
+    )
     limits = Data(heads("What", "Wanted", "Found", "Verdict"), rows, "Limits of speed.", (line,))
     tables = {"Limits of speed": limits}
     for case in dict.fromkeys(run.case for run in stored.runs):

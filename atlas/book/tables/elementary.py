@@ -90,47 +90,36 @@ class PointsParameters(StrictStruct, frozen=True):
     omega2: tuple[float, ...] = ()
 
 
-def points(request: Request, setup: PointsParameters) -> Data:
-    """Return the table of points (omega2, omega3) of (67), with k, phi of (72) and the nutation frequency squared."""
-    from atlas.arithmetic.certified_inputs import rational
-    from atlas.motions.elementary.certified_hyperbola import Hyperbola
+class Point(NamedTuple):
+    """A point of the hyperbola: its names, omega2, omega3, k, phi and nu_n^2 as balls, and whether it is stable."""
 
-    h = Hyperbola(request.case.exact, request.case.components)
-    B2 = Fraction(request.case.components[0])
-    I = Fraction(int(h.I.p), int(h.I.q))
-    chosen: dict[Any, list[str]] = {}
-    left_out = [f"$\\omega_2={plain(value)}$" for value in setup.omega2 if value == -B2]
-    for name, omega2 in (
-        ("at rest", Fraction(0)),
-        (r"$\phi=0$", -2 * B2),
-        (r"$\omega_3=0$", -(2 - I) * B2),
-        *(("", Fraction(value)) for value in setup.omega2),
-    ):
-        if omega2 + B2 != 0:
-            chosen.setdefault(Fraction(omega2), []).append(name)
-    if not chosen:
-        raise AtlasError("with B2 = 0 the hyperbola is the line omega2 = 0, and omega3 is free: it has no such points.")
-    order = sorted(chosen)
-    exact = [rational(x, "omega2") for x in order]
-    values = certified(lambda: [(x, h.omega3(x), *h.frequencies(x), h.stability(x)) for x in exact], request.digits)
-    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
-    columns[0] = column(
-        [
-            Number.as_given(float(x)) if Fraction(float(x)) == x else point
-            for x, point in zip(order, exact, strict=True)
-        ],
-        request.digits,
-    )
-    rows = tuple(
-        (
-            ", ".join(filter(None, chosen[x])),
-            *numbers,
-            "stable" if h.stable(value[0]) else "unstable",
-        )
-        for x, value, *numbers in zip(order, values, *columns, strict=True)
-    )
+    names: str
+    values: tuple[Any, ...]
+    stable: bool
+
+
+def points(request: Request, setup: PointsParameters) -> Data:
+    """Return the table of points (omega2, omega3) of (67), with k, phi of (72) and the nutation frequency squared.
+
+    With several bodies the first column has each body's title, beside its first point.
+    """
+    found = [of_points(case, setup, request.digits) for case in request.cases]
+    columns = [
+        iter(column(values, request.digits))
+        for values in zip(*(point.values for one in found for point in one), strict=True)
+    ]
+    rows: list[tuple[str | Number, ...]] = []
+    several = len(found) > 1
+    for case, one in zip(request.cases, found, strict=True):
+        title = case.body_record.title if case.body_record else "body"
+        for number, point in enumerate(one):
+            body = (title[:1].upper() + title[1:] if number == 0 else "",) * several
+            rows.append((*body, point.names, *map(next, columns), "stable" if point.stable else "unstable"))
+    poles = dict.fromkeys(-Fraction(case.components[0]) for case in request.cases)
+    left_out = [f"$\\omega_2={plain(value)}$" for value in setup.omega2 if Fraction(value) in poles]
     return Data(
         heads(
+            *(("Body",) * several),
             "Point",
             (r"$\omega_2$", RATE),
             (r"$\omega_3$", RATE),
@@ -139,13 +128,41 @@ def points(request: Request, setup: PointsParameters) -> Data:
             (r"$\nu_n^2$", r"s$^{-2}$"),
             "Nutation",
         ),
-        rows,
+        tuple(rows),
         r"Points of the hyperbola @(67), frequencies of precession $k$ and of proper rotation $\phi$, @(72), and the "
         r"square of the frequency of nutation $\nu_n$, @theorem-stability.",
         tuple(
             rf"There is no row for {pole}, since $\omega_2=-B'_2$ does not have one $\omega_3$." for pole in left_out
         ),
     )
+
+
+def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[Point]:
+    """Return the named and the given points of the hyperbola of a body, in the order of omega2, but for the pole."""
+    from atlas.arithmetic.certified_inputs import rational
+    from atlas.motions.elementary.certified_hyperbola import Hyperbola
+
+    h = Hyperbola(case.exact, case.components)
+    B2 = Fraction(case.components[0])
+    I = Fraction(int(h.I.p), int(h.I.q))
+    named: dict[Fraction, list[str]] = {}
+    for name, omega2 in (
+        ("at rest", Fraction(0)),
+        (r"$\phi=0$", -2 * B2),
+        (r"$\omega_3=0$", -(2 - I) * B2),
+        *(("", Fraction(value)) for value in setup.omega2),
+    ):
+        if omega2 + B2 != 0:
+            named.setdefault(omega2, []).append(name)
+    if not named:
+        raise AtlasError("with B2 = 0 the hyperbola is the line omega2 = 0, and omega3 is free: it has no such points.")
+    found = []
+    for omega2 in sorted(named):
+        x = rational(omega2, "omega2")
+        values = certified(lambda x=x: (h.omega3(x), *h.frequencies(x), h.stability(x)), digits)
+        given = Number.as_given(float(omega2)) if Fraction(float(omega2)) == omega2 else x
+        found.append(Point(", ".join(filter(None, named[omega2])), (given, *values), h.stable(x)))
+    return found
 
 
 class Motion(StrictStruct, frozen=True):
