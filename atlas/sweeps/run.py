@@ -39,6 +39,8 @@ MIN_PART_ROWS, EQUAL_PARTS = 4096, 64
 that a table has hundreds of parts, whatever the estimated time of a row."""
 PARTS_AHEAD = 4
 """Number of parts in progress per worker: few, so that results not yet written take little memory."""
+SECONDS_BETWEEN_CHECKS = 1.0
+"""Seconds between checks whether the Dask client that should bring a result is still open."""
 CODE = ("arithmetic", "bodies", "surfaces", "motions", "families", "sweeps")
 """Folders of the code that computes rows and writes them."""
 SECONDS_PER_PROCESS = 1.0
@@ -296,12 +298,23 @@ def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, worke
                 with _workers_lost(executor, Exception):
                     waiting.append(engine.submit(make, *rows, table))
                 if len(waiting) > PARTS_AHEAD * workers:
-                    yield waiting.popleft().result()
+                    yield _result(waiting.popleft(), executor)
             while waiting:
-                yield waiting.popleft().result()
+                yield _result(waiting.popleft(), executor)
         finally:
             if processes is None:  # which cancels what has not begun by itself
                 wait([future for future in waiting if not future.cancel()])
+
+
+def _result(future: Future[Made], executor: Any) -> Made:
+    """Return the result of a future, or raise a CancelledError if its Dask client closes before there is one.
+
+    A client that loses its scheduler cancels its futures, but not those submitted while it tries to connect again.
+    """
+    while not wait([future], timeout=SECONDS_BETWEEN_CHECKS).done:
+        if getattr(executor, "status", None) == "closed" and not future.done():
+            raise CancelledError("the client is closed")
+    return future.result()
 
 
 @contextmanager

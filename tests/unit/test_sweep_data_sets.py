@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
@@ -139,6 +139,26 @@ def scheduler_and_worker(folder: Path) -> Iterator[tuple[Any, str]]:
         finally:
             scheduler.kill()
             worker.kill()
+
+
+def test_a_client_that_closes_without_a_result_is_told(tmp_path: Path) -> None:
+    """As a Dask client does whose scheduler is lost while a result is on its way."""
+
+    class Client:
+        status = "running"
+
+        def ncores(self) -> dict[str, int]:
+            return {"worker": 1}
+
+        def get_executor(self, **_: Any) -> "Client":
+            return self
+
+        def submit(self, *_: Any, **__: Any) -> Future[Any]:
+            self.status = "closed"
+            return Future()
+
+    with pytest.raises(AtlasError, match=r"sudden end .the client is closed.; .* a new executor or client goes on"):
+        atlas.sweep("elementary", GRID, NAMES, tmp_path / "t.csv", rows=8, executor=Client())
 
 
 @pytest.mark.slow
