@@ -156,7 +156,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     if options["ratio"] is not None:
         return options["ratio"]
     if options["shape"] is not None:
-        return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options), options.get("density"))
+        return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options))
     if options["points"] is not None:
         return points(options["points"])
     from atlas.bodies.body import SymmetricBody
@@ -164,8 +164,8 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     return SymmetricBody(*options["inertia"])
 
 
-def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed | None) -> Any:
-    """Return the body of a shape from the typed dimensions; its mass is 1 without --mass and --density.
+def _of_shape(shape: str, sizes: Mapping[str, Any], mass: Any) -> Any:
+    """Return the body of a shape from its dimensions; its mass is 1 without --mass and --density.
 
     Raises click.UsageError for an unknown shape, for other dimensions, and for sizes beyond 1e150.
     """
@@ -184,9 +184,9 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed 
         raise click.UsageError(f"the shape {shape} takes {wanted_names}; found {typed_options}.")
     for name, size in sizes.items():
         if size and not 1e-150 < abs(size) < 1e150:
-            raise click.UsageError(f"--{name} {size.text} has a square beyond floats: choose another unit of length.")
-    heavy = {"mass": 1.0 if mass is None else mass} if density is None else {"density": density}
-    return from_shape(shape.replace("-", "_"), **heavy, **sizes)
+            text = getattr(size, "text", size)
+            raise click.UsageError(f"--{name} {text} has a square beyond floats: choose another unit of length.")
+    return from_shape(shape.replace("-", "_"), mass=1.0 if mass is None else mass, **sizes)
 
 
 def chosen_moments(options: Mapping[str, Any]) -> tuple[Any, ...]:
@@ -213,19 +213,12 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
     return oblique_tensor(options["points"]) if options.get("points") is not None else None
 
 
-def exact_tensor(options: dict[str, Any]) -> Any:
-    """Return the typed inertia tensor I11 I22 I33 I12 I13 I23 for certified classes; without one, the moments.
-
-    Raises click.UsageError for --decimal with --points.
-    """
-    tensor = given_tensor(options)
-    if tensor is None:
-        return exact_moments(options)
-    if options["points"] is not None and options["decimal"]:
-        raise click.UsageError("--decimal goes with --tensor, not with --points.")
+def tensor_or_moments(options: Mapping[str, Any]) -> Any:
+    """Return six numbers I11 I22 I33 I12 I13 I23, of --tensor or of --points; of another body the three moments."""
     if options["tensor"] is not None:
-        return exactly(options["tensor"], options)
-    return exact_inertia(options["points"])
+        one_of(options, "body", (*BODY, "tensor"))
+        return options["tensor"]
+    return exact_inertia(options["points"]) if options["points"] is not None else chosen_moments(options)
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
@@ -249,33 +242,18 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> st
     return names_given[0]
 
 
-def exact_moments(options: dict[str, Any]) -> Any:
-    """Return the moments (I1, I2, I3) for certified classes; with --decimal from the typed decimals, unrounded.
+def as_typed(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options; with --decimal the typed numbers of the body, the field and the start are fractions.
 
-    Raises click.UsageError for --decimal with --points.
+    Raises click.UsageError for --decimal with numbers that are computed from others in doubles.
     """
-    if options["decimal"] and options["points"] is not None:
-        raise click.UsageError("--decimal goes with --inertia, not with --points.")
-    if options["inertia"] is None and options["points"] is None:
-        body = exact_body(options)
-        return (1, 1, body) if options["ratio"] is not None else (body.I2, body.I2, body.I3)
-    return exactly(chosen_moments(options), options)
-
-
-def exact_body(options: dict[str, Any]) -> Any:
-    """Return the body of `chosen_body` for certified classes, from the typed decimals without rounding."""
-    from atlas.bodies.certified_body import Moments, shape_moments
-
-    body = chosen_body(options)
-    if options["points"] is not None and options["decimal"]:
-        raise click.UsageError("--decimal goes with --ratio, --inertia or --shape, not with --points.")
-    if options["shape"] is not None:
-        sizes = {name: exactly(size, options) for name, size in given(options, SIZES).items()}
-        mass = 1 if mass_of(options) is None else exactly(mass_of(options), options)
-        return Moments(*shape_moments(options["shape"].replace("-", "_"), mass=mass, **sizes))
-    if options["inertia"] is not None:
-        return Moments(*exactly(options["inertia"], options))
-    return exactly(body, options)
+    if not options.get("decimal"):
+        return options
+    if options.get("points") is not None:
+        raise click.UsageError("--decimal goes with numbers that are typed, not with --points.")
+    if "field" in options and (options["field"] is None or isinstance(options["field"], Inclined)):
+        raise click.UsageError("--decimal goes with --field and its components, not with --magnetic or --angle.")
+    return {name: exactly(value, options) for name, value in options.items() if name not in ("times", "grid")}
 
 
 def mass_of(options: Mapping[str, Any]) -> Any:
@@ -333,23 +311,17 @@ def units_of(options: Mapping[str, Any]) -> dict[str, str]:
     return SECONDS if has_units or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
 
-def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> float:
-    """Return mu, from --mu, from --mass and --charge, or from --points; `needs` names the option that requires it.
+def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> Fraction:
+    """Return mu, not rounded, from --mu, --mass and --charge, or --points; `needs` names the option that requires it.
 
     Raises click.UsageError where none of them or several are given.
     """
+    from atlas.arithmetic.inputs import finite
     from atlas.bodies.units import charge_to_mass
 
-    return charge_to_mass(*_charge_and_mass(options, needs))
-
-
-def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> Any:
-    """Return the ratio of `charge_to_mass_of` for certified classes, from the typed decimals without rounding."""
-    from atlas.arithmetic.certified_inputs import rational
-
-    charge_to_mass_of(options, needs)  # raises for wrong values
-    charge, mass = exactly(_charge_and_mass(options, needs), options)
-    return rational(charge, "the charge") / rational(mass, "the mass")
+    charge, mass = _charge_and_mass(options, needs)
+    finite(charge_to_mass(charge, mass), "The charge-to-mass ratio")
+    return Fraction(charge) / Fraction(mass)
 
 
 def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fraction, float | Fraction]:
@@ -394,25 +366,9 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
         return tuple(options["field"])
     from atlas.bodies.field import Field
 
-    components, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
-    charge_to_mass_of(options)  # raises for wrong values
-    mu = Fraction(charge) / Fraction(mass)
-    return Field((0.0,) * (3 - len(components)) + components, mu=mu, c=speed_of_light(options)).exact[
-        3 - len(components) :
-    ]
-
-
-def exact_field(options: dict[str, Any]) -> Any:
-    """Return the field of `chosen_field` for certified classes, from the typed decimals without rounding."""
-    if options["decimal"] and (options["field"] is None or isinstance(options["field"], Inclined)):
-        raise click.UsageError("--decimal goes with --field and its components, not with --magnetic or --angle.")
-    field = chosen_field(options)
-    if options["magnetic"] is None:
-        return exactly(field, options)
-    from atlas.arithmetic.certified_inputs import rational
-
-    factor = exact_charge_to_mass(options) / (2 * rational(speed_of_light(options), "c"))
-    return [factor * rational(B, "B") for B in options["magnetic"]]
+    B = options["magnetic"]
+    field = Field((0.0,) * (3 - len(B)) + B, mu=charge_to_mass_of(options), c=speed_of_light(options))
+    return field.exact[3 - len(B) :]
 
 
 def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = None) -> None:

@@ -92,10 +92,10 @@ def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict
     family, names = wanted.family, [p.name for p in wanted.family.parameters]
 
     def answered(moved: dict[str, Any]) -> dict[str, Any]:
-        return numbers(family, dict(zip(names, values_of(family, moved, exact=False), strict=True)))
+        return numbers(family, dict(zip(names, values_of(family, moved), strict=True)))
 
     if uncertain(options):
-        deviations = UncertainAnswer.of(answered, options | {"decimal": False}).spread.sigma
+        deviations = UncertainAnswer.of(answered, options).spread.sigma
         wanted = replace(wanted, sigma={place[0]: x for place, x in deviations.items()})
     return wanted, options
 
@@ -198,13 +198,7 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
 
     body.check_speeds(options)
     typed_options = typed_options_of(options.keys() - OWN, options)
-    options_asked = dict(
-        zip(
-            (p.name for p in family.parameters),
-            values_of(family, options | {"decimal": False}, exact=False),
-            strict=True,
-        )
-    )
+    options_asked = dict(zip((p.name for p in family.parameters), values_of(family, options), strict=True))
     family.kernels()(*options_asked.values())  # refuses an impossible object before figures are drawn
     values = {
         p.name: _plain(options_asked[p.name])
@@ -242,7 +236,7 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
 
 def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
     """Return rows of four texts, quantity, symbol, value with deviation, unit, and a list of notes."""
-    spread = spread_of(family, options | {"decimal": False})
+    spread = spread_of(family, options)
     lines = lines_of_quantities(family, spread.texts(), options, family.command.named if family.command else "")
     rows = [
         [f"{line.symbol} {line.says}" if line.says.startswith("of ") else line.says, f"`{line.symbol}`", line.value,
@@ -320,7 +314,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     field = (
         {}
         if options["mu"] is None and options["points"] is None
-        else {"charge_to_mass": _exact(body.exact_charge_to_mass(options | {"decimal": False}))}
+        else {"charge_to_mass": _exact(body.charge_to_mass_of(options))}
     )
     unit = {"SI": "T", "Gaussian": "G"}[system]
     return {

@@ -88,7 +88,7 @@ def started(args: list[str]) -> tuple[str, str]:
         click.echo(principal.note, err=True, nl=bool(principal.note))
         family, values = principal.family, principal.values
     else:
-        words = zip(family.parameters, values_of(family, options, exact=False), strict=True)
+        words = zip(family.parameters, values_of(family, options), strict=True)
         values_given = {p.name: x for p, x in words if x is not None}
         family.kernels()(**values_given)  # raises for an impossible body before a server starts
         values = {name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for name, x in values_given.items()}

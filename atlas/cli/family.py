@@ -51,12 +51,10 @@ SMALL = "proven to be smaller than that in size; that it is zero does not follow
 CHARGE = ("mass", "charge")
 """Options that may stand for the charge-to-mass ratio of a point charge."""
 
-OF_BODY: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
-    "ratio": (body.chosen_body, body.exact_body),
-    "inertia": (body.chosen_moments, body.exact_moments),
-    "field": (body.chosen_field, body.exact_field),
-}
-"""Arguments of kernels and certified classes from options of body and field."""
+OF_BODY: Mapping[str, Callable[[Any], Any]] = {
+    "ratio": body.chosen_body, "inertia": body.chosen_moments, "field": body.chosen_field,
+}  # fmt: skip
+"""Arguments of a family's classes from options of body and field."""
 
 ROUNDING = 1e-12
 """Turn in radians by rounding of the inputs above which the command line says so."""
@@ -390,7 +388,7 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
 
     if uncertain(options) or body.given_tensor(options) is not None or options["attitude"] is not None:
         raise click.UsageError("--curve is proven: give numbers without an uncertainty, along principal axes.")
-    curve = SpectralCurve(family.balls()(*values_of(family, options, exact=True)))
+    curve = SpectralCurve(_balls(family, options))
     record = curve.record(options["digits"] or TABLE_DIGITS)
     if options["as_json"]:
         dump({"parameters": parameters, "curve": record})
@@ -494,7 +492,7 @@ def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float]
 
 def _kernel(family: Family, options: dict[str, Any]) -> Any:
     """Return the family's object in doubles, made from the options."""
-    return family.kernels()(*values_of(family, options, exact=False))
+    return family.kernels()(*values_of(family, options))
 
 
 def _balls(family: Family, options: dict[str, Any]) -> Any:
@@ -502,11 +500,11 @@ def _balls(family: Family, options: dict[str, Any]) -> Any:
     if family.in_given_axes and (body.given_tensor(options) is not None or options["attitude"] is not None):
         from atlas.motions.torus.certified_placed import PlacedMotion
 
-        attitude = exactly(options["attitude"] or (0.0, 0.0, 0.0, 1.0), options)
-        omega = exactly(body.start_of(options), options)
         body.given_attitude(options)  # raises for wrong values
-        return PlacedMotion(body.exact_tensor(options), body.exact_field(options), omega, attitude)
-    return family.balls()(*values_of(family, options, exact=True))
+        typed = body.as_typed(options)
+        attitude = typed["attitude"] or (0, 0, 0, 1)
+        return PlacedMotion(body.tensor_or_moments(typed), body.chosen_field(typed), body.start_of(typed), attitude)
+    return family.balls()(*values_of(family, options))
 
 
 def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:
@@ -565,24 +563,24 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     return numbers(p.name, f"{quantity}{unit}{semicolon}{condition}.", p.metavar or "", **settings)
 
 
-def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
-    """Yield the arguments of a family's class in their order, exact numbers if `exact`, else floats."""
+def values_of(family: Family, options: dict[str, Any]) -> Iterator[Any]:
+    """Yield the arguments of a family's classes in their order: doubles, with --decimal fractions."""
     if family.takes("coupling"):
         if given_otherwise(options):
             top = chosen_top(options)
             yield from (top.arguments[p.name] for p in family.parameters)
             return
         needs_no_way(options)
+    typed = body.as_typed(options)
     for p in family.parameters:
         if p.name in OF_BODY and (not p.option or of_any_body(family)):
-            yield OF_BODY[p.name][exact](options)
+            yield OF_BODY[p.name](typed)
         elif p.name == "mu":
-            yield (body.exact_charge_to_mass if exact else body.charge_to_mass_of)(options, "A point charge")
+            yield body.charge_to_mass_of(typed, "A point charge")
         elif p.name == "c":
             yield body.speed_of_light(options)
         else:
-            value = body.start_of(options) if p.name == "omega" and "spin" in options else options[p.name]
-            yield exactly(value, options) if exact else value
+            yield body.start_of(typed) if p.name == "omega" and "spin" in options else typed[p.name]
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:

@@ -5,12 +5,11 @@ from typing import Any
 import click
 
 from atlas.cli.body import (
+    as_typed,
     body_options,
     body_parameters,
     chosen_body,
     chosen_field,
-    exact_body,
-    exact_field,
     field_options,
     units_of,
 )
@@ -58,8 +57,8 @@ def command(**options: Any) -> None:
     def balls() -> dict[str, Any]:
         from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
-        curve = Hyperbola(exact_body(options), exact_field(options))
-        abscissas = [exactly(x, options) for x in points]
+        typed = as_typed(options)
+        curve, abscissas = Hyperbola(chosen_body(typed), chosen_field(typed)), [exactly(x, options) for x in points]
         pairs = [curve.frequencies(x) for x in abscissas]
         columns = ([p[0] for p in pairs], [p[1] for p in pairs], [curve.stability(x) for x in abscissas])
         return described(curve, points, [curve.omega3(x) for x in abscissas], *columns)

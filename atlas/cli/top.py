@@ -80,7 +80,7 @@ def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[
 
 def chosen_top(options: Mapping[str, Any]) -> Any:
     """Return the top that --heavy or --magnetic describes. Raises click.UsageError for contradicting options."""
-    if options["decimal"]:
+    if options.get("decimal"):
         raise click.UsageError("--decimal goes with --inertia, --coupling and --direction, not with --heavy or "
                                "--magnetic, from which these are computed.")  # fmt: skip
     for name in ("coupling", "linear", "quadratic"):
