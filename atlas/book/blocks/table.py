@@ -15,7 +15,7 @@ from atlas.errors import AtlasError, unknown
 
 MAX_DIGITS = 1000
 """As many digits of a number as a table may ask for."""
-MAX_UNBROKEN_ROWS = 12
+MAX_UNBROKEN_ROWS = 24
 """As many rows as a table may have that is not broken over pages of the PDF."""
 POWER_WIDTH = 5.75
 """Widths of a digit that a power of ten takes."""
