@@ -172,7 +172,9 @@ def _stress() -> dict[str, Data]:
         broken = "**limit exceeded:** " if ulps > limits.get(name, math.inf) else ""
         limit = Number(f"{limits[name]:g}") if name in limits else "none"
         rows.append((title(name), _ulps(ulps), limit, broken + title(regime) if ulps > MIN_ULPS else ""))
+    above = sum(errors[name][0] > limits.get(name, math.inf) for name in order)
     note = (
+        f"Of {len(order)} quantities, {len(limits.keys() & order)} with a limit, {above or 'none'} exceeded it. "
         f"Worst of {record['values']:,} values on {len(record['processors'])} kinds of x86 processors, rounded up. "
         "Half a unit is on record where less was found."
     )
