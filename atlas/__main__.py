@@ -35,7 +35,13 @@ def interrupt(number: int, frame: FrameType | None) -> None:
 
 
 def main() -> None:
-    """Run the command line; while the process ends a signal ends it at once."""
+    """Run the command line; while the process ends a signal ends it at once.
+
+    Where Python was told to read names in ASCII, it is started again in UTF-8.
+    """
+    if os.environ.get("PYTHONUTF8") == "0" and sys.getfilesystemencoding() == "ascii":
+        os.environ["PYTHONUTF8"] = "1"  # a name with a letter like é would have no text
+        os.execv(sys.executable, sys.orig_argv)  # noqa: S606  without a shell
     heeded = [number for number in ENDING if signal.getsignal(number) is signal.SIG_DFL]
     try:
         for number in heeded:

@@ -11,8 +11,10 @@ from atlas.book.digits import Number
 from atlas.book.parts import Asked, case_of
 from atlas.book.tables.elementary import NONE
 from atlas.errors import AtlasError
+from atlas.families.family import ROUNDING
 from atlas.motions.any_body import motion as any_motion
 from atlas.motions.information import Reading, expected_errors
+from atlas.motions.register import FAMILIES
 
 READINGS, TURNS, SIGMA = 100, 5, 0.01
 """Readings at equal times over so many turns, each with this error, in rad or as a part of the angular velocity."""
@@ -50,16 +52,18 @@ def measurement_of(
     field = np.array((0.0, *(case.components if request.body else request.values.get("field", (0.0, 0.0))))[-3:])
     omega = request.family.kernels()(*thing_of(request).floats).angular_velocity(0.0)
     body = case.body if request.body else np.array(request.values["inertia"]) / request.values["inertia"][-1]
-    names = [*(["ratio"] if request.body else ["I1", "I2"]), *(["B1", "B2", "B3"] if field.any() else []),
-             "omega1", "omega2", "omega3"]  # fmt: skip
     t, rate = (
         np.linspace(0.0, TURNS * turn, READINGS + 1)[1:],
         SIGMA * max(float(np.linalg.norm(omega)), 2 * math.pi / turn),
     )
     try:
         motion = any_motion(body, field, omega)
+        is_symmetric = request.body or FAMILIES[motion.family].takes("ratio")
+        names = [*(["ratio"] if is_symmetric else ["I1", "I2"]), *(["B1", "B2", "B3"] if field.any() else []),
+                 "omega1", "omega2", "omega3"]  # fmt: skip
         columns = [expected_errors(motion, names, t, kind, SIGMA if kind != "angular_velocity" else rate)
                    for kind in KINDS]  # fmt: skip
+        error = float(motion.input_error(t[-1]))
     except AtlasError as reason:
         left_out.append(f"What to measure: {reason}")
         return
@@ -69,5 +73,7 @@ def measurement_of(
         for name, found in zip(names, np.transpose(columns), strict=True)
     ]  # fmt: skip
     caption = CAPTION.format(READINGS, t[-1], unit.replace("time", "units of time"), SIGMA, rate, f"1/{unit}")
+    if error > ROUNDING:
+        caption += f" Rounding the inputs to floats turns the body by up to {error:.1g} rad in that time."
     yield {"kind": "listing", "id": "measurement", "columns": ["Input", *KINDS.values(), "Unit"], "rows": rows,
            "caption": caption}  # fmt: skip

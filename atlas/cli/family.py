@@ -6,7 +6,7 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import chain
-from math import hypot, isfinite, pi
+from math import hypot, inf, isfinite, pi
 from typing import Any
 
 import click
@@ -35,7 +35,7 @@ from atlas.cli.typed import exactly, measured, parts_of
 from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
-from atlas.families.family import RATE, TIME
+from atlas.families.family import RATE, ROUNDING, TIME
 from atlas.lazy import cached_property
 from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.motions.register import Command as Described
@@ -55,9 +55,6 @@ OF_BODY: Mapping[str, Callable[[Any], Any]] = {
     "ratio": body.chosen_body, "inertia": body.chosen_moments, "field": body.chosen_field,
 }  # fmt: skip
 """Arguments of a family's classes from options of body and field."""
-
-ROUNDING = 1e-12
-"""Turn in radians by rounding of the inputs above which the command line says so."""
 
 SHORT = 6.0
 """Phase below which an exponential of the largest rate does not take rounding to 1e-12."""
@@ -469,25 +466,32 @@ def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> tu
     return None, max(moments, key=abs)
 
 
-def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
-    """Whether a motion is too short for the rounding of inputs to matter; decided without heavy imports."""
+def _rates(options: dict[str, Any]) -> list[float]:
+    """Return the rates of a start and a field that are given as rates; an infinite one for other options."""
     rates = [x for name in ("field", "omega", "omega2", "spin") for x in parts_of(options.get(name) or 0.0)]
-    field_is_prime = options.get("magnetic") is None and options.get("linear") is None
-    return field_is_prime and max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
+    return rates if options.get("magnetic") is None and options.get("linear") is None else [inf]
+
+
+def is_short(rates: Iterable[float], times: Iterable[float]) -> bool:
+    """Whether a motion of these rates is too short for the rounding of inputs to matter."""
+    return max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
 
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
     """Yield at most one sentence: the angle by which rounded inputs turn the body, if it may exceed `ROUNDING`."""
     rounded = options["digits"] is None and not options["decimal"] and (family.is_sensitive or family.in_given_axes)
-    if not rounded or not times or _is_short(options, times):
+    if not rounded or not times or is_short(_rates(options), times):
         return
-    error, t = _turn_by_rounding(family, motion or _kernel(family, options), times)
+    for sentence in of_rounding(family, motion or _kernel(family, options), times):
+        yield f"{sentence}; --digits with --decimal takes them as typed."
+
+
+def of_rounding(family: Family, motion: Any, times: Sequence[float]) -> Iterator[str]:
+    """Yield at most one clause: the angle by which rounded inputs turn a motion, if it may exceed `ROUNDING`."""
+    error, t = _turn_by_rounding(family, motion, times)
     if error is None or error > ROUNDING:
         turn = "an angle that is not known" if error is None else f"up to {error:.1g} rad"
-        yield (
-            f"Rounding the inputs to floats turns the body by {turn} at t = {t:g}; --digits with --decimal takes them "
-            "as typed."
-        )
+        yield f"Rounding the inputs to floats turns the body by {turn} at t = {t:g}"
 
 
 def _kernel(family: Family, options: dict[str, Any]) -> Any:

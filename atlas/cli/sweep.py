@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from math import inf
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -12,6 +13,7 @@ import click
 from atlas.arithmetic.uncertainty import is_uncertain
 from atlas.cli import body
 from atlas.cli.axes import along_principal_axes, motion_in_given_axes
+from atlas.cli.family import is_short, of_rounding
 from atlas.cli.options import Place, examples, given, jobs_option_of, numbers, pair, several, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
@@ -188,11 +190,25 @@ def swept(**options: Any) -> None:
         family, inputs, request.quantities,
         listed=listing is not None, digits=request.digits, time=time, axes=request.axes,
     )  # fmt: skip
+    _tell_rounding(plan)
     with bar("sweep", every=60) as tell:
         path = write_plan(
             plan, request.out, request.rows, jobs=options["jobs"], progress=lambda done, total: tell(done, total, "")
         )
     click.echo(str(path))
+
+
+def _tell_rounding(plan: Any) -> None:
+    """Print on standard error the effect of rounded inputs on the first of the latest rows, if it may be felt."""
+    from atlas.sweeps.families import FAMILIES as SWEPT
+    from atlas.sweeps.plan import LAUNCH
+
+    family, row = SWEPT[plan.family], plan.latest
+    rates = [inf] if family.family.takes("coupling") else [row.get(name, 0.0) for name in LAUNCH]
+    if plan.digits is not None or not row or is_short(rates, [row["t"]]):
+        return
+    for clause in of_rounding(family.family, family.make({**family.optional, **row}), [row["t"]]):
+        click.echo(f"atlas: {clause}, in the first row at that time.", err=True)
 
 
 def of_three_moments() -> click.Command:

@@ -8,6 +8,8 @@ from operator import attrgetter
 from typing import Any
 
 RATE, TIME = "1/time", "time"
+ROUNDING = 1e-12
+"""Turn of a body in rad, by rounding of the inputs to floats, above which the reader is told."""
 
 
 @dataclass(frozen=True)

@@ -154,6 +154,15 @@ class Plan:
         columns = zip(self.names, map(units.get, own_names), strict=True)
         return [f"{name} [{unit}]" if unit else name for name, unit in columns]
 
+    @property
+    def latest(self) -> dict[str, float]:
+        """Parameters by name of the first row with the largest |t|; {} where no function of time is asked for."""
+        t = self.parameters.get("t")
+        if t is None or self._sampled.isdisjoint(self.quantities):
+            return {}
+        place, values = int(np.argmax(abs(t))), self.parameters.items()
+        return {name: float(x[place if name == "t" or (self.listed and x.size > 1) else 0]) for name, x in values}
+
     def list_of(self, start: int, stop: int) -> "Plan":
         """Return the plan of the rows start to stop, listed row by row: small enough to be sent to a worker."""
         parameters = self._parameters(np.arange(start, stop))

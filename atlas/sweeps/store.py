@@ -150,6 +150,8 @@ class Table:
         self.key, self.mark = key, ""
         self.whole: Folder | None = None
         self.place: Path | str = text if remote else path
+        if remote and not all(part.strip("/") for part in text.split("://")):
+            raise AtlasError(f"{text} is no address: name its protocol and its path, as s3://bucket/table.parquet.")
         if remote or text.endswith(("/", os.sep)) or path.is_dir():
             if path.suffix not in {"", ".parquet"}:
                 raise AtlasError(f"A table in a folder is of Parquet, as table.parquet/, not {text}.")

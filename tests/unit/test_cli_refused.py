@@ -337,6 +337,8 @@ CASES = [
     (f"{GAMMA} --set inertia=1", "larmor is missing"),
     (f"{GAMMA} --set inertia=1 --quantity k", "no quantity 'k'"),
     (f"{GAMMA}/ --set inertia=1 larmor=1 m2=1 m3=1", "of Parquet"),
+    ("sweep ball --quantity gamma --out ://y --set inertia=1 larmor=1 m2=1 m3=1", "is no address"),
+    ("sweep ball --quantity gamma --out file:// --set inertia=1 larmor=1 m2=1 m3=1", "is no address"),
     ("sweep ball --quantity gamma --out no://x/ --set inertia=1 larmor=1 m2=1 m3=1", "cannot be reached"),
     ("sweep --file {place}/digits.toml", "<= 1000"),
     ("sweep --file {place}/key.toml", "foo"),

@@ -4,6 +4,7 @@ import json
 from fractions import Fraction
 from functools import reduce
 from operator import mul
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -219,6 +220,15 @@ def test_the_error_of_rounded_inputs_bounds_the_effect_of_an_ulp() -> None:
     said = [CliRunner().invoke(command, [*words, *more]).stdout for more in ([], ["--json"])]
     assert said[0].count("Rounding the inputs to floats turns the body by up to 2e-09 rad at t = 30;") == 1
     assert json.loads(said[1])["input_error"] == bound
+
+
+def test_a_sweep_says_what_the_rounding_of_its_inputs_does(tmp_path: Path) -> None:
+    """Of the first of the latest rows, where functions of time are asked for and the turn can be felt."""
+    start = [*"sweep general --ratio 1.5 --field 1 2 --set omega1=0.3 omega2=0.7 omega3=0.2".split(), "--out"]
+    clause = "Rounding the inputs to floats turns the body by up to 1e-10 rad at t = 1e+06, in the first row"
+    for quantity, end, told in (("R33", "1e6", True), ("period", "1e6", False), ("R33", "10", False)):
+        words = [*start, str(tmp_path / "table.csv"), "--set", f"t=0:{end}:3", "--quantity", quantity]
+        assert (clause in CliRunner().invoke(command, words).stderr) is told
 
 
 def test_the_series_give_a_ball_its_two_turns() -> None:

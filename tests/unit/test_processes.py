@@ -148,6 +148,16 @@ def test_a_program_that_is_run_reads_names_in_any_locale(
     assert programs.run([sys.executable, "-I", "-c", told], 20).stdout.split()[-1] == "UTF-8"
 
 
+def test_names_are_read_in_utf8_where_python_is_told_not_to(tmp_path: Path) -> None:
+    """With PYTHONUTF8=0 in the locale C, a file of letters that ASCII lacks is found and named in errors."""
+    (tmp_path / "é.csv").write_text("t\n", encoding="utf-8")
+    ascii_alone = os.environ | {"PYTHONUTF8": "0", "LC_ALL": "C"}
+    told = subprocess.run(
+        [sys.executable, "-m", "atlas", "fit", "é.csv"], cwd=tmp_path, env=ascii_alone, capture_output=True, check=False
+    )
+    assert (told.returncode, told.stderr.decode()[:13]) == (2, "atlas: é.csv,")
+
+
 def test_the_first_line_of_pandocs_error_is_reported() -> None:
     """The reason stands there, and hints below it."""
     with pytest.raises(AtlasError, match="could not set the text of the report: Unknown input format nosuch"):
