@@ -17,6 +17,18 @@ class AtlasError(ValueError):
         return (str(self),)
 
 
+class Faults(AtlasError):
+    """Several faults of one file or command, a sentence each."""
+
+    def __init__(self, sentences: Iterable[str]) -> None:
+        super().__init__("\n".join(sentences))
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """Sentences of the message, one for each fault."""
+        return tuple(str(self).split("\n"))
+
+
 class DomainError(AtlasError):
     """A physical argument outside the domain of the formula."""
 

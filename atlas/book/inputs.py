@@ -2,32 +2,22 @@
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal
 
+import msgspec
+
 from atlas.book import files, toml
 from atlas.book.expansion import ExpansionError, expanded
-from atlas.book.schema import SchemaError, StrictStruct, TwoNumbers, convert
-from atlas.errors import AtlasError, unknown
+from atlas.book.schema import StrictStruct, TwoNumbers, faults_of
+from atlas.errors import AtlasError, Faults, unknown
 from atlas.measured import in_unit, split
 
 TRUTH = {"true": True, "false": False}
 """Texts of an input that is true or false."""
-
-
-class InputsError(AtlasError):
-    """All faults of the inputs of a report, a sentence each."""
-
-    def __init__(self, sentences: Iterable[str]) -> None:
-        super().__init__("\n".join(sentences))
-
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        """Sentences of the message, one for each fault."""
-        return tuple(str(self).split("\n"))
 
 
 class Input(StrictStruct, frozen=True):
@@ -60,20 +50,21 @@ def declared(path: Path) -> dict[str, Input]:
     Raises
     ------
     AtlasError
-        For a head that is no TOML, a malformed declaration, and a name that is no word or that templates use.
+        For a head that is no TOML; and for all malformed declarations, and names that are no words or that templates
+        use, each in a line.
     """
     tables = files.head(path).get("inputs", {})
-    try:
-        inputs = convert(tables, dict[str, Input], "inputs")
-    except SchemaError as error:
-        raise AtlasError(f"{path}, line {line_of(path, error.key)}: {str(error).removesuffix('.')}.") from error
-    for name in inputs:
-        if not name.isidentifier() or name in {"true", "false", "none", "loop", "self", "range"}:
-            raise AtlasError(
-                f"{path}, line {line_of(path, name)}: the input {name!r} must be a word of letters, digits and _ that "
-                "templates do not use themselves."
-            )
-    return inputs
+    faults = [
+        (fault.key, f"{str(fault).removesuffix('.')}.") for fault in faults_of(tables, dict[str, Input], "inputs")
+    ]
+    faults += [
+        (name, f"the input {name!r} must be a word of letters, digits and _ that templates do not use themselves.")
+        for name in tables
+        if not name.isidentifier() or name in {"true", "false", "none", "loop", "self", "range"}
+    ]
+    if faults:
+        raise Faults(f"{path}, line {line_of(path, key)}: {says}" for key, says in faults)
+    return msgspec.convert(tables, dict[str, Input])
 
 
 def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
@@ -97,7 +88,7 @@ def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
         except AtlasError as fault:
             faults.append((name, f"{text!r} {fault}" if str(fault).startswith("is") else f"{text!r}: {fault}"))
     if faults:
-        raise InputsError(f"{path}, line {line_of(path, name)}: input {name}: {says}" for name, says in faults)
+        raise Faults(f"{path}, line {line_of(path, name)}: input {name}: {says}" for name, says in faults)
     return values
 
 

@@ -1,12 +1,14 @@
 """Reading a report file: text to records, and every mistake in it to one sentence with place and remedy."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import reduce
-from operator import or_
+from operator import itemgetter, or_
 from pathlib import Path
 from typing import Any
 
+import msgspec
 from msgspec.structs import replace
 
 from atlas.book import toml
@@ -18,8 +20,8 @@ from atlas.book.files import beside, names, text_of
 from atlas.book.gallery import chosen
 from atlas.book.inputs import declared, evaluated, filled
 from atlas.book.markdown import LineError, Piece, read
-from atlas.book.schema import SchemaError, convert
-from atlas.errors import AtlasError, unknown
+from atlas.book.schema import SchemaError, faults_of
+from atlas.errors import AtlasError, Faults, unknown
 from atlas.pictures.style import is_known
 
 LATEX = re.compile(r"^\s*(text\.usetex|text\.latex\.preamble|pgf\.preamble)\b", re.MULTILINE)
@@ -32,7 +34,8 @@ def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
     Raises
     ------
     AtlasError
-        In one sentence, for any mistake in the file; for inputs in a line each.
+        For a text that is no TOML, or no Markdown with a head of TOML, in one sentence; for other mistakes in a line
+        each, all at once.
     """
     text, pieces, markdown = text_of(path), dict[tuple[int, ...], Piece](), path.suffix == ".md"
     has_inputs = "[inputs" in text and bool(declared(path))
@@ -42,16 +45,21 @@ def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
         if has_inputs:
             head, text, lines = filled(text, values or {}, markdown=markdown)
         raw = (_values(text, pieces, markdown=markdown) if markdown or not head else {}) | head
-        source = Source(path.name, {key: _in_file(piece.line, lines) for key, piece in pieces.items()})
-        report = replace(convert(raw, Report), source=source)
-        return _filled(_consistent(report, path.parent), path.absolute().parent)
     except LineError as error:
         raise AtlasError(f"{path}, line {_in_file(error.line, lines)}: {error}") from error
-    except SchemaError as error:
-        line = _in_file(_line(text, pieces, error), lines)
-        raise AtlasError(f"{path}{f', line {line}' if line else ''}: {str(error).removesuffix('.')}.") from error
     except AtlasError as error:
         raise AtlasError(f"{path}: {error}") from error
+    folder, faults = path.absolute().parent, [*faults_of(raw, Report)]
+    with suppress(msgspec.ValidationError):  # of a value that is among the faults
+        report = msgspec.convert(raw, Report)
+        faults += _inconsistencies(report, folder)
+    if faults:
+        places = sorted(((_in_file(_line(text, pieces, fault), lines), fault) for fault in faults), key=itemgetter(0))
+        raise Faults(
+            f"{path}{f', line {line}' if line else ''}: {str(fault).removesuffix('.')}." for line, fault in places
+        )
+    source = Source(path.name, {key: _in_file(piece.line, lines) for key, piece in pieces.items()})
+    return _filled(replace(report, source=source), folder)
 
 
 def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
@@ -66,50 +74,55 @@ def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) 
         raise AtlasError(f"this is not TOML: {error}.") from error
 
 
-def _consistent(report: Report, folder: Path) -> Report:
-    """Return the report. Raises SchemaError for a repeated name, and for a name or file that does not exist."""
+def _inconsistencies(report: Report, folder: Path) -> Iterator[SchemaError]:
+    """Yield an error for each repeated name, and for each name or file that does not exist; files are in `folder`."""
     blocks = [((k, place), block) for k, page in enumerate(report.pages) for place, block in enumerate(page.blocks)]
-    _unique((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
-    _unique(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")
+    yield from _repeated((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
+    yield from _repeated(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")
     tables = ((path, block.id) for path, block in blocks if isinstance(block, Table | Listing | Recorded))
-    _unique(tables, "tables", "id")
+    yield from _repeated(tables, "tables", "id")
     for path, block in blocks:
-        _check_reference(block, report, path)
+        yield from _unknown_names(block, report, path, folder)
     for name in report.related:
         if name not in names():
-            raise SchemaError("related", str(unknown("report", name, names(), "in reports/")), name)
+            yield SchemaError("related", str(unknown("report", name, names(), "in reports/")), name)
     if not report.pages or report.pages[0].slug != "index":
         sentence = "the first must have the slug 'index': that is the file that readers open"
-        raise SchemaError("pages", sentence, "slug", (0,))
+        yield SchemaError("pages", sentence, "slug" if report.pages else "pages", (0,))
     if [page.printed for page in report.pages] != sorted((page.printed for page in report.pages), reverse=True):
-        raise SchemaError("pages", "those with printed = false must come last, so that chapters have one number")
+        yield SchemaError("pages", "those with printed = false must come last, so that chapters have one number")
     if report.bibliography and not beside(report.bibliography, folder):
-        sentence = f"{report.bibliography!r} is no file in {folder.absolute()}, where the report is"
-        raise SchemaError("bibliography", sentence, "bibliography")
-    for name in filter(None, report.style.split(",")):
+        sentence = f"{report.bibliography!r} is no file in {folder}, where the report is"
+        yield SchemaError("bibliography", sentence, "bibliography")
+    yield from _unusable_styles(report.style, folder)
+    for name in report.gallery:
+        try:
+            chosen([name], folder)
+        except AtlasError as error:
+            yield SchemaError("gallery", str(error).removeprefix("gallery: "), "gallery")
+
+
+def _unusable_styles(style: str, folder: Path) -> Iterator[SchemaError]:
+    """Yield an error for each name in a list of style sheets that is no style, or that runs LaTeX."""
+    for name in filter(None, style.split(",")):
         file = beside(name, folder)
         if file and (latex := LATEX.search(file.read_text(encoding="utf-8", errors="replace"))):
             sentence = f"{name!r} sets {latex[1]}: of LaTeX, which can read any file, a report has none"
-            raise SchemaError("style", sentence, "style")
+            yield SchemaError("style", sentence, "style")
         if not file and not is_known(name):
-            sentence = f"{name!r} is no file in {folder.absolute()}, where the report is, nor a name of Matplotlib's"
-            raise SchemaError("style", sentence, "style")
-    return report
+            sentence = f"{name!r} is no file in {folder}, where the report is, nor a name of Matplotlib's"
+            yield SchemaError("style", sentence, "style")
 
 
 def _filled(report: Report, folder: Path) -> Report:
     """Return the report with paths of recipes and style beside it, and sets of parameters merged into its blocks.
 
-    A later set overrides an earlier one, the block's own parameters override both. Raises AtlasError for a missing
-    recipe.
+    A later set overrides an earlier one, the block's own parameters override both.
     """
 
     def fill(block: Block) -> Block:
         if isinstance(block, Figure) and block.recipe.endswith(".py"):
-            file = folder / Path(block.recipe).name
-            if Path(block.recipe).name != block.recipe.removeprefix("./") or not beside(file.name, folder):
-                raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
-            block = replace(block, recipe=str(file))
+            block = replace(block, recipe=str(folder / Path(block.recipe).name))
         if not isinstance(block, Figure | Table) or not block.sets:
             return block
         sets = [report.parameters.sets[name] for name in block.sets]
@@ -120,9 +133,13 @@ def _filled(report: Report, folder: Path) -> Report:
     return replace(report, pages=pages, style=",".join(styles), gallery=chosen(report.gallery, folder))
 
 
-def _check_reference(block: Block, report: Report, path: tuple[int, int]) -> None:
-    """Raise SchemaError if a block names a body, a field or a set of parameters that [parameters] lacks."""
+def _unknown_names(block: Block, report: Report, path: tuple[int, int], folder: Path) -> Iterator[SchemaError]:
+    """Yield an error for each body, field or set of a block that [parameters] lacks, and for a recipe not in `folder`.
+
+    `path` has the numbers of page and block.
+    """
     records = report.parameters
+    place = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
     for kind, names_there, key, words in (
         ("body", records.bodies, "body", (getattr(block, "body", None),)),
         ("body", records.bodies, "bodies", getattr(block, "bodies", ())),
@@ -131,16 +148,20 @@ def _check_reference(block: Block, report: Report, path: tuple[int, int]) -> Non
     ):
         for name in filter(None, words):
             if name not in names_there:
-                place = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
-                raise SchemaError(place, str(unknown(kind, name, names_there, "in [parameters]")), key, path)
+                yield SchemaError(place, str(unknown(kind, name, names_there, "in [parameters]")), key, path)
+    if isinstance(block, Figure) and block.recipe.endswith(".py"):
+        name = Path(block.recipe).name
+        if name != block.recipe.removeprefix("./") or not beside(name, folder):
+            sentence = f"recipe = {block.recipe!r} is no file beside the report; it would be {folder / name}"
+            yield SchemaError(place, sentence, "recipe", path)
 
 
-def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> None:
-    """Raise SchemaError for the first name, given with its position, that occurs twice."""
+def _repeated(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> Iterator[SchemaError]:
+    """Yield an error for each name, given with its position, that occurred before."""
     names = set[str]()
     for path, name in named:
         if name in names:
-            raise SchemaError(f"{key} {name!r}", f"two {kind} have it", key, path)
+            yield SchemaError(f"{key} {name!r}", f"two {kind} have it", key, path)
         names |= {name} if name else set()
 
 

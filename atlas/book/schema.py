@@ -2,7 +2,8 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from difflib import get_close_matches
 from typing import Annotated, Any, TypeAlias, TypeVar
 
 import msgspec
@@ -31,7 +32,7 @@ T = TypeVar("T")
 
 
 class StrictStruct(msgspec.Struct, frozen=True):
-    """Base of the records of report files: `convert` refuses unknown keys, and keys whose type is a dataclass."""
+    """Base of the records of report files: `faults_of` has unknown keys, and keys whose type is a dataclass."""
 
 
 class SchemaError(AtlasError):
@@ -43,44 +44,47 @@ class SchemaError(AtlasError):
 
 
 def convert(raw: Any, kind: type[T], place: str = "") -> T:
-    """Return a table as a record. Raises SchemaError for the first key that is unknown, missing, or of another type."""
-    _check(raw, inspect.type_info(kind), place, "")
+    """Return a table as a record. Raises SchemaError for the first of its faults."""
+    for fault in faults_of(raw, kind, place):
+        raise fault
     return msgspec.convert(raw, kind)
 
 
-def _check(raw: Any, kind: inspect.Type, place: str, key: str) -> None:
-    """Raise SchemaError for the innermost value in `raw` that does not have the type `kind`."""
+def faults_of(raw: Any, kind: Any, place: str = "") -> Iterator[SchemaError]:
+    """Yield an error for each key of a table that is unknown, missing, or of another type than in the record `kind`."""
+    return _faults(raw, inspect.type_info(kind), place, "")
+
+
+def _faults(raw: Any, kind: inspect.Type, place: str, key: str) -> Iterator[SchemaError]:
+    """Yield a SchemaError for each innermost value in `raw` that does not have the type `kind`."""
     match kind:
         case inspect.UnionType():
-            _check_union(raw, kind, place, key)
+            yield from _faults_of_union(raw, kind, place, key)
         case inspect.StructType() if isinstance(raw, dict):
-            _check_record(raw, kind, place)
+            yield from _faults_of_record(raw, kind, place)
         case inspect.DictType() if isinstance(raw, dict):
             for name, value in raw.items():
-                _check(value, kind.value_type, f"{place} {name!r}", name)
+                yield from _faults(value, kind.value_type, f"{place} {name!r}", name)
         case inspect.VarTupleType() if isinstance(raw, list):
-            _check_list(raw, [kind.item_type] * len(raw), place, key)
+            yield from _faults_of_list(raw, [kind.item_type] * len(raw), place, key)
         case inspect.TupleType() if isinstance(raw, list) and len(raw) == len(kind.item_types):
-            _check_list(raw, kind.item_types, place, key)
+            yield from _faults_of_list(raw, kind.item_types, place, key)
         case inspect.AnyType():
-            _check_finite(raw, place, key)
+            yield from _infinities(raw, place, key)
         case _ if not _fits(raw, kind):
-            raise SchemaError(place, f"must be {_words(kind)}, not {_value_text(raw)}", key)
+            yield SchemaError(place, f"must be {_words(kind)}, not {_value_text(raw)}", key)
 
 
-def _check_finite(raw: Any, place: str, key: str) -> None:
-    """Raise SchemaError if a value, or one nested in its lists and tables, is nan or infinite."""
+def _infinities(raw: Any, place: str, key: str) -> Iterator[SchemaError]:
+    """Yield a SchemaError for each nan or infinity in a value, its lists and tables."""
     for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
-        _check_finite(item, place, key)
+        yield from _infinities(item, place, key)
     if isinstance(raw, float) and not math.isfinite(raw):
-        raise SchemaError(place, f"must be finite, not {raw}", key)
+        yield SchemaError(place, f"must be finite, not {raw}", key)
 
 
-def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> None:
-    """Check a value that may be of several types: a block, by its key "kind", or a value that may be left out.
-
-    Raises SchemaError for a block without a known kind, and as `_check` does.
-    """
+def _faults_of_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> Iterator[SchemaError]:
+    """Yield the faults of a value of several types: a block, by its key "kind", or a value that may be left out."""
     kinds = {
         str(kind_of_record.tag): kind_of_record
         for kind_of_record in union.types
@@ -90,38 +94,41 @@ def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> No
         kinds_of_value = [inner for inner in union.types if not isinstance(inner, inspect.NoneType)]
         is_text = isinstance(raw, str)
         kind = next((x for x in kinds_of_value if isinstance(x, inspect.StrType) == is_text), kinds_of_value[0])
-        return _check(raw, kind, place, key)
-    if not isinstance(raw, dict):
-        raise SchemaError(place, f"must be a table, not {_value_text(raw)}", key)
-    if "kind" not in raw:
-        raise SchemaError(place, f"it lacks the key 'kind', one of {', '.join(kinds)}")
-    if not isinstance(raw["kind"], str) or raw["kind"] not in kinds:
-        raise SchemaError(place, str(unknown("block kind", raw["kind"], kinds)).rstrip("."), "kind")
-    return _check_record(raw, kinds[raw["kind"]], f"{place} ({raw['kind']})")
+        yield from _faults(raw, kind, place, key)
+    elif not isinstance(raw, dict):
+        yield SchemaError(place, f"must be a table, not {_value_text(raw)}", key)
+    elif "kind" not in raw:
+        yield SchemaError(place, f"it lacks the key 'kind', one of {', '.join(kinds)}")
+    elif not isinstance(raw["kind"], str) or raw["kind"] not in kinds:
+        yield SchemaError(place, str(unknown("block kind", raw["kind"], kinds)).rstrip("."), "kind")
+    else:
+        yield from _faults_of_record(raw, kinds[raw["kind"]], f"{place} ({raw['kind']})")
 
 
-def _check_record(raw: dict[str, Any], kind: inspect.StructType, place: str) -> None:
-    """Raise SchemaError for an unknown key, a missing key, or a value of another type in a table."""
+def _faults_of_record(raw: dict[str, Any], kind: inspect.StructType, place: str) -> Iterator[SchemaError]:
+    """Yield the faults of a table: unknown keys, missing keys, and those of its values.
+
+    A missing key that an unknown one was probably meant for is no fault of its own.
+    """
     fields = {field.encode_name: field for field in kind.fields if not isinstance(field.type, inspect.DataclassType)}
     for key, value in raw.items():
         if key in fields:
-            _check(value, fields[key].type, f"{place}, {key}" if place else key, key)
+            yield from _faults(value, fields[key].type, f"{place}, {key}" if place else key, key)
         elif key != kind.tag_field:
-            raise SchemaError(place, str(unknown("key", key, fields, "here")).rstrip("."), key)
+            yield SchemaError(place, str(unknown("key", key, fields, "here")).rstrip("."), key)
+    meant = {name for key in raw if key not in fields for name in get_close_matches(key, fields, 1)}
     for key, field in fields.items():
-        if field.required and key not in raw:
-            raise SchemaError(place, f"it lacks the key {key!r}, {_words(field.type)}")
+        if field.required and key not in raw and key not in meant:
+            yield SchemaError(place, f"it lacks the key {key!r}, {_words(field.type)}")
 
 
-def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> None:
-    """Check each item of a list; SchemaError names pages by their slugs, other items by their number from 1."""
+def _faults_of_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> Iterator[SchemaError]:
+    """Yield the faults of each item of a list; pages are named by their slugs, other items by their number from 1."""
     for place, (value, kind) in enumerate(zip(raw, kinds, strict=True), 1):
         name = repr(value["slug"]) if isinstance(value, dict) and "slug" in value else place
-        try:
-            _check(value, kind, f"{where.removesuffix('s')} {name}", key)
-        except SchemaError as error:
-            error.path = (place - 1, *error.path)
-            raise
+        for fault in _faults(value, kind, f"{where.removesuffix('s')} {name}", key):
+            fault.path = (place - 1, *fault.path)
+            yield fault
 
 
 def _fits(raw: Any, kind: inspect.Type) -> bool:

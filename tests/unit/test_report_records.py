@@ -1,5 +1,6 @@
 """What a report file may say, and what is said about what it may not."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -94,6 +95,28 @@ def test_a_mistake_is_reported_with_file_place_and_nearest_key(tmp_path: Path, m
     assert "\n" not in sentence
     for words in expected:
         assert words in sentence
+
+
+def test_all_mistakes_of_a_report_are_said_at_once(tmp_path: Path) -> None:
+    """Keys, types, names and files are checked whole; each mistake is a sentence with its line, in their order."""
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        'name = "mine"\ntitel = "T"\ntitle = "T"\nbibliography = "no.bib"\nstyle = "nosuch"\ngallery = ["hyperbol"]\n'
+        "[related]\nguied = 'x'\n" + PAGE + "[[pages.blocks]]\nkind = 'figure'\nrecipe = './no.py'\nid = 'a'\n"
+        "caption = ''\n[[pages.blocks]]\nkind = 'figure'\nrecipe = 'hyperbola'\nid = 'a'\ncaption = ''\nbody = 'rng'\n"
+        "[parameters.bodies.ring]\ntitle = 'r'\nratio = 1\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(AtlasError) as caught:
+        load(file)
+    said = ("'title'", "'no.bib'", "'nosuch'", "'hyperbola'", "'guide'", "no.py", "two figures", "'ring'")
+    sentences = caught.value.sentences
+    assert len(sentences) == len(said)
+    for words in said:
+        assert sum(words in sentence for sentence in sentences) == 1
+    lines = [int(line[1]) for sentence in sentences if (line := re.search(r", line (\d+)", sentence))]
+    assert len(lines) == 6
+    assert lines == sorted(lines)
 
 
 @pytest.mark.parametrize("name", names())

@@ -364,7 +364,9 @@ def test_a_body_of_another_type_is_reported_with_its_key(line: str, words: str, 
     """The sentence names file, line where it can, body, key and what would be right."""
     file = tmp_path / "mine.toml"
     file.write_text(
-        f'\ufeffname = "mine"\ntitle = "T"\npages = []\n[parameters.bodies.b]\ntitle = "b"\n{line}\n', encoding="utf-8"
+        '\ufeffname = "mine"\ntitle = "T"\npages = [{slug = "index", title = "", blocks = []}]\n'
+        f'[parameters.bodies.b]\ntitle = "b"\n{line}\n',
+        encoding="utf-8",
     )
     with pytest.raises(AtlasError) as caught:
         load(file)
