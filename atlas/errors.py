@@ -17,7 +17,7 @@ class AtlasError(ValueError):
         return (str(self),)
 
 
-class Faults(AtlasError):
+class FaultsError(AtlasError):
     """Several faults of one file or command, a sentence each."""
 
     def __init__(self, sentences: Iterable[str]) -> None:

@@ -13,7 +13,7 @@ import msgspec
 from atlas.book import files, toml
 from atlas.book.expansion import ExpansionError, expanded
 from atlas.book.schema import StrictStruct, TwoNumbers, faults_of
-from atlas.errors import AtlasError, Faults, unknown
+from atlas.errors import AtlasError, FaultsError, unknown
 from atlas.measured import in_unit, split
 
 TRUTH = {"true": True, "false": False}
@@ -63,7 +63,7 @@ def declared(path: Path) -> dict[str, Input]:
         if not name.isidentifier() or name in {"true", "false", "none", "loop", "self", "range"}
     ]
     if faults:
-        raise Faults(f"{path}, line {line_of(path, key)}: {says}" for key, says in faults)
+        raise FaultsError(f"{path}, line {line_of(path, key)}: {says}" for key, says in faults)
     return msgspec.convert(tables, dict[str, Input])
 
 
@@ -88,7 +88,7 @@ def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
         except AtlasError as fault:
             faults.append((name, f"{text!r} {fault}" if str(fault).startswith("is") else f"{text!r}: {fault}"))
     if faults:
-        raise Faults(f"{path}, line {line_of(path, name)}: input {name}: {says}" for name, says in faults)
+        raise FaultsError(f"{path}, line {line_of(path, name)}: input {name}: {says}" for name, says in faults)
     return values
 
 

@@ -21,7 +21,7 @@ from atlas.book.gallery import chosen
 from atlas.book.inputs import declared, evaluated, filled
 from atlas.book.markdown import LineError, Piece, read
 from atlas.book.schema import SchemaError, faults_of
-from atlas.errors import AtlasError, Faults, unknown
+from atlas.errors import AtlasError, FaultsError, unknown
 from atlas.pictures.style import is_known
 
 LATEX = re.compile(r"^\s*(text\.usetex|text\.latex\.preamble|pgf\.preamble)\b", re.MULTILINE)
@@ -55,7 +55,7 @@ def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
         faults += _inconsistencies(report, folder)
     if faults:
         places = sorted(((_in_file(_line(text, pieces, fault), lines), fault) for fault in faults), key=itemgetter(0))
-        raise Faults(
+        raise FaultsError(
             f"{path}{f', line {line}' if line else ''}: {str(fault).removesuffix('.')}." for line, fault in places
         )
     source = Source(path.name, {key: _in_file(piece.line, lines) for key, piece in pieces.items()})

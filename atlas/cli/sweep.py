@@ -17,11 +17,10 @@ from atlas.cli.family import is_short, of_rounding
 from atlas.cli.options import Place, examples, given, jobs_option_of, numbers, pair, several, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
-from atlas.cli.typed import REAL, check_units
+from atlas.cli.typed import REAL, Typed, check_units
 from atlas.cli.uncertain import UncertainAnswer, uncertain
-from atlas.cli.words import Command
+from atlas.cli.words import Command, check_bare_numbers
 from atlas.families.family import TIME
-from atlas.measured import split
 from atlas.motions.register import FAMILIES
 
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
@@ -174,7 +173,16 @@ def swept(**options: Any) -> None:
 
     request = Request.of_options(options) if options["toml"] is None else Request.of_file(options)
     family, listing = request.family, request.listing
-    parameters = {name: _values(family, name, values) for name, values in request.parameters.items()}
+    option_names = {name: option for name, (option, _) in _options(family).items()}
+    typed = {
+        name: _numbers(name, option_names.get(name, name), text)
+        for name, text in request.parameters.items() if isinstance(text, str)
+    }  # fmt: skip
+    check_bare_numbers(options, ((name, option_names.get(name, name), numbers) for name, numbers in typed.items()))
+    parameters = {
+        name: _values(name, values, typed[name]) if name in typed else values
+        for name, values in request.parameters.items()
+    }
     columns, units = _listed(family, listing) if listing else ({}, set())
     _once([*columns, *parameters], f"{listing} and elsewhere")
     inputs = columns | parameters
@@ -183,8 +191,7 @@ def swept(**options: Any) -> None:
     body.check_speeds(options, start if any(start) else None)
     if request.out is None:
         raise click.UsageError("--out is missing: name the file of the table, such as --out table.csv.")
-    typed_values = [x.strip() for text in options["settings"] for x in re.split("[,:]", text.partition("=")[2])]
-    has_units = bool(units) or any(map(split, typed_values))
+    has_units = bool(units) or any(x.unit for numbers in typed.values() for x in numbers)
     time = "s" if has_units else body.units_of(options).get("time", "time")
     plan = Plan.of(
         family, inputs, request.quantities,
@@ -373,37 +380,42 @@ def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
     return columns, units - {"", "1", *(unit for _, unit in options.values())}
 
 
-def _values(family: str, name: str, value: Any) -> Any:
-    """Return the values of a parameter: of text a number, a list of numbers, or an array of START:STOP:COUNT[:log].
+def _numbers(name: str, option_name: str, text: str) -> tuple[Typed, ...]:
+    """Return the numbers in the values of a parameter, of a range its two ends, in the units of an option.
 
-    A value that is no text is returned unchanged. Raises click.UsageError for other text.
+    Raises click.UsageError for another text, and for a number without a unit beside one with a unit.
+    """
+    option = click.Option([f"--{option_name}"])  # which says the unit
+    option.opts = [name]
+    words = text.split(":")[:2] if ":" in text else text.split(",")
+    numbers = tuple(REAL.convert(x.strip(), option, click.get_current_context()) for x in words)
+    check_units(name, numbers)
+    return numbers
+
+
+def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
+    """Return the values of a parameter: a number, a list of numbers, or an array of START:STOP:COUNT[:log].
+
+    `numbers` are those in the text. Raises click.UsageError for a range without a count, or that has no logarithm.
     """
     from atlas.sweeps.plan import Range
 
-    if not isinstance(value, str):
-        return value
-    option = click.Option([f"--{_options(family).get(name, (name, ''))[0]}"])  # which says the unit
-    option.opts = [name]
-    if ":" not in value:
-        typed = [REAL.convert(x.strip(), option, click.get_current_context()) for x in value.split(",")]
-        check_units(name, tuple(typed))
-        if not any(x.sigma for x in typed):
-            return [*map(float, typed)]
-        if len(typed) > 1:
-            raise click.UsageError(f"{name} = {value}: a parameter with an uncertainty has one value, not several.")
+    if ":" not in text:
+        if not any(x.sigma for x in numbers):
+            return [*map(float, numbers)]
+        if len(numbers) > 1:
+            raise click.UsageError(f"{name} = {text}: a parameter with an uncertainty has one value, not several.")
         from uncertainties import ufloat
 
-        return ufloat(float(typed[0]), typed[0].sigma)
-    start, stop, *words = value.split(":")
+        return ufloat(float(numbers[0]), numbers[0].sigma)
+    words = text.split(":")[2:]
     if not words or words[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", words[0], re.ASCII):
-        raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {value!r}.")
-    ends = tuple(REAL.convert(x.strip(), option, None) for x in (start, stop))
-    check_units(name, ends)
-    start_value, word = map(float, ends)
-    if len(words) == 2 and start_value * word <= 0:
-        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {value!r}.")
+        raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {text!r}.")
+    start, stop = map(float, numbers)
+    if len(words) == 2 and start * stop <= 0:
+        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {text!r}.")
     # no more digits are read than a count can have
     count = int(words[0]) if len(words[0].strip().lstrip("0")) < 9 else MAX_RANGE_LENGTH + 1
     if count > MAX_RANGE_LENGTH:
         raise click.UsageError(f"a range of {name} has at most {MAX_RANGE_LENGTH} values, not {words[0].strip()}.")
-    return Range(start_value, word, count, log=len(words) == 2).values
+    return Range(start, stop, count, log=len(words) == 2).values

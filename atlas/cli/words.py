@@ -1,7 +1,7 @@
 """Words of a command line: each option with the words that follow it, read once, in all ways to type them."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import chain
 from typing import Any, NamedTuple
@@ -77,23 +77,24 @@ def is_number(word: str, *, is_wanted: bool = True) -> bool:
     )
 
 
-def check_bare_numbers(options: Mapping[str, Any]) -> None:
+def check_bare_numbers(options: Mapping[str, Any], settings: Iterable[tuple[str, str, Any]] = ()) -> None:
     """Raise click.UsageError for a length or rate without a unit beside one with a unit, and an angle beside any unit.
 
-    A number 0 needs no unit.
+    A number 0 needs no unit. `settings` are further numbers: tuples of a name as typed, the name of the option with the
+    same units, and the numbers.
     """
+    typed = ((f"--{name}", name, value) for name, value in options.items())
     numbers = [
-        (name, x) for name, value in options.items() if name in WANTED for x in parts_of(value)
-        if isinstance(x, Typed) and x
+        (label, option, x) for label, option, value in (*typed, *settings) if option in WANTED
+        for x in parts_of(value) if isinstance(x, Typed) and x
     ]  # fmt: skip
-    with_unit = [(name, x) for name, x in numbers if x.unit]
-    for name, x in numbers:
-        alike = [(other, y) for other, y in with_unit if WANTED[other] == WANTED[name]]
-        beside = with_unit if name == "angle" else alike if WANTED[name] in ("m", RATE) else []
-        if beside and not x.unit:
+    with_unit = [(option, x) for _, option, x in numbers if x.unit]
+    for label, option, x in numbers:
+        alike = [y for other, y in with_unit if option == "angle" or WANTED[other] == WANTED[option]]
+        if alike and not x.unit and (option == "angle" or WANTED[option] in ("m", RATE)):
             raise click.UsageError(
-                f"--{name}: {x.text} has no unit, and {beside[0][1].text} has one; give it one, such as "
-                f"{x.text}{WANTED[name]}."
+                f"{label}: {x.text} has no unit, and {alike[0].text} has one; give it one, such as "
+                f"{x.text}{WANTED[option]}."
             )
 
 

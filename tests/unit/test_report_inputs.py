@@ -12,7 +12,7 @@ from atlas.book.inputs import evaluated, name_of
 from atlas.book.load import load
 from atlas.cli.app import main
 from atlas.cli.report import command
-from atlas.errors import AtlasError, Faults
+from atlas.errors import AtlasError, FaultsError
 
 REPORT = """+++
 name = "paper"
@@ -99,14 +99,14 @@ def test_all_wrong_inputs_are_refused_at_once(paper: Path, capsys: pytest.Captur
 
 def test_an_input_without_a_default_is_required(paper: Path) -> None:
     """The message names the option that gives it; a report is not loaded without."""
-    with pytest.raises(Faults, match=r"line 12: input height: it is required; give it by --set height=VALUE"):
+    with pytest.raises(FaultsError, match=r"line 12: input height: it is required; give it by --set height=VALUE"):
         load(paper)
 
 
 @pytest.mark.parametrize("text", ["nan", "1e999", "abc", "1/0", "", "1 2"])
 def test_non_numbers_are_refused_as_inputs(paper: Path, text: str) -> None:
     """Neither nan nor a number beyond floats nor a word is a height."""
-    with pytest.raises(Faults, match="input height"):
+    with pytest.raises(FaultsError, match="input height"):
         evaluated(paper, {"height": text})
 
 
