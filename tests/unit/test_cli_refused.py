@@ -290,7 +290,7 @@ CASES = [
     ("page nosuch --ratio 1", "nosuch"),
     ("motion --ratio 1 --field 1Hz --angle 30 --omega2 1Hz", "--angle: 30 has no unit, and 1Hz has one"),
     ("motion --ratio 1 --field 1 2 --omega2 300rpm", "--field: 1 has no unit, and 300rpm has one"),
-    ("sweep elementary --ratio 1 --field 1 2 --set omega2=1Hz:9Hz:3 --out x.csv", "--field: 1 has no unit, and 1Hz has one"),
+    ("sweep elementary --ratio 1 --field 1 2 --set omega2=1Hz:9Hz:3 --out x.csv", "--field: 1 has no unit, and 1Hz"),
     ("sweep general --set omega1=2 omega3=1kHz:2kHz:3 --out x.csv", "omega1: 2 has no unit, and 1kHz has one"),
     ("motion --shape sphere --radius 0 --density 1 --charge 1 --magnetic 1 0 --omega2 1", "no volume"),
     ("report atlas --set a=1 --set a=2", "--set a=... stands twice"),
