@@ -68,7 +68,10 @@ def enclosed(function: Callable[[], Any], bits: int) -> Any:
 
 
 def printed(value: Real, digits: int, layout: Layout) -> Printed:
-    """Return a number as `Printed`, with its proven digits, at most ``digits``."""
+    """Return a number as `Printed`, with at most ``digits`` proven digits, a mark behind fewer.
+
+    An infinite ball is the text `INFINITE`, complete; one without a proven digit or not finite is `NOT_CERTIFIED`.
+    """
     if isinstance(value, arb) and value == arb("inf"):
         return Printed(INFINITE, digits, complete=True)
     if isinstance(value, arb) and not value.is_finite():
@@ -88,7 +91,7 @@ def printed(value: Real, digits: int, layout: Layout) -> Printed:
 
 
 def numbers(value: Any) -> Iterator[Real]:
-    """Yield the certified numbers of a nested structure of dicts, lists and tuples."""
+    """Yield the balls and rationals in a nested structure of dictionaries, lists and tuples."""
     if isinstance(value, arb | fmpq):
         yield value
     elif isinstance(value, dict):
@@ -100,7 +103,10 @@ def numbers(value: Any) -> Iterator[Real]:
 
 
 def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool], spare: int = SPARE_BITS) -> Any:
-    """Raise the precision until ``enough`` holds (Ziv's strategy), or up to the largest precision."""
+    """Return function() at a precision at which ``enough`` holds, doubled from bits + 64 (Ziv's strategy).
+
+    Beyond 4 bits + spare the last value is returned, whether enough or not.
+    """
     precision = bits + 64
     while True:
         with workprec(precision):
@@ -129,7 +135,7 @@ def _check(digits: int, layout: str) -> None:
 
 
 def _ends(value: Real) -> tuple[fmpq, fmpq]:
-    """Return the two ends of a ball, exactly."""
+    """Return the lower and the upper end of a ball, exact rationals."""
     if isinstance(value, fmpq):
         return value, value
     middle, radius = value.mid().fmpq(), value.rad().fmpq()
@@ -137,7 +143,7 @@ def _ends(value: Real) -> tuple[fmpq, fmpq]:
 
 
 def _most(lower: fmpq, upper: fmpq, digits: int) -> int:
-    """Return a bound on the count of digits that both ends may share."""
+    """Return an upper bound on the number of digits that both ends share; 0 if zero lies between them."""
     if lower == upper:
         return digits
     if lower <= 0 <= upper:
@@ -166,7 +172,7 @@ def _rounded(x: fmpq, count: int) -> tuple[int, int]:
 
 
 def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
-    """Return a number between two bounds with ``decimals`` decimals, or with the proven ones alone and a mark."""
+    """Return a number between two bounds as `Printed` with ``decimals`` decimals, or fewer proven ones and a mark."""
     for count in range(decimals, -1, -1):
         low, high = round(lower * 10**count), round(upper * 10**count)
         if low == high:

@@ -38,7 +38,7 @@ def rational(value: Any, name: str) -> fmpq:
 
 
 def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:
-    """Return ``count`` numbers as exact rationals."""
+    """Return ``count`` numbers as exact rationals, see `rational`. Raises AtlasError for another number of them."""
     if isinstance(values, str) or not hasattr(values, "__len__"):
         raise AtlasError(f"{name} must hold {count} numbers, not {values!r}.")
     if len(values) != count:
@@ -47,7 +47,7 @@ def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:
 
 
 def sin_cos(angle: Real) -> tuple[Real, Real]:
-    """Return sine and cosine of an angle as balls; of zero the rationals 0 and 1.
+    """Return (sine, cosine) of an angle in rad as balls; for the angle zero the rationals 0 and 1.
 
     The sine and the cosine of any other algebraic angle are transcendental (Lindemann). So a sum of them with rational
     coefficients, collected term by term, is zero only where every coefficient is, and is then an exact zero here.

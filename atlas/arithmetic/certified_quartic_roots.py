@@ -16,9 +16,10 @@ from flint import acb, arb
 
 
 def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return the roots of a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4, exact numbers, for simple roots only.
+    """Return four complex balls, the roots of a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4, if all are simple.
 
-    `sign` and `ball` are what to make of these. At the precision of the moment, which may not suffice.
+    The coefficients are exact numbers; ``sign`` gives the sign of one, ``ball`` its ball. At too low a precision, or
+    for double roots, balls may be infinite or overlap.
     """
     a0, a1, a2, a3, _ = a
     g2, g3 = _invariants(*a)
@@ -90,7 +91,7 @@ def discriminant(c: Sequence[Any]) -> Any:
 
 
 def two_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return the two roots of b0 x^2 + 2 b1 x + b2; if real, the one without cancellation first."""
+    """Return two complex balls, the roots of b0 x^2 + 2 b1 x + b2; of real roots the one of larger magnitude first."""
     b0, b1, b2 = b
     root = _root(ball(b1 * b1 - b0 * b2))
     if root.imag.is_zero() and sign(b1):

@@ -14,14 +14,14 @@ AXES = tuple(tuple(fmpq(int(i == j)) for j in range(3)) for i in range(3))
 
 
 def identity() -> Matrix:
-    """Return the attitude at t = 0."""
+    """Return the unit matrix of exact numbers, a new list of three rows."""
     return [list(axis) for axis in AXES]
 
 
 def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
-    """Return the turn about a vector that is not zero by the angle whose cosine and sine are given, by Rodrigues.
+    """Return the rotation matrix about a vector (not zero) by an angle given by cosine and sine (Rodrigues).
 
-    Of rational vectors all but the length is rational, and an entry that is zero at all angles is exactly zero.
+    For a rational vector only its length may be irrational, and an entry that is zero at all angles is exactly zero.
     """
     x, y, z = vector
     square = x * x + y * y + z * z
@@ -35,18 +35,21 @@ def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
 
 
 def turns(t: Any, outer: tuple[Sequence[Real], Real], inner: tuple[Sequence[Real], Real]) -> Matrix:
-    """Return the product of two turns at time t, each about an axis at a rate."""
+    """Return the product of two rotation matrices at time t.
+
+    ``outer`` and ``inner`` are pairs (axis, rate in rad/time).
+    """
     (s, c), (S, C) = sin_cos(outer[1] * t), sin_cos(inner[1] * t)
     return product(turn(outer[0], c, s), turn(inner[0], C, S))
 
 
 def product(matrix: Matrix, factor: Matrix) -> Matrix:
-    """Return the product of two matrices."""
+    """Return the product of two matrices, lists of three rows."""
     columns = list(zip(*factor, strict=True))
     return [[a * x + b * y + c * z for x, y, z in columns] for a, b, c in matrix]
 
 
 def turned_back(vector: Sequence[Real], cos: Real, sin: Real) -> list[Real]:
-    """Return the components of a vector in a body turned about its third axis, a list of three."""
+    """Return the components (list of three) of a vector along axes rotated about the third by the angle given."""
     x, y, z = vector
     return [x * cos + y * sin, y * cos - x * sin, z]

@@ -27,7 +27,7 @@ class Surd:
 
     @classmethod
     def root(cls, N: fmpq) -> "Surd":
-        """Return sqrt(N) as a `Surd`, rational where it is."""
+        """Return sqrt(N) as a `Surd`: with b = 0 where N is a rational square."""
         exact = root(N)
         return cls(exact, fmpq(0), N) if isinstance(exact, fmpq) else cls(fmpq(0), fmpq(1), N)
 
@@ -37,7 +37,7 @@ class Surd:
         return cls(x, fmpq(0), fmpq(1))
 
     def of(self, x: "Surd | fmpq | int") -> "Surd":
-        """Return a number as one of this field."""
+        """Return a number as a `Surd` with the root sqrt(N) of this one; a `Surd` unchanged."""
         return x if isinstance(x, Surd) else Surd(fmpq(x), fmpq(0), self.N)
 
     def __add__(self, addend: "Surd | fmpq | int") -> "Surd":
@@ -79,7 +79,7 @@ class Surd:
 
     @property
     def value(self) -> fmpq | arb:
-        """The number as an exact rational where it is rational, else as a ball at the current precision."""
+        """The number: an exact rational if b = 0, otherwise a ball accurate to the current precision."""
         if self.b == 0:
             return self.a
         precision = ctx.prec
@@ -92,7 +92,7 @@ class Surd:
 
 
 def evaluated(p: Polynomial, x: Surd) -> Surd:
-    """Return the value p(x) of a polynomial."""
+    """Return p(x), a `Surd`; coefficients with the lowest power first."""
     value = x.of(0)
     for c in reversed(p):
         value = value * x + c
@@ -105,7 +105,7 @@ def derivative(p: Polynomial) -> Polynomial:
 
 
 def trimmed(p: "list[Surd] | Polynomial") -> Polynomial:
-    """Return a polynomial without leading zeros."""
+    """Return a polynomial, a tuple with the lowest power first, without zero coefficients of the highest powers."""
     c = list(p)
     while c and c[-1].is_zero:
         c.pop()
@@ -113,7 +113,7 @@ def trimmed(p: "list[Surd] | Polynomial") -> Polynomial:
 
 
 def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
-    """Return the factors without multiple roots, each with the multiplicity of its roots (Yun)."""
+    """Return pairs (factor without multiple roots, multiplicity of its roots in p), by Yun's algorithm."""
     if discriminant([_ball(c) for c in p]) != 0:
         return [(p, 1)]
     factors, n = list[tuple[Polynomial, int]](), 1

@@ -9,7 +9,7 @@ HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0,
 
 
 def signs(sums: FloatArray) -> FloatArray:
-    """Replace sums of integers and ROUNDER, in place, by 1.0 for even and -1.0 for odd integers."""
+    """Replace, in place, each integer + ROUNDER by 1.0 for an even integer, -1.0 for an odd one; return the array."""
     parity = sums.view(np.int64)
     np.left_shift(parity, SIGN_BIT, out=parity)
     np.bitwise_or(parity, ONE_BITS, out=parity)
@@ -25,9 +25,9 @@ def circle_of(
     sin: FloatArray,
     versine: FloatArray,
 ) -> None:
-    """Fill the arrays of `Phases.circle` from the result of `Phases.angles`; x may leave its range after a sum.
+    """Fill ``cos``, ``sin`` and ``versine`` as `Phases.circle` does, from u = x/2, its rounding error e, and signs.
 
-    Without `e`, nothing was left out of x/2.
+    u, e and ``square`` are overwritten. Without e, x/2 is exactly u.
     """
     # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine;
     # u then gets the rounding error of x

@@ -42,9 +42,10 @@ Formula = Callable[..., Any]
 
 
 class DoubleDouble:
-    """Numbers hi + lo, |lo| <= ulp(hi)/2, that are within `rel` of themselves; `lo` None is zero, `rel` 0 is exact.
+    """Numbers hi + lo, |lo| <= ulp(hi)/2, with a bound `rel` on their relative error.
 
-    `hi` and `lo` are arrays or NumPy scalars; `rel` is a float as long as nothing can cancel, an array after that.
+    `hi` and `lo` are arrays or NumPy scalars; `lo` None stands for zeros. `rel` 0 says exact; it is a float as long as
+    no difference has cancelled, an array after that.
     """
 
     __slots__ = ("_halves", "hi", "lo", "rel")
@@ -63,12 +64,15 @@ class DoubleDouble:
         return self._halves
 
     def __getitem__(self, index: Any) -> "DoubleDouble":
-        """Return some of an array of numbers; one bound for all stays that."""
+        """Return the numbers at an index of the array; words and bounds that are scalars stay as they are."""
         words = (x if x is None or np.ndim(x) == 0 else x[index] for x in (self.hi, self.lo, self.rel))
         return DoubleDouble(*words)
 
     def __add__(self, addend: "DoubleDouble") -> "DoubleDouble":
-        """Return the sum; exact inputs cancel without loss, and the error of inexact ones is in `rel`."""
+        """Return the sum.
+
+        Its `rel` has the errors of both terms relative to the sum, inf where inexact terms cancel to zero.
+        """
         s = self.hi + addend.hi
         t = s - self.hi
         e = (self.hi - (s - t)) + (addend.hi - t)
@@ -132,7 +136,7 @@ class DoubleDouble:
         return DoubleDouble(abs(self.hi), None if self.lo is None else self.lo * np.copysign(1.0, self.hi), self.rel)
 
     def sqrt(self) -> "DoubleDouble":
-        """Return the root of numbers that are not negative."""
+        """Return the square root of numbers >= 0."""
         s = np.sqrt(self.hi)
         root = DoubleDouble(s)
         p, e = _product(root, root)
@@ -147,7 +151,10 @@ class DoubleDouble:
         return DoubleDouble(self.hi * unit, None if self.lo is None else self.lo * unit, self.rel)
 
     def select(self, positive: "DoubleDouble", alternative: "DoubleDouble") -> "DoubleDouble":
-        """Return `positive` where this number is, `other` elsewhere."""
+        """Return ``positive`` where this number is positive, ``alternative`` elsewhere, element by element.
+
+        The bound is inf where the sign of this number is not certain.
+        """
         selected = chosen(self.hi > 0, positive, alternative)
         if np.ndim(self.rel):
             selected.rel = np.where(self.rel < 0.5, selected.rel, np.inf)
@@ -160,16 +167,19 @@ class DoubleDouble:
 
     @property
     def low(self) -> Any:
-        """Low word, 0.0 where `lo` is None."""
+        """The low words `lo`; 0.0 where `lo` is None."""
         return 0.0 if self.lo is None else self.lo
 
     def nearest(self) -> tuple[Any, Any]:
-        """Return the high words, and a mask of those that are certainly the nearest doubles."""
+        """Return (high words, mask of those that are certainly the doubles nearest to the exact numbers)."""
         low, error = self.low, 2 * self.rel * abs(self.hi)
         return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
 
     def _sum_error(self, addend: "DoubleDouble", total: Any, rounding: float) -> Any:
-        """Return the relative error of a sum: the errors of the terms, in parts of the sum, and its rounding."""
+        """Return a bound on the relative error of a sum ``total``: the terms' errors over the sum, plus ``rounding``.
+
+        It is inf where the sum of inexact terms is zero.
+        """
         if isinstance(self.rel, float) and isinstance(addend.rel, float) and not (self.rel or addend.rel):
             return rounding
         error = self.rel * abs(self.hi) + addend.rel * abs(addend.hi)
@@ -181,26 +191,26 @@ ONE = DoubleDouble(np.float64(1.0))
 
 
 def chosen(mask: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
+    """Return x where ``mask`` is true, y elsewhere, as one array; of two scalar bounds the larger is kept."""
     scalar = not (np.ndim(x.rel) or np.ndim(y.rel))
     hi, low = np.where(mask, x.hi, y.hi), np.where(mask, x.low, y.low)
     return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(mask, x.rel, y.rel))
 
 
 def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return x or y, two forms of one number, element by element whichever has the smaller bound."""
+    """Return, element by element, x or y, two forms of one number, whichever has the smaller bound `rel`."""
     return chosen(y.rel < x.rel, y, x)
 
 
 def stacked(*rows: DoubleDouble) -> DoubleDouble:
-    """Return n rows of numbers, broadcast to one shape (m,), as one array (n, m)."""
+    """Return n numbers or arrays, broadcast to one shape (m,), as one array (n, m)."""
     shape = np.broadcast_shapes(*(np.shape(x.hi) for x in rows))
     words = zip(*((x.hi, x.low, x.rel) for x in rows), strict=True)
     return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in word]) for word in words))
 
 
 def constant(value: float, like: DoubleDouble) -> DoubleDouble:
-    """Return one exact number in each place of an array of the shape of `like`."""
+    """Return an array of the shape of ``like`` with one exact number everywhere."""
     return DoubleDouble(np.full_like(like.hi, value))
 
 
@@ -256,10 +266,11 @@ def over(
 def blocks(
     formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice, bound: float = MAX_INPUT
 ) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[Any]]]:
-    """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
+    """Yield (rows, row, exponents, results) for blocks of elements of ``shape``, flattened.
 
-    Where an input is not between 1/bound and `bound`, those in `unit` are scaled by a power of two: its exponents come
-    third, with the rows that are ordinary numbers after that. Each row depends on its own inputs alone.
+    ``rows`` is their slice, ``row(i)`` returns the inputs of the block's i-th element, ``results`` is a tuple of
+    `DoubleDouble`. Where an input is neither 0 nor of magnitude between 1/``bound`` and ``bound``, those in ``unit``
+    are divided by powers of two: ``exponents`` is then (exponents, mask of rows in range after that), otherwise None.
     """
     size = int(np.prod(shape))
     columns = [column(x, shape) for x in inputs]
@@ -312,10 +323,10 @@ def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
 
 
 def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1) -> list[Any]:
-    """Return the `count` results of a formula as exact inputs of a motion: floats, arrays, or `Given`.
+    """Return ``count`` results of a formula as exact inputs of a motion: a list of floats, arrays, or `Given`.
 
-    `formula` takes as many numbers and returns a tuple of numbers that are of the unit of the inputs `unit`. A number
-    that is not rational stands as the rational one nearest to it in 256 digits.
+    ``formula`` takes as many numbers as there are inputs, and returns a tuple of numbers in the unit of the inputs
+    ``unit``. An irrational result is replaced by the nearest rational of 256 binary digits.
     """
     shape = common_shape(*(np.shape(x) for x in inputs))
 
@@ -347,7 +358,7 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
 
 
 def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> Any:
-    """Return a boolean per row: all numbers are zero, or products of a few neither over- nor underflow."""
+    """Return a mask (rows,): true where all numbers are zero or of magnitude between 1/``bound`` and ``bound``."""
     ordinary = np.ones(rows, dtype=bool)
     for size in map(abs, columns):
         ordinary &= (size == 0) | ((size >= 1 / bound) & (size <= bound))
@@ -355,9 +366,9 @@ def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> An
 
 
 def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
-    """Return the inputs, those in `unit` divided by powers of two; and the exponents with a mask of ordinary rows.
+    """Return inputs with those in ``unit`` divided by a power of two per row, and (exponents, mask of rows in range).
 
-    Rows where `plain` is true are unchanged.
+    Rows where ``plain`` is true keep exponent 0. A row in which the division underflows to zero is out of range.
     """
     rows = plain.size
     largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in columns[unit])), axis=0)
@@ -374,7 +385,7 @@ def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any],
 
 
 def _normal(s: Any, e: Any) -> tuple[Any, Any]:
-    """Return a sum in two words, for |s| >= |e|."""
+    """Return (s + e rounded, its rounding error), for |s| >= |e|."""
     total = s + e
     return total, e - (total - s)
 

@@ -45,7 +45,7 @@ class Given:
         return len(self.shape)
 
     def at(self, index: Index) -> fmpq:
-        """Return the exact number at an index of an array to which this array broadcasts."""
+        """Return the exact rational at an index of an array to which this one broadcasts."""
         return self._exact(_broadcast_index(self.shape, index))
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
@@ -56,7 +56,7 @@ class Given:
         return float(self.hi)
 
     def tolist(self) -> Any:
-        """Return the nearest doubles as Python's floats, as an array does."""
+        """Return the nearest doubles as floats in nested lists, or as one float, as `numpy.ndarray.tolist` does."""
         return self.hi.tolist()
 
     def as_integer_ratio(self) -> tuple[int, int]:
@@ -81,7 +81,7 @@ class Given:
 
 
 def _broadcast_index(shape: tuple[int, ...], index: Index) -> Index:
-    """Return the index in an array of this shape of the element that broadcasts to an index."""
+    """Return the index in an array of this shape of the element that stands at ``index`` after broadcasting."""
     return tuple(0 if n == 1 else i for n, i in zip(shape, index[len(index) - len(shape) :], strict=True))
 
 
@@ -104,7 +104,10 @@ def exact_number(x: Any) -> Any:
 
 
 def exact_numbers(x: Any) -> Any:
-    """Return an array of rational numbers of flint as the equal floats where they all have one, else as a `Given`."""
+    """Return an array of flint rationals as an array of equal floats, or as a `Given` if one has no equal float.
+
+    An array of dimension 0 is returned as `exact_number` does.
+    """
     if not x.ndim:
         return exact_number(x[()])
     numbers = [exact_number(one) for one in x.ravel()]
@@ -119,7 +122,7 @@ def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
 
 
 def element(x: Any, index: Index) -> Any:
-    """Return the element of an input at an index of all motions: a float, a rational number, or None."""
+    """Return one element of an input that broadcasts to all motions: a float, a rational of a `Given`, or None."""
     if isinstance(x, Given):
         return x.at(index)
     x = np.asarray(x)
@@ -128,7 +131,7 @@ def element(x: Any, index: Index) -> Any:
 
 
 def broadcast(x: Any, shape: Index) -> Any:
-    """Return an input as an array, or as exact numbers, of a shape."""
+    """Return an input broadcast to a shape: a float array, or a `Given` if it is one."""
     if not isinstance(x, Given):
         return np.broadcast_to(np.asarray(x, dtype=float), shape)
     hi, lo, rel = (np.broadcast_to(y, shape) for y in (x.hi, x.lo, x.rel))
@@ -136,7 +139,7 @@ def broadcast(x: Any, shape: Index) -> Any:
 
 
 def part(x: Any, rows: Any) -> Any:
-    """Return the numbers of a flattened array at `rows`, a slice or an array of indices; as `Given` if x is."""
+    """Return elements of a flattened array at ``rows``, a slice or indices; a `Given` of a `Given`."""
     if not isinstance(x, Given):
         return x.reshape(-1)[rows]
     places, shape = np.arange(x.hi.size)[rows], x.shape
@@ -154,11 +157,15 @@ def low_word(x: Any) -> Any:
 
 
 def ldexp(x: Any, power: Any) -> Any:
-    """Return numbers times powers of two; of a `Given` only its two words are kept."""
+    """Return numbers times powers of two.
+
+    A `Given` then has its two words only, and its exact numbers raise an error.
+    """
     if not isinstance(x, Given):
         return np.ldexp(x, power)
     return Given(np.ldexp(x.hi, power), np.ldexp(x.lo, power), x.rel, _words_only)
 
 
 def _words_only(index: Index) -> fmpq:
+    """Raise NotImplementedError: no exact numbers are kept."""
     raise NotImplementedError(f"Only the words of these numbers are kept, not those at {index}.")

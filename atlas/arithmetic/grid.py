@@ -92,7 +92,7 @@ class Progression:
 
 
 def _integers(turn: Number) -> tuple[int, int]:
-    """Return m and e of a number m 2^e."""
+    """Return integers (m, e) with turn = m 2^e, for the midpoint of a ball."""
     m, e = middle(turn).man_exp()
     return int(m), int(e)
 
@@ -128,7 +128,7 @@ ODD = np.isin(np.arange(11), (2, 3, 6, 7, 10))[:, None]
 
 
 def check_grid(start: float, step: float, count: int, reach: float) -> None:
-    """Raise AtlasError for a grid with a time beyond the ``reach`` of the phases."""
+    """Raise AtlasError if a time start + i step, 0 <= i < count, exceeds ``reach``, or the step exceeds `MAX_STEP`."""
     last_time = start + step * max(count - 1, 0)
     if not max(abs(start), abs(last_time)) <= reach or abs(step) > MAX_STEP:
         raise AtlasError(

@@ -29,9 +29,10 @@ _OF_FIELD = (
 
 
 def real(value: Any, name: str, unit: str = "") -> FloatArray:
-    """Return `value` as a read-only float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`.
+    """Return ``value`` as a read-only float64 array of its shape; -0.0 becomes 0.0.
 
-    A quantity of pint or astropy is taken in that `unit` of SI, and refused where it has none.
+    A quantity of pint or astropy is converted to ``unit`` of SI. Raises AtlasError for text, booleans, masked entries
+    and other dimensions, DomainError for an infinite number or NaN.
     """
     if type(value) is float and isfinite(value):
         return frozen(np.array(value + 0.0))
@@ -62,7 +63,7 @@ def _not_real(value: Any, name: str) -> AtlasError:
 
 
 def number(value: Any, name: str, unit: str = "") -> float:
-    """Return `value` as one finite float."""
+    """Return ``value`` as one finite float, see `real`. Raises AtlasError for an array with axes."""
     if type(value) is float and isfinite(value):
         return value + 0.0
     array = real(value, name, unit)
@@ -72,7 +73,7 @@ def number(value: Any, name: str, unit: str = "") -> float:
 
 
 def positive(value: Any, name: str, unit: str = "") -> float:
-    """Return `value` as one finite float above zero."""
+    """Return ``value`` as one finite float, see `number`. Raises DomainError unless it is above zero."""
     result = number(value, name, unit)
     if result <= 0:
         raise DomainError(f"{name} must be positive, not {result}.")
@@ -80,7 +81,7 @@ def positive(value: Any, name: str, unit: str = "") -> float:
 
 
 def whole(value: Any, name: str, least: int = 0) -> int:
-    """Return `value` as a whole number, at least `least`."""
+    """Return ``value`` as an integer. Raises AtlasError unless it is a whole number, at least ``least``."""
     if type(value) is int and value >= least:
         return value
     result = number(value, name)
@@ -90,7 +91,7 @@ def whole(value: Any, name: str, least: int = 0) -> int:
 
 
 def vector(value: Any, name: str, unit: str = "") -> FloatArray:
-    """Return `value` as three finite floats, shape (3,)."""
+    """Return ``value`` as a float array (3,), see `real`. Raises AtlasError for another shape."""
     array = real(value, name, unit)
     if array.shape != (3,):
         raise AtlasError(f"{name} must have three components, not the shape {array.shape}.")
@@ -98,7 +99,7 @@ def vector(value: Any, name: str, unit: str = "") -> FloatArray:
 
 
 def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
-    """Return `value` as finite vectors, shape (..., 3)."""
+    """Return ``value`` as a float array (..., 3), see `real`. Raises AtlasError for another shape."""
     array = real(value, name, unit)
     if array.shape[-1:] != (3,):
         raise AtlasError(f"{name} must have three components last, shape (..., 3), not {array.shape}.")
@@ -106,7 +107,7 @@ def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
 
 
 def matrix(value: Any, name: str) -> FloatArray:
-    """Return `value` as a finite matrix, shape (3, 3)."""
+    """Return ``value`` as a float array (3, 3), see `real`. Raises AtlasError for another shape."""
     array = real(value, name)
     if array.shape != (3, 3):
         raise AtlasError(f"{name} must be a matrix of shape (3, 3), not of shape {array.shape}.")
@@ -114,10 +115,10 @@ def matrix(value: Any, name: str) -> FloatArray:
 
 
 def components(value: Any, names: Sequence[str], subject: str, unit: str = "") -> list[Any]:
-    """Return the components of a vector in that unit, each a finite number or array, by name for the errors.
+    """Return the components of a vector, one for each of ``names``: a list of arrays by `real`, or `Given`.
 
-    A `Field` gives B2 and B3, as exact as they are, and refuses where B1 is not zero; so do Fractions. A square
-    array, or a list of lists, may hold them in its rows or in its columns: AtlasError.
+    A `Field` gives (B2, B3), exactly, or (B1, B2, B3) if three are asked for. Raises AtlasError for another number of
+    components, and for a square array or list of lists, whose rows might be meant as well as its columns.
     """
     if hasattr(type(value), "exact_pair") and names[-1] == "B3":
         value = value.exact if len(names) == len("123") else value.exact_pair
@@ -140,14 +141,17 @@ def components(value: Any, names: Sequence[str], subject: str, unit: str = "") -
 
 
 def numbers(value: Any, name: str, unit: str = "") -> Any:
-    """Return `value` as an array by `real`; a number that no double holds, such as a Fraction, as `Given`."""
+    """Return ``value`` as an array by `real`.
+
+    A `Given` unchanged, and a Fraction that no double equals as a `Given`.
+    """
     if isinstance(value, Fraction):
         value = exact_number(value)
     return value if isinstance(value, Given) else real(value, name, unit)
 
 
 def _listed(components: Sequence[Any]) -> bool:
-    """Whether all are lists or tuples."""
+    """Whether every component is a list or a tuple."""
     return all(isinstance(component, list | tuple) for component in components)
 
 
@@ -160,7 +164,7 @@ def finite(values: Value, name: str) -> Value:
 
 
 def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the shape to which arrays of these shapes broadcast."""
+    """Return the shape to which arrays of these shapes broadcast. Raises AtlasError if they do not."""
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError as error:
@@ -209,6 +213,6 @@ def scaled(v: FloatArray) -> tuple[FloatArray, Any]:
 
 
 def largest(vectors: FloatArray) -> FloatArray:
-    """Return the size of the largest component of each vector (m, 3), by columns, which NumPy does faster."""
+    """Return the largest magnitude of a component of each vector (m, 3), shape (m,)."""
     x, y, z = np.abs(vectors).T
     return np.asarray(np.maximum(np.maximum(x, y), z))

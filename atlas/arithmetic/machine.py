@@ -15,10 +15,10 @@ MIN_THREAD_MATRICES = 100_000
 
 
 def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int = 1) -> None:
-    """Do work(0, count), in two halves at once if it is long and this process may use two processors.
+    """Do work(0, count), in two threads, one for each half, if it is long and this process may use two processors.
 
-    `grain` is how many units are done at once: the cut is a multiple, so that no bit changes. `weight` is the number
-    of matrices in one unit.
+    ``grain`` units are done at once: the cut is a multiple of it, so that no bit changes. ``weight`` is the number of
+    matrices in one unit.
     """
     half = (count // 2 + grain - 1) // grain * grain
     if half >= count or count * weight < MIN_THREAD_MATRICES or processors() < 2:

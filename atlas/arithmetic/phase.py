@@ -174,7 +174,10 @@ class Phases:
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
-        """Return phases of frequencies P0 + P1 in half turns, (2, n, m), one time for each; phases have no limit."""
+        """Return phases of frequencies P0 + P1 in half turns, ``words`` (2, n, m), each for one time.
+
+        Times have no limit.
+        """
         self = cls.__new__(cls)
         self._keep(words)
         is_still = words[0] == 0
@@ -184,14 +187,14 @@ class Phases:
         return self
 
     def _keep(self, words: FloatArray) -> None:
-        """Keep words, and halves of the first, for the products."""
+        """Set `words` and `halves`, the upper and lower 26 digits of P0, from words (2, n, m)."""
         P0, P1 = words
         head = P0 * SPLITTER - (P0 * SPLITTER - P0)
         self.words = np.array([-P0, P1])
         self.halves = np.array([head, P0 - head])[:, None]
 
     def _within(self, reach: float) -> None:
-        """Keep the longest time of the phases as `reach`, and as `longest`, at most the largest double."""
+        """Set `reach`, and `longest`, the smaller of it and the largest double."""
         self.reach, self.longest = reach, min(reach, float(np.finfo(float).max))
 
     def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
@@ -348,7 +351,7 @@ class Phases:
         return product, head, half_turns, remainder
 
     def check(self, t: FloatArray) -> None:
-        """Raise AtlasError for a time that is out of reach."""
+        """Raise AtlasError if a time is beyond `reach`, infinite or not a number."""
         far_times = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
         if far_times.size:
             units = (
@@ -361,7 +364,7 @@ class Phases:
 
 
 def _exponents(halves: Sequence[Number]) -> list[int]:
-    """Return the exponents of two by which frequencies are scaled; all zero where no frequency is extreme."""
+    """Return exponents of two by which frequencies are divided: zeros unless a frequency is extreme."""
     moving = [magnitude(p) for p in halves if p != 0]
     if moving and all(abs(x) <= SAFE_EXPONENT for x in moving):
         return [0] * len(halves)
@@ -375,17 +378,17 @@ def room(frequencies: int, times: int) -> FloatArray:
 
 
 def farthest(t: FloatArray) -> float:
-    """Return the largest |t|; not a number where a time is none."""
+    """Return the largest |t| of an array; NaN if it holds one, 0.0 if it is empty."""
     return max(t.item(t.argmax()), -t.item(t.argmin())) if t.size else 0.0
 
 
 def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
-    """Return words by word and frequency, shape (words, n, 1), to broadcast against times."""
+    """Return rows of words, one row for each frequency, as an array (words, n, 1) to multiply with times."""
     return np.array(rows).T[:, :, None]
 
 
 def _reach(fastest: Number) -> float:
-    """Return the longest time within MAX_PHASE, at a rate of half the phase."""
+    """Return the longest time for which 2 ``fastest`` t stays within MAX_PHASE; inf for 0."""
     return nextafter(nearest(MAX_PHASE / (2 * fastest)), inf) if fastest != 0 else inf
 
 
@@ -398,7 +401,7 @@ def _head(x: Number) -> tuple[float, float, float]:
 
 
 def _cut(turn: Number) -> tuple[float, float]:
-    """Return a phase in turns, less whole turns, as half turns: a multiple of 2^-25, at most one, and the rest."""
+    """Return a phase in turns, reduced by whole turns, as (multiple of 2^-25, remainder) in half turns."""
     fraction = turn_of(turn)
     head = round(ldexp(nearest(fraction), 26)) / 2.0**25
     return head, 2 * nearest(fraction - head / 2)

@@ -65,7 +65,7 @@ class Basis:
 
 
 def multiply(rows: NDArray[Any]) -> None:
-    """Fill the functions from the sixth on, products of those before."""
+    """Fill rows 5 to 8, or to 10, of the functions of `Basis` with products of the rows before."""
     precession, proper = rows[0:4:2], rows[1:4:2]
     np.multiply(precession, proper[:, None], out=rows[5:9].reshape(2, 2, -1))
     if len(rows) == 11:
@@ -73,7 +73,7 @@ def multiply(rows: NDArray[Any]) -> None:
 
 
 def rodrigues(axis: Axis) -> FloatArray:
-    """Return 1, [n, .] and n n^T, shape (3, 3, 3), each element rounded once."""
+    """Return the matrices 1, [n, .] and n n^T of a unit vector n, shape (3, 3, 3), each element rounded once."""
     n1, n2, n3 = map(nearest, axis)
     with workprec():
         dyad = [[nearest(a * b) for b in axis] for a in axis]
@@ -81,7 +81,11 @@ def rodrigues(axis: Axis) -> FloatArray:
 
 
 def generators(axis: Axis) -> FloatArray:
-    """Return n n^T and 1 - n n^T, with the sum 1 exactly, since R(0) is; [n, .]; and n n^T, elements rounded once."""
+    """Return the matrices n n^T, 1 - n n^T, [n, .] and n n^T of a unit vector n, shape (4, 3, 3).
+
+    The first two sum to 1 exactly, so that R(0) = 1; the first is adjusted for that, the last has its elements rounded
+    once.
+    """
     _, n_cross, dyad = rodrigues(axis)
     projector = dyad.copy()
     for i, n in enumerate(axis):
@@ -92,7 +96,7 @@ def generators(axis: Axis) -> FloatArray:
 
 
 def extended(axis: Axis) -> NDArray[np.longdouble]:
-    """Return the four matrices of an axis with the digits of a long double."""
+    """Return the matrices n n^T, 1 - n n^T, [n, .] and n n^T of a unit vector n in long doubles, shape (4, 3, 3)."""
     n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (words(n, 2) for n in axis))
     dyad = np.outer([n1, n2, n3], [n1, n2, n3])
     n_cross = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
@@ -100,10 +104,11 @@ def extended(axis: Axis) -> NDArray[np.longdouble]:
 
 
 def resolution(matrices: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
-    """Return L_r and Q_r of the generators, both (9, 3, 3); or (11, 3, 3) if the third row is wanted to its own size.
+    """Return factors L_r and Q_r of the matrix of each function F_r of `Basis`: two arrays (9, 3, 3), or (11, 3, 3).
 
-    The third column, small when k t is, comes from sin and 1 - cos and keeps its digits. So does then the third row, at
-    the price of two functions more: that is the third column of the transposed matrix.
+    ``matrices`` are those of `generators`. The third column, small when k t is, comes from sin and 1 - cos and keeps
+    its digits. With ``third_row`` so does the third row, by two functions more: it is the third column of the
+    transpose.
     """
     projector, complement, n_cross, dyad = matrices
     upper = E if third_row else IDENTITY
@@ -201,15 +206,18 @@ class DoubleRotation:
         return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
     def vector(self, name: str) -> Any:
-        """Return the components of a constant vector by its name."""
+        """Return the components of the constant vector ``name`` in `vectors`."""
         return self.vectors[name]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) in the body, shape (..., 3)."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time."""
         return (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
     def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R_n(k t) v for a constant v, shape (..., 3): one phase is evaluated, not two."""
+        """Return R_n(k t) v for a constant vector v (3,), shape t.shape + (3,), in the unit of v.
+
+        Only one phase is evaluated. Raises AtlasError if v is too large for floats.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             weights = self.rodrigues @ np.asarray(vector)
         if not np.isfinite(weights).all():
@@ -217,7 +225,10 @@ class DoubleRotation:
         return combinations(self.precession, weights, t, (3,), out)
 
     def swung(self, vector: tuple[float, float, float], t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R_z(-phi t) v for a constant vector v, shape (..., 3)."""
+        """Return R_z(-phi t) v for a constant vector v, shape t.shape + (3,), in the unit of v.
+
+        Raises AtlasError if v is too large for floats.
+        """
         x, y, z = vector
         if max(abs(x), abs(y)) > LARGEST:
             raise AtlasError(f"The vector {vector} that turns is too large for a float: choose larger units.")
@@ -229,7 +240,10 @@ class DoubleRotation:
 def combinations(
     phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None
 ) -> FloatArray:
-    """Return the sums over basis functions that `weights` (3, 9 or 11, prod(shape)) describe, at times of any shape."""
+    """Return weighted sums of the functions of `Basis`, shape t.shape + ``shape``.
+
+    ``weights`` (3, 9 or 11, prod(shape)) hold one row for each function over SCALE. ``out``, if given, is filled.
+    """
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
     if times.size == 1:
         out = target(out, times.shape + shape)
@@ -250,7 +264,10 @@ def combinations(
 
 
 def functions_of_one(circle: list[tuple[float, float, float]], count: int) -> tuple[float, ...]:
-    """Return the first `count` functions of `Basis` over SCALE at one time, from `Phases.circle_of_one`."""
+    """Return the first ``count`` functions of `Basis` over SCALE at one time, as floats.
+
+    ``circle`` is the result of `Phases.circle_of_one`.
+    """
     c, s, v = circle[0]
     if count == 3:
         return c, s, v
@@ -259,7 +276,7 @@ def functions_of_one(circle: list[tuple[float, float, float]], count: int) -> tu
 
 
 def combined(functions: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
-    """Write the linear combinations of functions (k, m) that `weights` (k, n) describe into (m, n)."""
+    """Write functions (k, m) transposed times ``weights`` (k, n) into ``rows`` (m, n), in blocks."""
     for i in range(0, len(rows), PRODUCT_MATRICES):
         np.matmul(functions[:, i : i + PRODUCT_MATRICES].T, weights, out=rows[i : i + PRODUCT_MATRICES])
 
@@ -270,7 +287,11 @@ def evaluate(
     out: FloatArray | None,
     prepare: Callable[[int], Callable[[FloatArray, FloatArray], None]],
 ) -> FloatArray:
-    """Return an array that ``prepare(size)(t, rows)`` fills block by block, for times of any shape."""
+    """Return an array of shape times.shape + ``shape``, filled block by block.
+
+    ``prepare(size)`` returns a function (times, rows) that fills rows for at most ``size`` times. Blocks may run in two
+    threads.
+    """
     out = target(out, times.shape + shape)
     rows = out.reshape(times.size, prod(shape))
     flat: Any = times.reshape(-1) if times.flags.c_contiguous else times.flat
@@ -286,7 +307,10 @@ def evaluate(
 
 
 def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
-    """Return the array of this shape to fill: a new one, or the caller's. Raises AtlasError if that does not fit."""
+    """Return the float64 array of this shape to fill: a new one, or ``out``.
+
+    Raises AtlasError if there is no memory, or ``out`` is not a writable C-contiguous float64 array of that shape.
+    """
     keep()
     if out is None:
         try:

@@ -68,7 +68,10 @@ class Frequencies:
 
 
 def _words(frequency: Number) -> list[float]:
-    """Return an exact frequency in radians as two words in half turns."""
+    """Return an exact frequency in rad/time as two doubles whose sum is the frequency in half turns.
+
+    Raises DomainError if it is too large for a float.
+    """
     with workprec():
         halves = scaled(middle(frequency / TURN), 1)
     if halves != 0 and magnitude(halves) > MAX_EXPONENT:
@@ -77,7 +80,10 @@ def _words(frequency: Number) -> list[float]:
 
 
 def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:
-    """Return the frequencies that a formula gives for inputs that broadcast: `words` and `lack` of `Frequencies`."""
+    """Return (`words`, `lack`) of `Frequencies`, (2, 2, m) and (2, m), for inputs that broadcast to m motions.
+
+    ``formula`` returns two frequencies in rad/time. Where inputs are out of range, `lack` is NaN.
+    """
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
     words, errors = list[Any](), list[Any]()
     for rows, _, exponents, results in blocks(formula, inputs, shape, unit):
@@ -105,9 +111,10 @@ Group = tuple[Constants, Any, Sequence[Any]]
 
 
 class DoubleRotationRows:
-    """Motions in a row, `count` of them in `groups`; the inputs `unit` of each formula are frequencies.
+    """Rotations `DoubleRotation` of ``count`` motions, each evaluated at one time.
 
-    `vectors` returns constant vectors of each motion by name, three components (m,). `inverse` transposes the matrices,
+    ``groups`` are triples (formula, indices of motions, inputs); the inputs ``unit`` of each formula are frequencies.
+    ``vectors()`` returns constant vectors by name, three components (count,) each. ``inverse`` transposes the matrices,
     (28).
     """
 
@@ -139,14 +146,17 @@ class DoubleRotationRows:
         self.frequencies = Frequencies(words, errors, partial(_exact, groups, self.groups))
 
     def at(self, index: Any, t: FloatArray) -> "DoubleRotationRows":
-        """Return the motions of the given indices, paired with times t. Raises AtlasError if a phase is too long."""
+        """Return the motions of these indices, paired with times t (m,).
+
+        Raises AtlasError if a phase is beyond MAX_PHASE.
+        """
         selection = copy(self)
         selection.indices, selection.words = self.indices[index], self.frequencies.at(index, t)
         selection.axis, selection.dyad, selection.defect = (x[:, index] for x in (self.axis, self.dyad, self.defect))
         return selection
 
     def vector(self, name: str) -> Sequence[Any]:
-        """Return the components of a vector, each (m,)."""
+        """Return the three components, (m,) each, of the constant vector ``name`` of the selected motions."""
         return [x[self.indices] for x in self.vectors()[name]]
 
     @property
@@ -181,7 +191,7 @@ class DoubleRotationRows:
         (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
     def turned(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write R_n(k t) v for constant v (3, m) into (m, 3)."""
+        """Write R_n(k t) v for constant vectors v (3, m) into (m, 3). Raises AtlasError if a result is not finite."""
         with np.errstate(over="ignore", invalid="ignore"):
             for i, row in enumerate(self._precession(*self._circle(0, t)[1:])):
                 out[:, i] = row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2]
@@ -194,9 +204,9 @@ class DoubleRotationRows:
         out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
 
     def _columns(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
-        """Return three columns (x, y, z) of R_n(k t) R_z(phi t), of its transpose if `inverse`; each entry is (m,).
+        """Return the three columns of R_n(k t) R_z(phi t), or of its transpose if `inverse`: components (m,) each.
 
-        A step of Newton's corrects the length of a column for rounding.
+        Each column is normalised by a step of Newton's iteration.
         """
         cos, sin, _ = self._circle(1, t)
         rows = [(x * cos + y * sin, y * cos - x * sin, z) for x, y, z in self._precession(*self._circle(0, t)[1:])]
@@ -204,7 +214,10 @@ class DoubleRotationRows:
         return [_unit(*column) for column in columns]
 
     def _precession(self, sin: FloatArray, versine: FloatArray) -> list[tuple[Any, Any, Any]]:
-        """Return the rows of R_n, the rotation about the axis, by Rodrigues."""
+        """Return the three rows of R_n, the rotation about the axis, from sin and 1 - cos of its angle.
+
+        Entries are (m,).
+        """
         s1, s2, s3 = self.axis * sin
         v12, v13, v23 = self.dyad * versine
         d1, d2, d3 = 1.0 - self.defect * versine
@@ -219,7 +232,7 @@ class DoubleRotationRows:
 
 
 def _unit(x: FloatArray, y: FloatArray, z: FloatArray) -> tuple[Any, Any, Any]:
-    """Return a vector of length 1 up to rounding with its length corrected, as three components."""
+    """Return a vector, of length 1 up to rounding, normalised by a step of Newton's iteration: three components."""
     factor = 1.5 - 0.5 * (x * x + y * y + z * z)
     return x * factor, y * factor, z * factor
 
@@ -240,7 +253,7 @@ def _frequencies(constants: Constants, *inputs: Any) -> Sequence[Any]:
 
 
 def _exact(groups: Sequence[Group], places: NDArray[np.int8], i: int) -> Sequence[Number]:
-    """Return k and phi of a motion, by the formula of its group."""
+    """Return (k, phi) of motion number i in rad/time, as exact as the formula of its group gives them."""
     constants, index, inputs = groups[places[i]]
     place = i if isinstance(index, slice) else np.searchsorted(index, i)
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))

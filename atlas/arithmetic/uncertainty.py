@@ -67,12 +67,13 @@ class Spread:
 def spread(
     middle: Any, answer: Callable[[Steps], Any], count: int, progress: Callable[[int, int, str], None] | None = None
 ) -> Spread:
-    """Return the standard deviations of the numbers of `middle`, the answer at the middle of the inputs.
+    """Return the `Spread` of the numbers in ``middle``, the answer at the nominal inputs.
 
-    `answer` gives the answer for steps of `count` independent inputs. Deviations are of first order, by derivatives,
-    on one side where a number has no value a standard deviation off on the other. They are sampled where terms of
-    second and third order would change them, and where a number has no value on either side of an input, or of all
-    inputs together; a number that too many draws lack has no deviation.
+    ``answer`` takes a step for each of ``count`` independent inputs, in standard deviations. Deviations are of first
+    order, by central differences, or one-sided where a number has no value a standard deviation off on one side. They
+    are sampled where terms of second and third order would change them by more than `MAX_CURVATURE`, and where a number
+    has no value on either side; a number that too many draws lack has an infinite deviation. ``progress`` gets (draw,
+    draws, "").
     """
     numbers = numbers_of(middle)
     sizes = _sizes(numbers)
@@ -123,7 +124,10 @@ class Terms(NamedTuple):
 
 
 def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) -> Terms:
-    """Return the terms of those numbers that have a value on a side of the middle, for a whole step in a direction."""
+    """Return the `Terms` of the numbers in ``middle`` for a step of one standard deviation along ``direction``.
+
+    A number without a value on both sides has no entry.
+    """
 
     def off(step: float) -> Numbers:
         try:
@@ -151,7 +155,10 @@ def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) ->
 
 
 def _sizes(numbers: Numbers) -> Numbers:
-    """Return the magnitude of each number; for entries of a matrix or vector, of its largest component."""
+    """Return the magnitude of each number by place.
+
+    An entry of a sampled vector or matrix has that of its largest one.
+    """
     largest = dict[Place, float]()
     for key, x in numbers.items():
         group = key[:3] if key[0] == "samples" else key
@@ -166,7 +173,10 @@ def _draws(
     size: int,
     progress: Callable[[int, int, str], None] | None,
 ) -> dict[Place, list[float]]:
-    """Return the numbers at these places for `size` normal draws of the inputs, as far as they have a value."""
+    """Return by place the values of numbers for ``size`` normal draws of the inputs.
+
+    A draw without a value is left out.
+    """
     import random
 
     normal = random.Random(1).gauss  # noqa: S311
@@ -184,7 +194,7 @@ def _draws(
 
 
 def _is_lost(values: list[float], size: int) -> bool:
-    """Whether too many of `size` draws lack a value for the scatter of the others to be right."""
+    """Whether so many of ``size`` draws lack a value that the scatter of the others would be biased."""
     return len(values) < max(size - MAX_LOST * size, MIN_DRAWS)
 
 
@@ -199,9 +209,9 @@ def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, se
 
 
 def _deviation(values: list[float], size: int) -> tuple[float, float]:
-    """Return the standard deviation of draws and its own error: about 1/sqrt(2 N) of it, more where tails are long.
+    """Return (standard deviation of draws, its own standard error).
 
-    Both are infinite where too many of `size` draws lack a value.
+    Both inf where too many of ``size`` draws are missing.
     """
     if _is_lost(values, size):
         return math.inf, math.inf
@@ -211,14 +221,17 @@ def _deviation(values: list[float], size: int) -> tuple[float, float]:
 
 
 def numbers_of(answer: Any) -> Numbers:
-    """Return the finite numbers of an answer by their places, without times."""
+    """Return the finite floats of a nested answer by place, a tuple of keys and indices; entries "t" are left out."""
     numbers = Numbers()
     mapped(answer, lambda x, place: numbers.update({place: x}))
     return {place: x for place, x in numbers.items() if math.isfinite(x)}
 
 
 def mapped(value: Any, function: Callable[[float, Place], Any], place: Place = ()) -> Any:
-    """Return an answer with each number replaced by a function of the number and its place."""
+    """Return a nested answer with each float replaced by function(float, place); entries "t", integers and texts stay.
+
+    Sequences become lists.
+    """
     if isinstance(value, float):
         return function(float(value), place)
     if isinstance(value, Mapping):
@@ -229,7 +242,7 @@ def mapped(value: Any, function: Callable[[float, Place], Any], place: Place = (
 
 
 def is_uncertain(*arguments: Any) -> bool:
-    """Whether there is a number with a standard deviation among arguments, or in tuples, lists and arrays of them."""
+    """Whether an argument is, or holds in a tuple, list or array, a number with a standard deviation."""
     return any(True for _ in _uncertain(arguments))
 
 
@@ -251,7 +264,7 @@ def _uncertain(value: Any) -> Iterator[Any]:
 
 
 def _replaced(value: Any, function: Callable[[Any], float]) -> Any:
-    """Return a value with each number that has a standard deviation replaced by a function of it."""
+    """Return a value with function(x) in the place of each number x that has a standard deviation."""
     value = _listed(value)
     if isinstance(value, UncertainObject):
         return value.made_of(function)
@@ -262,9 +275,10 @@ def _replaced(value: Any, function: Callable[[Any], float]) -> Any:
 
 
 def in_independent_inputs(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, tuple[float, ...]]]:
-    """Return values with the nominal ones of uncertain numbers, and the slopes of these.
+    """Return (values with nominal numbers, slopes by name of each uncertain number).
 
-    The slopes of a number are its changes over one standard deviation of each independent input.
+    Slopes are the changes of the number over one standard deviation of each independent input; a number without any is
+    left out.
     """
     numbers = {name: _with_derivatives(x) for name, x in values.items() if hasattr(x, "std_dev")}
     variables = _variables(numbers.values())
@@ -274,14 +288,14 @@ def in_independent_inputs(values: Mapping[str, Any]) -> tuple[dict[str, Any], di
 
 
 def _with_derivatives(x: Any) -> Any:
-    """Return an uncertain number as one of `uncertainties`."""
+    """Return a number with a standard deviation as an object of the package `uncertainties`, unchanged if it is one."""
     from uncertainties import ufloat
 
     return x if hasattr(x, "derivatives") else ufloat(x.nominal_value, x.std_dev)
 
 
 def _variables(numbers: Iterable[Any]) -> list[Any]:
-    """Return the independent inputs of numbers of `uncertainties`."""
+    """Return the distinct independent variables with a nonzero deviation behind numbers of `uncertainties`."""
     return list(dict.fromkeys(v for x in numbers for v in x.derivatives if v.std_dev))
 
 

@@ -34,7 +34,7 @@ _KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
 
 
 def _entries() -> Iterator[tuple[str, Equation]]:
-    """Yield the entries in the paper's order, each with its topic; a line break in the file is a space in the text."""
+    """Yield (topic, entry) in the paper's order; a line break in the file is a space in the text."""
     for section, topics in _SECTIONS.items():
         for stem in topics:
             file = Path(__file__).with_name(f"{stem}.toml")
@@ -85,7 +85,7 @@ def find(word: str) -> tuple[Equation, ...]:
 
 
 def equation(word: str) -> Equation:
-    """Return the one entry that `find` gives; AtlasError where two have the same label."""
+    """Return the one entry that `find` gives. Raises AtlasError if there is none, or two have the same label."""
     entries = find(word)
     if len(entries) > 1:
         raise AtlasError(f"{word} is the label of {' and of '.join(entry.name for entry in entries)}: say which.")
@@ -93,5 +93,8 @@ def equation(word: str) -> Equation:
 
 
 def topic(name: str) -> str:
-    """Return the topic of an equation: the stem of its ledger file and of its file of proofs."""
+    """Return the topic of an equation, the stem of its ledger file and of its file of proofs.
+
+    Raises AtlasError as `equation`.
+    """
     return _TOPICS[equation(name).name]

@@ -11,10 +11,10 @@ _CITED = re.compile(r"\$[^$]*\$|`[^`\n]*`|(?<![\w@)\]}'-])(\(\d{1,3}\)|(?:text|t
 
 
 def cited(text: str) -> list[str]:
-    """Return the names that a docstring, a message or a caption cites, in their order, each once."""
+    """Return the distinct names that a text cites, in their order: "(72)", "theorem-pair"."""
     return list(dict.fromkeys(name for name in _CITED.findall(text) if name))
 
 
 def marked(text: str, names: Container[str]) -> str:
-    """Put the sign of a citation before each known name that a caption cites: a name behind @ is a link in a report."""
+    """Return a text with @ before each citation whose name is in ``names``: in a report @(72) is a link."""
     return _CITED.sub(lambda match: f"@{match[1]}" if match[1] in names else match[0], text)

@@ -16,7 +16,7 @@ ASSUMPTIONS = {
 
 
 def slug(name: str) -> str:
-    """Return the name of an equation as it stands in a link or in the name of a file: 72, theorem-pair."""
+    """Return an equation's name without brackets, for links and file names: "72" of "(72)"; "theorem-pair" stays."""
     return name.strip("()")
 
 
@@ -65,5 +65,5 @@ class Equation:
 
     @property
     def number(self) -> int | None:
-        """The number that it has in print; None if it has none."""
+        """The number in print, an integer; None if the name has no brackets."""
         return int(self.name[1:-1]) if self.name.startswith("(") else None

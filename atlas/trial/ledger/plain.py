@@ -28,12 +28,12 @@ def words(markdown: str) -> str:
 
 
 def printable(text: str) -> str:
-    """Return a text without control characters."""
+    """Return a text with U+FFFD in the place of each character that is not printable."""
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, align_left: bool = False) -> str:
-    """Return a table as lines of text, its cells to the right or to the left of their columns."""
+    """Return a table as text: heading, rule and rows, cells aligned to the right unless ``align_left``."""
     widths = [max(map(len, column)) for column in zip(heading, *rows, strict=True)]
     lines = [
         " "
@@ -47,7 +47,7 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, align_left: 
 
 
 def html_table(title: str, heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return the table as HTML, for a notebook."""
+    """Return a table with caption and heading as HTML, its texts escaped."""
     lines = [("th", heading), *(("td", row) for row in rows)]
     cells = ("".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in row) for tag, row in lines)
     return f"<table><caption>{escape(title)}</caption>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
@@ -55,7 +55,7 @@ def html_table(title: str, heading: Sequence[str], rows: Sequence[Sequence[str]]
 
 @cache
 def _converter() -> "tuple[LatexNodes2Text, Any]":
-    """Return pylatexenc's converter, and the macros that its reader knows."""
+    """Return (pylatexenc's converter to text, the macros that its parser knows); cached."""
     from pylatexenc import latex2text, latexwalker, macrospec
 
     texts, macros = latex2text.get_default_latex_context_db(), latexwalker.get_default_latex_context_db()

@@ -42,7 +42,10 @@ class Read:
 
 
 def formulas(words: str) -> Iterator[tuple[str, str]]:
-    """Yield the clauses of an assumption, each with its formula, empty where no formula is read."""
+    r"""Yield pairs (clause, its formula in TeX) of an assumption; the formula is "" where none is read.
+
+    "$a$ is $b$" becomes a=b, "$a$ differs from $b$" a \ne b.
+    """
     for clause in re.split(r"[,;:] (?=(?:[^$]*\$[^$]*\$)*[^$]*$)", words):
         match = _CLAUSE.fullmatch(clause)
         if not match:
@@ -56,7 +59,10 @@ def formulas(words: str) -> Iterator[tuple[str, str]]:
 def compare(
     assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[Model], excluded: Sequence[str]
 ) -> Read:
-    """Hold models against assumptions, but for the clauses `apart`, whose letters mean something else."""
+    """Sort the clauses of assumptions by whether they hold in the models; see `Read`.
+
+    Clauses in ``excluded`` count as unread: their letters have another meaning in the models.
+    """
     satisfied, broken, unread = list[str](), list[str](), list[str]()
     special = list[tuple[int, Any, Any]]()
     domains: dict[int, list[tuple[str, Any, Any]]] = {}
@@ -83,7 +89,10 @@ def compare(
 
 
 def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence[Model]) -> dict[str, float]:
-    """Return how near points of any model come to the end of each domain."""
+    """Return by text of a relation the smallest distance of points of any model from the end of its domain.
+
+    Inf without points.
+    """
     nearest: dict[str, float] = {}
     for number, rows in domains.items():
         for text, distance in _distances(rows, models[number]):
@@ -92,10 +101,10 @@ def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence
 
 
 def _relations(formula: str, signs: Mapping[str, str], model: Model) -> list[Relation]:
-    """Return the relations of a formula in a model; none where a formula is not read or has letters unknown there.
+    """Return the relations of a formula in a model; [] where it is not read or has letters unknown there.
 
-    Left out are those with a letter whose symbol bears the name of another letter, as J1 is J2 in a symmetric top: one
-    can stand in the place of the other unnoticed. That both are equal is read.
+    Left out are relations with a letter whose symbol bears the name of another letter, as J1 is J2 in a symmetric top,
+    since one can replace the other unnoticed. That two letters are equal is kept.
     """
     symbols = {str(s): s for v in model.letters.values() for s in getattr(v, "free_symbols", ())}
     letters = symbols | model.letters
@@ -114,7 +123,7 @@ def _relations(formula: str, signs: Mapping[str, str], model: Model) -> list[Rel
 
 
 def _is_letter(value: Any, model: Model) -> bool:
-    """Whether the value of a letter is a symbol that bears the name of a letter of the model."""
+    """Whether a value is a symbol whose name is also a letter of the model, with this symbol as its value."""
     return isinstance(value, sympy.Symbol) and model.letters.get(str(value)) == value
 
 
@@ -138,14 +147,20 @@ def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
 
 
 def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
-    """Yield text, a difference that must be positive, and the size of its terms, in free parameters."""
+    """Yield (text, difference, scale) for each component: the difference is positive where the relation holds.
+
+    The scale is 1 + |left| + |right|. Both are expressions in free parameters.
+    """
     bindings, sense = resolved(model.bindings), 1 if relation.sign in {">", ">="} else -1
     for a, b in zip(map(sympy.sympify, relation.lhs), map(sympy.sympify, relation.rhs), strict=True):
         yield relation.text, (sense * (a - b)).xreplace(bindings), (1 + abs(a) + abs(b)).xreplace(bindings)
 
 
 def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple[str, float]]:
-    """Yield how near points of a model that obey all relations come to the end of each; inf if no point obeys all."""
+    """Yield (text, distance) for each relation: the smallest difference/scale of `POINTS` random points, dimensionless.
+
+    Only points that obey all relations count; the distance is inf if there is none.
+    """
     symbols = sorted(set().union(*(x.free_symbols for _, *terms in rows for x in terms)), key=str)
     chance, columns = np.random.default_rng(1), []
     for symbol in symbols:

@@ -28,7 +28,7 @@ AXIS = [(k2, turn(h)[1]), (k3, turn(h)[0])]
 
 
 def kinematic_model() -> Model:
-    """Return the model of three masses on the principal axes of a turning body."""
+    """Return the model of three masses on the principal axes of a body that rotates by R, with angular momentum m."""
     masses = sympy.symbols("m1:4", positive=True)
     places = [sympy.diag(*sympy.symbols("x1:4", real=True)).col(n) for n in range(3)]
     g = sum((m * x * x.T for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 3))
@@ -42,7 +42,7 @@ def kinematic_model() -> Model:
 
 
 def uniform_ball_model() -> Model:
-    """Return the model of moments of inertia of a uniform ball of radius r, each by its own integral."""
+    """Return the model of the moments of inertia of a uniform ball of radius r and mass M, each by its own integral."""
     r, s, u, w, mass = sympy.symbols("r s u w M", positive=True)
     x, y, z = s * sympy.sqrt(1 - u**2) * sympy.cos(w), s * sympy.sqrt(1 - u**2) * sympy.sin(w), s * u
     density = mass / (sympy.Rational(4, 3) * sympy.pi * r**3)
@@ -55,7 +55,7 @@ def uniform_ball_model() -> Model:
 
 
 def ball_model() -> Model:
-    """Return the model of (16) with I = I0 and so g = I0/2; m = I0 R Omega."""
+    """Return the model of a ball in the field B: R by (12), Omega by (16) with I = I0 and g = I0/2; m = I0 R Omega."""
     tensor = I0 * sympy.eye(3)
     rate = general.euler(tensor, tensor / 2, R.T * Bf) / I0
     columns = {n + 1: R.col(n) for n in range(3)}
@@ -66,7 +66,10 @@ def ball_model() -> Model:
 
 
 def larmor_model() -> Model:
-    """Return the model with B = (0, 0, b), alpha t as an angle."""
+    """Return the model of m's precession in B = (0, 0, b), alpha = mu b/(2c), with alpha t as a phase.
+
+    `about_B` is the rotation about e3 as a function of the angle.
+    """
     b = sympy.Symbol("b", positive=True)
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
     bindings = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
@@ -76,7 +79,10 @@ def larmor_model() -> Model:
 
 
 def larmor_frequency_model() -> Model:
-    """Return the model of the clockwise rate of the angle of m about B, by (22): -(m x dm).B over |m_perp|^2 |B|."""
+    """Return the model whose alpha is the clockwise angular velocity of m about B by (22), in rad/time.
+
+    It is -(m x dm/dt)_3/(m1^2 + m2^2), for B = (0, 0, b) and any m.
+    """
     m, b = vector("m"), sympy.Symbol("b", positive=True)
     field = sympy.Matrix([0, 0, b])
     dm = -mu / (2 * c) * cross(field, m)
@@ -93,13 +99,16 @@ def _motion(spin: Value, bindings: list[tuple[Value, Value]]) -> Model:
 
 
 def motion_model() -> Model:
-    """Model the angular momentum (26) and the constants (29), solved for m2, m3."""
+    """Return the model of the angular momentum (26), m2 and m3 expressed by gamma, k2 and k3 through (29)."""
     spin = sympy.Matrix([m2 * sa, m2 * ca, m3])
     return _motion(spin, [*ANGLES, (m2, -gamma * I0 * k2), (m3, -gamma * I0 * k3 - alpha * I0), *AXIS])
 
 
 def start_model() -> Model:
-    """Model the momentum that the ansatz (28) has at t = 0: I0 times the axial vector of dR/dt."""
+    """Return the model whose m2, m3 are the angular momentum of the ansatz (28) at t = 0.
+
+    It is I0 times the axial vector of dR/dt.
+    """
     attitude = rodrigues(E3, ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
     model = _motion(sympy.zeros(3, 1), [])
     W = (model.letters["d"](attitude)).subs(START)
@@ -107,7 +116,7 @@ def start_model() -> Model:
 
 
 def constants_model() -> tuple[Model, Model]:
-    """Return the models of all initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and the point s = 0."""
+    """Return two models that hold all initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and s = 0."""
     vocabulary = {"alpha": alpha, "I0": I0}
     anywhere = {**vocabulary, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
     remainder = {**vocabulary, "m2": sympy.Integer(0), "m3": -alpha * I0}
@@ -115,7 +124,10 @@ def constants_model() -> tuple[Model, Model]:
 
 
 def true_constants_model() -> tuple[Model, Model]:
-    """Model all initial data, k and gamma solved from the motion at t = 0; for gamma = 0, k is any unit vector."""
+    """Return `constants_model` with k2, k3 and gamma of the corrected (29).
+
+    For s = 0 gamma is 0 and k any unit vector.
+    """
     anywhere, remainder = constants_model()
     axis = {"k2": -turn(h)[1], "k3": -turn(h)[0], "gamma": size / I0}
     return (
@@ -125,14 +137,14 @@ def true_constants_model() -> tuple[Model, Model]:
 
 
 def parallel_model(sign: int = 1) -> Model:
-    """Return the model with m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of (29)."""
+    """Return the model with m2 = 0 and m3 + alpha I0 = ``sign`` s, s > 0; the axis k is -``sign`` e3, gamma = s/I0."""
     vocabulary = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
     letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **vocabulary}
     return Model(letters, domains=UPRIGHT)
 
 
 def parallel_motion_model() -> Model:
-    """Return the model with m(0) = (0, 0, m3): the angle is m3 t/I0."""
+    """Return the model with m(0) = (0, 0, m3), which stays; the phase is m3 t/I0."""
     angle = m3 * t / I0
     flow = {cg: -m3 / I0 * sg, sg: m3 / I0 * cg}
     letters = {"m3": m3, "I0": I0, "t": t, "m": sympy.Matrix([0, 0, m3])}
@@ -140,7 +152,10 @@ def parallel_motion_model() -> Model:
 
 
 def _with_rotation(line: str) -> str:
-    """Add to m = M m0 that the matrix M is the turn by -alpha t about the field: its first column meets a zero."""
+    """Return the line "m = M m0; M = about_B(-alpha t)" for the line m = M m0: M itself is checked too.
+
+    The first component of m0 is zero, so that m alone would leave the first column of M unchecked.
+    """
     product = parse(line)[0].comparators[0]
     return f"{line}; {ast.unparse(product.left) if isinstance(product, ast.BinOp) else product} = about_B(-alpha*t)"
 
@@ -149,7 +164,7 @@ LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 
 def round_model() -> Model:
-    """Return the model of masses on the principal axes with equal moments; omega = R Omega."""
+    """Return `kinematic_model` with equal moments of mass: the inertia tensor is I0 times the unit matrix."""
     basis = kinematic_model()
     moment = sympy.Symbol("G", positive=True)
     masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", real=True)
@@ -158,7 +173,7 @@ def round_model() -> Model:
 
 
 def body_flow_model() -> Model:
-    """Return the model with Omega by (21) and K = mu/(2c) R^T B by (35), for any state."""
+    """Return the model of any Omega and K with the rates (21) and (35); the field is B = (2c/mu) R K."""
     K = vector("K")
     flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
     letters = {"Omega": Omega, "K": K, "R": R, "Bf": 2 * c / mu * R * K, "mu": mu, "c": c}
@@ -166,7 +181,7 @@ def body_flow_model() -> Model:
 
 
 def any_momentum_model() -> Model:
-    """Return the model of any vector m with any rate; Omega = R^T m/I0 with R of (20)."""
+    """Return the model of any vector m with any rate, and R by (12) with Omega = R^T m/I0."""
     m, rate = vector("m"), vector("w")
     spin = R.T * m / I0
     letters = {"Omega": spin, "m": m, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
@@ -175,20 +190,20 @@ def any_momentum_model() -> Model:
 
 
 def along_model() -> Model:
-    """Model gamma of text-ball-parallel, solved for m3."""
+    """Return the model of R of text-ball-parallel, two rotations about e3, with m3 = I0 (gamma - alpha)."""
     letters = {"t": t, "m3": I0 * (gamma - alpha), "I0": I0}
     letters["R"] = rodrigues(E3, ca, -sa) * rodrigues(-E3, cg, -sg)
     return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)})
 
 
 def frame_model() -> Model:
-    """Return the model of any other axes of the laboratory, and the tensor J of a body that is symmetric only."""
+    """Return the model of any rotation R of the laboratory's axes, I0, and the tensor J = diag(I2, I2, I3)."""
     I2, I3 = sympy.symbols("I2 I3", positive=True)
     return Model({"R": R, "I0": I0, "J": sympy.diag(I2, I2, I3)}, ROTATION)
 
 
 def orthogonal_model(sign: int = 1) -> Model:
-    """Model an orthogonal matrix of the determinant `sign`, and any m."""
+    """Return the model of any vector m and the orthogonal matrices of determinant ``sign``, 1 or -1."""
     letters = {"R": sign * R, "m": vector("m"), "I0": I0, "det": lambda matrix: matrix.det(method="berkowitz")}
     return Model(letters, ROTATION)
 

@@ -22,12 +22,12 @@ AXES = sympy.diag(*MOMENTS)
 
 
 def determinant(tensor: Value) -> Value:
-    """Return the determinant of a tensor without a division."""
+    """Return the determinant of a matrix, computed without division."""
     return tensor.det(method="berkowitz")
 
 
 def tensor_model() -> Model:
-    """Model any state Omega, K of a body of any inertia tensor J, with the rates (16) and (35)."""
+    """Return the model of any Omega, K and inertia tensor J, with rates (16), (35), W = Omega + K, M = J W and H."""
     inverse = J.adjugate() / determinant(J)
     spin, field = inverse * (cross(J * Omega, Omega) - 2 * cross(MASS * K, Omega)), cross(K, Omega)
     letters = {"J": J, "Omega": Omega, "K": K, "W": Omega + K, "M": J * (Omega + K)}
@@ -37,7 +37,10 @@ def tensor_model() -> Model:
 
 
 def frame_model() -> Model:
-    """Model R with any spin, and turns about B' = b (0, sin, cos) of any inclination."""
+    """Return the model of R with any Omega.
+
+    `about_B` is the rotation about B' = b (0, sin, cos) as function of the angle.
+    """
     R, bindings = rotation_symbols()
     b, slope = sympy.Symbol("b", positive=True), sympy.Symbol("p", real=True)
     c, s, q, t = sympy.symbols("c1 s1 q t", real=True)
@@ -54,7 +57,7 @@ def frame_model() -> Model:
 
 
 def reversed_model() -> Model:
-    """Model the state at -t of a motion by (12), (16) and (35): its rates are minus those of the equations."""
+    """Return the model of the state at time -t: its rates are minus those of (12), (16) and (35)."""
     basis, frame = tensor_model(), frame_model()
     back = {symbol: -basis.flow[symbol] for symbol in (*Omega, *K)}
     R = frame.letters["R"]
@@ -65,7 +68,7 @@ def reversed_model() -> Model:
 
 
 def poisson_model() -> Model:
-    """Model any M and K as coordinates of e(3), principal moments, the bracket, and the rates of (16), (35)."""
+    """Return the model of any M and K with rates (16), (35), H, F, and the bracket `br` (f, g) of e(3)."""
     H = dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
     spin = AXES.inv() * M - K
     mass = AXES.trace() / 2 * sympy.eye(3) - AXES
@@ -85,13 +88,13 @@ def poisson_model() -> Model:
 
 
 def _rank(*functions: Value) -> int:
-    """Return the rank of the gradients at M = (1, 2, 3), K = (4, 5, 6), with the moments 2, 3, 4."""
+    """Return the rank of the functions' gradients in (M, K) at M = (1, 2, 3), K = (4, 5, 6), with moments 2, 3, 4."""
     point = {s: n for n, s in enumerate([*M, *K], 1)} | dict(zip(MOMENTS, (2, 3, 4), strict=True))
     return int(sympy.Matrix(functions).jacobian([*M, *K]).subs(point).rank())
 
 
 def symmetric_model() -> Model:
-    """Model the symmetric body, with c3 and c5 as they are at any state."""
+    """Return the model of any state of the symmetric body, with M, H, F, c3 and c5 at that state."""
     basis = state_model()
     tensor = sympy.diag(basis.letters["I2"], basis.letters["I2"], basis.letters["I3"])
     W = basis.letters["Omega"] + basis.letters["K"]

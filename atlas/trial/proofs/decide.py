@@ -39,7 +39,10 @@ _SIMPLE: dict[str, tuple[Fraction | int, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """Decision on one line, its method and a counterexample."""
+    """Decision on one line; `method` is how it was found, or the reason for which it is undecided.
+
+    `counterexample` has texts by name: the letters at a point that refutes the line, "relation", "left" and "right".
+    """
 
     decision: Decision
     method: str = ""
@@ -94,7 +97,11 @@ def decide(
 def understood(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
-    """Return the relations to be checked, and letters and `bindings` of the model with the definitions of the line."""
+    """Return (relations to check, letters, bindings) of a line in a model.
+
+    Letters and bindings are those of the model with the line's definitions added; the relations include those of
+    ``solves``. Raises NoMeaningError for a line that has no values in the model.
+    """
     try:
         return _understand(line, model, defines, solves)
     except NoMeaningError:
@@ -127,7 +134,10 @@ def _understand(
 
 
 def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
-    """Return the letter that a relation defines, which is put on its left; empty without a definition."""
+    """Return the letter of ``defines`` that a relation defines, and put it on the left of the tree.
+
+    "" without a definition.
+    """
     every = [tree.left, *tree.comparators]
     if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
         return ""
@@ -138,7 +148,10 @@ def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
 
 
 def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
-    """Return pairs (symbol, value) for a letter that a line defines: the letter may stand before its definition."""
+    """Return pairs (symbol, value) that replace a defined letter where it stands before its definition.
+
+    They are one for each entry of a vector or matrix; none where the letter's value in the model is no symbol.
+    """
     vocabulary = letters.get(name, sympy.Symbol(name, real=True))
     if isinstance(vocabulary, sympy.MatrixBase):
         pairs = list(zip(vocabulary, value, strict=True))
@@ -148,7 +161,11 @@ def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[
 
 
 def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> dict[str, Value]:
-    """Return the function that d(u)^2 = Q(u) = u^4 + a defines, with its derivatives, and leave d(u)^2 = u^4 + a."""
+    """Return the function that a relation such as d(u)^2 = Q(u) = u^4 + a defines, and its derivatives, by name.
+
+    The tree is changed to d(u)^2 = u^4 + a. Returns {} if no side is a function of ``defines``. Raises NoMeaningError
+    if the value does not contain the variable.
+    """
     every = [tree.left, *tree.comparators] if all(isinstance(sign, ast.Eq) for sign in tree.ops) else []
     for place, side in enumerate(every):
         match side:
@@ -165,7 +182,10 @@ def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> di
 
 
 def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> str:
-    """Return as text the letters without a meaning in the model, or that a statement stands twice; "" if none."""
+    """Return a sentence on a letter without a meaning in the model, or on a repetition; "" if there is neither.
+
+    A repetition is a statement made twice, two equal sides, or a bracket or vector product of a letter with itself.
+    """
     vocabulary = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.bindings}
     vocabulary |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
     strange = {name for tree in trees for name in letters_of(tree)} - vocabulary
@@ -180,9 +200,10 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
 
 
 def _empty(tree: ast.Compare, model: Model) -> str:
-    """Return why a vanishing bracket or derivative is no full statement; empty for a full one.
+    """Return a sentence on a relation "... = 0" that says too little; "" for a sound relation.
 
-    A component that is zero for every index is zero for each one, and letters that are independent have no derivatives.
+    It says too little where a bracket or derivative has a number as index (only one component), where a derivative is
+    taken of independent symbols, or where d2(x) = 0 although d(x) = 0.
     """
     if not is_zero(tree.comparators[-1]) or not isinstance(tree.ops[-1], ast.Eq):
         return ""
@@ -208,9 +229,9 @@ def _name(call: ast.Call) -> str:
 
 
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
-    """Return the fault of a line that checks nothing, or defines a letter on which no checked statement depends.
+    """Return a sentence on a line that checks nothing, or defines a letter on which no checked statement depends.
 
-    Such a line would hold whatever stands on its right, and claims nothing. Empty for a sound line.
+    "" otherwise.
     """
     if not relations:
         return "nothing in it is checked"
@@ -228,7 +249,7 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
 
 
 def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> set[Value]:
-    """Return the symbols on which values depend, also through rules (symbol, value or rate)."""
+    """Return the symbols on which ``values`` depend, directly or through ``rules``, pairs (symbol, value or rate)."""
     symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     while True:
         extended = symbols | {
@@ -240,7 +261,7 @@ def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> se
 
 
 def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
-    """Return the free parameters on which the relations and the letters with these names depend."""
+    """Return the free parameters, sorted by name, on which the relations and the letters called ``names`` depend."""
     values = [side for relation in relations for side in (*relation.lhs, *relation.rhs)]
     values += [
         model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
@@ -249,7 +270,7 @@ def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) 
 
 
 def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
-    """Add the values of the symbols of `bindings` at a point; each may use any other that does not depend on it."""
+    """Return the point with the values of the symbols of `bindings` added, where these are numbers there."""
     point = dict(values)
     for symbol, value in ordered(model.bindings):
         value_there = sympy.sympify(value).xreplace(point)
@@ -259,7 +280,7 @@ def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
 
 
 def points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
-    """Yield exact values of the free parameters at a few points of their domain, equal in every run."""
+    """Yield `SAMPLES` points: dictionaries from parameters to rational numbers in their domains, equal in every run."""
     chance = random.Random(20240)  # noqa: S311  points of a proof, not secrets
     for _ in range(SAMPLES):
         yield {s: sympy.Rational(DOMAINS[_domain(s, model)](chance)) for s in parameters}
@@ -270,7 +291,10 @@ def _domain(symbol: Value, model: Model) -> str:
 
 
 def _violated(sign: str, difference: Value) -> bool | None:
-    """Say whether left - right = difference breaks the relation; None if it has no value."""
+    """Return whether a relation with this ``sign`` is false for left - right = ``difference``.
+
+    None if that has no value. A difference that is not rational is computed to 40 digits, and counts as 0 below 1e-30.
+    """
     if difference.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
         return None
     if not difference.is_Rational:
@@ -292,9 +316,10 @@ def _violated(sign: str, difference: Value) -> bool | None:
 
 
 def _counterexample(relations: list[Relation], model: Model, names: tuple[str, ...], *, shrink: bool) -> dict[str, str]:
-    """Return an exact point that breaks a relation, or one where a relation has no value at any; {} if there is none.
+    """Return a description of a point that refutes a relation, see `_describe`; {} if none of `points` does.
 
-    names  the letters to be shown, where they have a value at that point
+    A relation without a value at any of these points is refuted, too, with "no value: 0/0" as its sides. ``names`` are
+    the letters to be shown, ``shrink`` makes the point as simple as possible.
     """
     valued = [False] * len(relations)
     assignment: dict[Value, Value] = {}
@@ -317,7 +342,7 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
 
 
 def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
-    """Say whether one component of a relation is broken at a point; None if it has no value there."""
+    """Return whether component number ``entry`` of a relation is false at a point; None if it has no value there."""
     difference = sympy.sympify(relation.lhs[entry]).xreplace(values) - sympy.sympify(relation.rhs[entry]).xreplace(
         values
     )
@@ -325,7 +350,10 @@ def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool |
 
 
 def simplest(relation: Relation, entry: int, assignment: dict[Value, Value], model: Model) -> dict[Value, Value]:
-    """Replace the parameters of a counterexample one by one by 0, 1, 2, as long as the point stays a counterexample."""
+    """Replace parameters of a counterexample by 0, 1, 2 or the like as long as it refutes.
+
+    Return the completed point.
+    """
     for symbol in assignment:
         for value in _SIMPLE[_domain(symbol, model)]:
             simpler = {**assignment, symbol: sympy.Rational(value)}
@@ -338,7 +366,10 @@ def simplest(relation: Relation, entry: int, assignment: dict[Value, Value], mod
 def _describe(
     relation: Relation, entry: int, model: Model, names: tuple[str, ...], values: dict[Value, Value]
 ) -> dict[str, str]:
-    """Return the letters of a relation and its two sides at a point; of a family, those that aren't 0."""
+    """Return as texts by name the letters of a relation at a point, "relation", and its sides "left" and "right".
+
+    Of a letter with an index only entries that are not 0 are listed, then "any other NAME": "0".
+    """
     texts: dict[str, str] = {}
     for name in dict.fromkeys((*relation.letters, *names)):
         value = model.letters.get(name, sympy.Symbol(name, real=True))
@@ -374,7 +405,7 @@ def _show(value: Value, values: dict[Value, Value]) -> str:
 
 
 def _prove(relation: Relation, model: Model) -> str:
-    """Prove a relation and return how; empty if it can't."""
+    """Return the method by which a relation is proved, such as "polynomial identity"; "" if it is not proved."""
     how = "identity"
     bindings = resolved(model.bindings)
     for lhs, rhs in zip(relation.lhs, relation.rhs, strict=True):

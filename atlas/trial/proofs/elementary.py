@@ -43,7 +43,7 @@ DOMAINS = {"u": "unit"}
 
 
 def precession() -> Value:
-    """Rotation about the field by the angle k t, as (85) writes it."""
+    """Return the rotation about the unit field (0, hB2, hB3) by the angle k t, as the matrix that (85) prints."""
     return sympy.Matrix(
         [
             [ck, -hB3 * sk, hB2 * sk],
@@ -63,20 +63,20 @@ def _model(
 
 
 def velocity_model() -> Model:
-    """Return the model with K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for this K."""
+    """Return the model of K = (B2 sin, B2 cos, B3) of (62) with the phase phi t, J and g, on the hyperbola (67)."""
     letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
     return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
 
 
 def row_model() -> Model:
-    """Return the model of one row of a rotation matrix R(t), dR/dt = R hat(Omega)."""
+    """Return the model of one row gamma of a rotation matrix R(t), with its rate dgamma by dR/dt = R hat(Omega)."""
     Omega, row = vector("Omega"), vector("gamma")
     rate = (row.T * hat(Omega)).T
     return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})
 
 
 def integral_model() -> Model:
-    """Return the model of any row that obeys (75) with Omega of (73); c by (76) at that state."""
+    """Return the model of any row gamma with rates (75) and Omega of (73); c is the constant (76) at that state."""
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
     letters = {"Omega": SPIN, "gamma": gamma}
     letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
@@ -84,20 +84,20 @@ def integral_model() -> Model:
 
 
 def ratio_model() -> Model:
-    """Return the model with B = (2c/mu) B', and its unit vector."""
+    """Return the model of the components Bl2, Bl3 of B = (2c/mu) B'."""
     mu, light = sympy.symbols("mu light", positive=True)
     letters = {"Bl2": 2 * light / mu * b * hB2, "Bl3": 2 * light / mu * b * hB3}
     return _model(letters, [*FIELD])
 
 
 def rows_model() -> Model:
-    """Model the constant c of (76) for the three rows of R(0) = 1."""
+    """Return the model whose c is the column of constants (76) of the three rows of R(0) = 1."""
     value = SPIN.subs(START)
     return _model({"c": sympy.Matrix([value[0], value[1], hB3 * omega2 / hB2])}, [*FIELD])
 
 
 def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
-    """Return A row by (78) and (80)."""
+    """Return a row (3, 1) of the rotation matrix by (78) and (80); ``phase`` is (cos k0, sin k0)."""
     third = size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
     rate = -k * size * (sk * phase[0] + ck * phase[1])
     remainder = constant - hB3 * omega2 / hB2 * third
@@ -108,7 +108,10 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
 
 
 def solution_model() -> Model:
-    """Model the row of (78) and (80), for any constants."""
+    """Return the model of the row by (78) and (80) for any constants c, amp, k0.
+
+    `row` (c, amp, k0) is the row at t = 0.
+    """
     row = _row(c, amplitude, (c0, s0))
     letters = {"gamma": row, "Omega1": SPIN[0], "Omega2": SPIN[1]}
 
@@ -120,7 +123,7 @@ def solution_model() -> Model:
 
 
 def matrix_model() -> Model:
-    """Return the model with Omega of (73), the field B', and the moments of the body."""
+    """Return the model of the motion: Omega of (73), R = P Q, m, its rate dm, and the body's J and g."""
     letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
     letters |= {
         "rod": rodrigues,
@@ -135,21 +138,21 @@ def matrix_model() -> Model:
 
 
 def steady_momentum_model() -> list[Model]:
-    """Model the steady momentum of a ball, and of a body at rest."""
+    """Return two models of a steady angular momentum: `matrix_model` with I = 1, and with omega2 = 0."""
     basis = matrix_model()
     vocabulary = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
     return [replace(basis, bindings=[*basis.bindings, pair]) for pair in vocabulary]
 
 
 def resting_row_model() -> Model:
-    """Return the model of a row of the matrix of a body at rest."""
+    """Return the model of the rates dgamma1, dgamma2, dgamma3 of a row for Omega = 0."""
     basis = row_model()
     remainder = dict.fromkeys(basis.letters["Omega"], sympy.Integer(0))
     return Model({f"dgamma{n}": basis.letters[f"dgamma{n}"].xreplace(remainder) for n in (1, 2, 3)})
 
 
 def frequencies_model() -> Model:
-    """Return the model of Phi of (72) with omega2 = k_B hat B2."""
+    """Return the model of phiB = omega3 - (B3/B2) omega2 on the hyperbola, with omega2 = kB hB2."""
     kB = sympy.Symbol("kB", real=True)
     I3 = sympy.Symbol("I3", positive=True)
     letters = {"phiB": omega3 - B3 / B2 * omega2, "kB": kB, "b": b, "I3": I3}
@@ -157,7 +160,7 @@ def frequencies_model() -> Model:
 
 
 def free_model() -> Model:
-    """Model the free body launched with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is whatever (87) says."""
+    """Return the model of a free body started with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is left free."""
     I3 = sympy.Symbol("I3", positive=True)
     spin = sympy.Matrix([omega2 * sf, omega2 * cf, I2 * omega2 * B3 / (I3 * B2)])
     body = sympy.diag(I2, I2, I3)
@@ -168,7 +171,7 @@ def free_model() -> Model:
 
 
 def free_frequency_model() -> list[Model]:
-    """Return the models of a body launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
+    """Return two models of a free body with omega2 > 0 and omega2 < 0; `size` is |m|, for m = (I2 omega2/B2) B'."""
     speed, hB2 = sympy.symbols("speed hB2", positive=True)
     cases = []
     for sign in (1, -1):
@@ -183,7 +186,7 @@ MOTION = f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omeg
 
 
 def hidden_model() -> Model:
-    """Model the field B = (2c/mu) B' for any mu > 0, and its length."""
+    """Return the model of B = (2c/mu) B' for mu > 0: its component Bl2 and its length Bl."""
     mu, light = sympy.symbols("mu light", positive=True)
     scale = 2 * light / mu * b
     return _model({"Bl2": scale * hB2, "Bl": scale}, [K_OF_OMEGA2, *FIELD])
@@ -203,7 +206,7 @@ def free_body_model() -> Model:
 
 
 def free_proper_model() -> Model:
-    """Model the free body of the affirmation: its rate of proper rotation is Omega3 less the part of m/I2 along e3."""
+    """Return `free_model` with phi, the rate of proper rotation: Omega3 less m3/I2."""
     model = free_model()
     I3 = model.letters["I3"]
     m = sympy.Matrix([0, I2 * omega2, I3 * model.letters["Omega0"][2]])
@@ -212,7 +215,10 @@ def free_proper_model() -> Model:
 
 
 def _rows(line: str) -> str:
-    """Return the statement row(c, b, k0) = row at t = 0 for the constants c, b, k0 of each of three rows."""
+    """Return statements row(c, amp, k0) = row of the unit matrix for the constants of each of three rows.
+
+    Raises UnreadableError unless the line gives c, amp, k0 three times, in this order.
+    """
     letters, values = zip(*((sides(row)[0], sides(row)[1:]) for row in line.split("; ")), strict=True)
     if letters != ("c", "amp", "k0") * 3:
         raise UnreadableError("here must stand three rows of the constants c, b, k0")

@@ -30,29 +30,32 @@ LETTERS |= {f"I{n}": moment for n, moment in enumerate(MOMENTS, 1)} | {"g": AXES
 
 
 def energy(momentum: Value) -> Value:
-    """Return H of theorem-lie-poisson."""
+    """Return H of theorem-lie-poisson for a momentum (3, 1) and the field K."""
     return dot(momentum, AXES.inv() * momentum) / 2 + dot(K, AXES * K) / 2
 
 
 def clebsch(momentum: Value) -> Value:
-    """Return F of theorem-clebsch."""
+    """Return F of theorem-clebsch for a momentum (3, 1) and the field K."""
     return dot(momentum, momentum) - D * dot(K, AXES.inv() * K)
 
 
 def elliptic_model() -> Model:
-    """Model any K of a body with principal moments, any z and v, with K turned as the theorem says."""
+    """Return the model of any K, z, v and principal moments, with the rate of K that theorem-elliptic claims."""
     return Model(LETTERS, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
 
 
 def integrals_model() -> Model:
-    """Model any M and K of a body with principal moments, and any z and v."""
+    """Return the model of any M, K, z, v, and any variations m, k.
+
+    `normal` is a vector of theorem-splitting's proof.
+    """
     letters = {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
     letters["normal"] = X.inv() * (LETTERS["P1"] * ONE - 2 * P * X.inv()) * K
     return Model({**LETTERS, **letters, "X": X})
 
 
 def multipliers_model() -> Model:
-    """Model any M and K of a body with principal moments, any z and v, and the multiplier w of K^2/2."""
+    """Return the model of any M, K, z, v, and w, the multiplier of K^2/2 in the critical points of F."""
     w = sympy.Symbol("w", real=True)
     y = {n: D * moment - z * D / moment + w for n, moment in enumerate(MOMENTS, 1)}
     letters = {**LETTERS, "H": energy(M), "F": clebsch(M), "w": w, "y": y, "a": [D / moment for moment in MOMENTS]}
@@ -60,14 +63,14 @@ def multipliers_model() -> Model:
 
 
 def root_model(*, elliptic: bool = False) -> Model:
-    """Model v^2 = P, with the integrals at M, or at the elliptic motion's own."""
+    """Return the model of v = sqrt(P) with H, F and c = (M, K) at any M, or the elliptic motion's if ``elliptic``."""
     momentum = LETTERS["elliptic"] if elliptic else M
     letters = {"H": energy(momentum), "F": clebsch(momentum), "c": dot(momentum, K)}
     return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
 
 
 def edge_model() -> list[Model]:
-    """Model any M and K of a body whose third moment is the largest."""
+    """Return two models of any M and K with I3 the largest moment: I1 <= I2 <= I3, and I2 <= I1 <= I3."""
     gap, rise = sympy.symbols("first second", nonnegative=True)
     (I1, I2, I3), cases = MOMENTS, []
     for order in ({I2: I1 + gap, I3: I1 + gap + rise}, {I1: I2 + gap, I3: I2 + gap + rise}):
@@ -78,7 +81,10 @@ def edge_model() -> list[Model]:
 
 
 def critical_model() -> Model:
-    """Model the values of F and 2 D H on the elliptic motions as functions of z, with v' = P'/2v, at any b and c."""
+    """Return the model of F and 2 D H on elliptic motions as functions of z, at any b and c.
+
+    Z is its time, v' = P'/2v.
+    """
     b, c = sympy.symbols("b c", real=True)
     letters = {name: LETTERS[name] for name in ("z", "v", "D", "e2", "P1", "P2")} | {"b": b, "c": c, "P": v**2}
     letters["C"] = 4 * b**2 * v**2 - c / v * (LETTERS["P1"] ** 2 - 2 * v**2 * LETTERS["P2"])
@@ -86,7 +92,7 @@ def critical_model() -> Model:
 
 
 def free_model() -> Model:
-    """Model any field K in a free body with moments J_i and the angular momentum s K."""
+    """Return the model of any field K with the rate [K, Omega] in a free body of moments J_i, Omega_i = s K_i/J_i."""
     K, s, moments = LETTERS["K"], sympy.Symbol("s", real=True), sympy.symbols("J1:4", positive=True)
     letters = {"K": K, "s": s, **{f"J{n}": moment for n, moment in enumerate(moments, 1)}, "one": ONE}
     spin = sympy.Matrix([s * x / moment for x, moment in zip(K, moments, strict=True)])
@@ -94,7 +100,7 @@ def free_model() -> Model:
 
 
 def system_model() -> Model:
-    """Model any state of a body with principal moments, its rates, and any moments x_i and products y_i K."""
+    """Return the model of any Omega and K with the rates (16), (35), and any diagonal matrices X and Y."""
     x, y, Omega = (sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("x", "y", "Omega"))
     g, field = AXES.trace() * ONE - 2 * AXES, cross(K, Omega)
     rates = AXES.inv() * (cross(AXES * Omega, Omega) - cross(g * K, Omega))
@@ -104,7 +110,7 @@ def system_model() -> Model:
 
 
 def unidentified_model() -> Model:
-    """Model any field K that turns as the angular momentum s K of a free body with the moments J_i."""
+    """Return the model of any K whose rate is that of the angular momentum s K of a free body with moments J_i."""
     moments = J1, J2, J3 = sympy.symbols("J1:4", positive=True)
     names = ("s", "alpha", "beta", "gamma")
     letters = {name: sympy.Symbol(name, real=True) for name in names} | {"K": K, "J": sympy.diag(*moments), "one": ONE}
@@ -113,7 +119,7 @@ def unidentified_model() -> Model:
 
 
 def bodies_model(sign: int = 1) -> Model:
-    """Model I_i = J_i (J_j + J_k + s), each J_i the sum of two moments of mass, with an s of one sign."""
+    """Return the model of I_i = J_i (J_j + J_k + s'), s' of this ``sign``, each J_i a sum of two moments of mass."""
     (g1, g2, g3), s = sympy.symbols("g1:4", positive=True), sympy.Symbol("s", positive=True)
     moments = g2 + g3, g1 + g3, g1 + g2
     basis = sum(moments)
@@ -121,8 +127,9 @@ def bodies_model(sign: int = 1) -> Model:
 
 
 def linear_model() -> Model:
-    """Model the flow of half the sum of squares, linear about x_i M_i = -v K_i.
+    """Return the model of the flow of half the sum of squares, linearised about x_i M_i = -v K_i.
 
+    `char` is the characteristic polynomial in lam of the matrix of the linear flow, `rates` the rates at the point.
     Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, so that all entries are polynomials.
     """
     w, k, lam = sympy.symbols("w1:4"), sympy.symbols("k1:4"), sympy.Symbol("lam")
@@ -141,7 +148,7 @@ _SYSTEM = {r"(\operatorname{tr}Y-2Y)": "(tr(Y)*one - 2*Y)", "J^{-1}": "inv(J)"}
 
 
 def _component(i: int, j: int, k: int) -> str:
-    """Return the line of component i of theorem-identifiable, whose first one has i, j, k = 1, 2, 3."""
+    """Return the line of component i of theorem-identifiable; i, j, k are 1, 2, 3 or a cyclic permutation."""
     share, half = f"x{i}/I{i}*(I{j} - I{k})", f"(y{i} - x{i})"
     field = f"({share} - y{j} + y{k} + {half})*K{j}*Omega{k} + ({share} - y{j} + y{k} - {half})*K{k}*Omega{j}"
     equation = "(X*d(Omega) - cross(X*Omega,Omega) + cross((tr(Y)*one - 2*Y)*K,Omega))"

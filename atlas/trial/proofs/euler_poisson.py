@@ -46,9 +46,9 @@ def _antisymmetric(S: Value) -> Value:
 
 @cache
 def multiplier_model() -> Model:
-    """Return the model of (10) with any matrix A and its multipliers Lam: (10) holds if and only if Lam is symmetric.
+    """Return the model of (10) with any matrix A and multipliers Lam: (10) holds if and only if Lam is symmetric.
 
-    R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is I w by the symmetry of Lam.
+    R^T d2R = hat(Omega)^2 + hat(w), with w the rate of Omega. IdOmega is I w, solved from the symmetry of Lam.
     """
     A, w = matrix("A"), vector("w")
     Lam = -(hat(Omega) ** 2 + hat(w) + R.T * A) * g
@@ -61,7 +61,7 @@ def multiplier_model() -> Model:
 
 
 def mirrored_model() -> Model:
-    """Model minus a rotation: every orthogonal matrix of the determinant -1."""
+    """Return `multiplier_model` with -R in the place of R: every orthogonal matrix of determinant -1."""
     basis = multiplier_model()
     minus = {entry: -entry for entry in R}
     letters = {
@@ -71,14 +71,14 @@ def mirrored_model() -> Model:
 
 
 def magnetic_model() -> Model:
-    """Model the magnetic force of (7) as the matrix A, and I times the rate of Omega from (11)."""
+    """Return `multiplier_model` with the magnetic force of (7) as its matrix A; dR is R hat(Omega)."""
     letters, dR = multiplier_model().letters, R * hat(Omega)
     force = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
     return Model({**letters, "dR": dR}, [*zip(letters["A"], force, strict=True), *ROTATION])
 
 
 def euler(tensor: Value, mass: Value, field: Value) -> Value:
-    """I times the rate of Omega, (16) as proved, with the field seen from the body."""
+    """Return I dOmega/dt by (16) as corrected, (3, 1); ``tensor`` is I, ``mass`` is g, ``field`` is R^T B."""
     return cross(tensor * Omega, Omega) - mu / c * cross(mass * field, Omega)
 
 
@@ -101,7 +101,7 @@ def momentum_model() -> Model:
 
 
 def poisson_model() -> Model:
-    """Return the model of any moving rotation: R changes with its three parameters; Omega is read off R^T dR/dt."""
+    """Return the model of any moving rotation R(q1, q2, q3) with any rates of q; Omega is read off R^T dR/dt."""
     R = rotation()
     parameters = sympy.symbols("q1:4", real=True)
     flow = dict(zip(parameters, sympy.symbols("p1:4", real=True), strict=True))
@@ -112,7 +112,7 @@ def poisson_model() -> Model:
 
 
 def matrix_flow_model() -> Model:
-    """Return the model of any matrix that obeys (12)."""
+    """Return the model of any matrix R with the rate R hat(Omega), (12)."""
     entries = matrix("R")
     return Model(
         {"R": entries, "Omega": Omega}, flow=dict(zip(entries, entries * hat(Omega), strict=True)), laws="R by (12)"
@@ -120,7 +120,7 @@ def matrix_flow_model() -> Model:
 
 
 def diagonal_model() -> Model:
-    """Return the model of principal axes: I and g are diagonal, made of three masses on the axes."""
+    """Return the model of diagonal I and g on principal axes, any K and Omega."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
     diagonal = sympy.diag(g1, g2, g3)
     tensor = diagonal.trace() * sympy.eye(3) - diagonal
@@ -131,7 +131,7 @@ def diagonal_model() -> Model:
 
 
 def axes_model() -> Model:
-    """Return the model of three masses on the principal axes, turned by R: their inertia tensor in the laboratory."""
+    """Return the model of three masses on principal axes rotated by R; `turned` is their inertia tensor in space."""
     masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", positive=True)
     positions = [R.col(n) * x for n, x in enumerate(places)]
     tensor = sum((m * (dot(x, x) * sympy.eye(3) - x * x.T) for m, x in zip(masses, positions, strict=True)), R * 0)
@@ -144,7 +144,7 @@ def axes_model() -> Model:
 
 
 def inertia_model() -> Model:
-    """Model the inertia tensor from the kinetic energy of four particles that turn with Omega."""
+    """Return the model of g and I of four particles, I as second derivatives of the kinetic energy by Omega."""
     masses = sympy.symbols("m1:5", positive=True)
     places = [vector(f"x{n}_") for n in range(1, 5)]
     energy = sum(m * Omega.cross(x).dot(Omega.cross(x)) for m, x in zip(masses, places, strict=True)) / 2
@@ -153,7 +153,7 @@ def inertia_model() -> Model:
 
 
 def grioli_model() -> Model:
-    """Return the model with B along e3; G3 is the third row of R."""
+    """Return the model of (16) with B = (0, 0, b); G3 is the third row of R as a column."""
     b = sympy.Symbol("b", positive=True)
     field = sympy.Matrix([0, 0, b])
     return Model(
@@ -163,7 +163,7 @@ def grioli_model() -> Model:
 
 
 def algebraic_model() -> Model:
-    """Return the model of principal axes, any matrix A; IdOmega is I times the rate of Omega by (11)."""
+    """Return `multiplier_model` on principal axes: g and I are diagonal, the matrix A is any."""
     basis = multiplier_model()
     swap = {g[i, j]: 0 for i in range(3) for j in range(3) if i != j}
     letters = {**basis.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
@@ -171,7 +171,7 @@ def algebraic_model() -> Model:
 
 
 def moments_model() -> list[Model]:
-    """Return the models of any body with its three moments of mass, and a plane one."""
+    """Return two models of moments of mass g1, g2, g3 and of inertia: g3 > 0, and g3 = 0 (a plane body)."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
     cases = []
     for third in (g3, sympy.Integer(0)):
@@ -182,14 +182,18 @@ def moments_model() -> list[Model]:
 
 
 def covariance_model(sign: int = 1) -> Model:
-    """Model another rotation S of the laboratory, or minus one, and the vectors and tensors of Section II in it."""
+    """Return the model of S = ``sign`` times any rotation of the laboratory, any vectors Omega, K, tensors I, g."""
     symbols, bindings = rotation_symbols("S")
     letters = {"S": sign * symbols, "I": symmetric("I"), "g": symmetric("g"), "K": vector("K")}
     return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, bindings)
 
 
 def flight_model() -> Model:
-    """Return the model of four particles about their centre of mass; w is dOmega/dt, IdOmega is I dOmega/dt by (16)."""
+    """Return the model of four particles of a body in flight in fields E and B, with centre y0.
+
+    `x` are places from the centre of mass, `moved` those rotated, `y` those in space; w is any dOmega/dt, IdOmega is I
+    dOmega/dt by (16).
+    """
     masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))
     places = {N: vector(f"x{N}_") for N in (1, 2, 3)}
     places[4] = -sum((masses[N] * places[N] for N in places), sympy.zeros(3, 1)) / masses[4]

@@ -45,7 +45,7 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
 
 
 def _components(reader: Reader, side: ast.expr) -> Any:
-    """Evaluate a side for all values of its free indices."""
+    """Return the value of a side: an expression, or a matrix (3, 1) for one free index and (3, 3) for two."""
     indices = sorted(reader.free_indices(side))
     if not indices:
         return reader.value(side, {})
@@ -57,7 +57,7 @@ def _components(reader: Reader, side: ast.expr) -> Any:
 
 
 def _functions(side: ast.expr) -> set[str]:
-    """Return the names of the functions in a formula."""
+    """Return the names of the functions that a formula calls."""
     return {node.func.id for node in ast.walk(side) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
 
 

@@ -31,7 +31,10 @@ G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
 
 
 def top_model() -> Model:
-    """Model any state of the symmetric body in units of I2, K = b times a unit vector in stereographic coordinates."""
+    """Return the model of any state of the symmetric body, in units of I2, with the rates psi1 and chi1 of two angles.
+
+    K is b times a unit vector, nu = K3/b.
+    """
     basis = symmetric_model()
     K = sympy.Matrix([basis.letters[f"K{n}"] for n in (1, 2, 3)])
     bindings = list(zip(K, b * direction(), strict=True))
@@ -44,7 +47,7 @@ def top_model() -> Model:
 
 
 def letters_model() -> Model:
-    """Model the constants of the top as free letters, and u, with the quartics of the two theorems."""
+    """Return the model of u, nu and the top's constants as letters, Q of theorem-quartic and q of theorem-top."""
     names = ("E", "c5", "Bsquare")
     letters = {name: sympy.Symbol(name, real=True) for name in names}
     letters |= {"I": I, "b": b, "c3": c3, "H": H, "p": p, "u": u, "M3": I * c3, "nu": nu}
@@ -54,7 +57,10 @@ def letters_model() -> Model:
 
 
 def weierstrass_model() -> Model:
-    """Model any quartic with a root e, and P, P1 for the function of Weierstrass and its rate, P1^2 = 4P^3-g2 P-g3."""
+    """Return the model of any quartic Q with a root e; P and P1 are Weierstrass's function and its rate.
+
+    P1^2 = 4 P^3 - g2 P - g3 follows from the coefficients; the rate of P is P1.
+    """
     a = sympy.symbols("a0:4", real=True)
     remainder = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
     letters = {f"a{n}": value for n, value in enumerate((*a, remainder))} | {"e": e, "P": P, "P1": P1}
@@ -63,7 +69,10 @@ def weierstrass_model() -> Model:
 
 
 def curve_model() -> Model:
-    """Model nu on its curve, dnu = w, w^2 = q(nu), and the Cayley-Klein parameters up to a steady turn."""
+    """Return the model of nu with the rate w, w^2 = q(nu), and Cayley-Klein parameters a, eta.
+
+    Both parameters are those of the theorem up to a steady rotation.
+    """
     w, a, eta = sympy.symbols("w a eta", real=True)
     letters = {"nu": nu, "p": p, "M3": M3, "I": I, "b": b, "A": A, "a": a, "eta": eta}
     letters |= {"H": (g + M3**2 / I + b**2) / 2, "C": (g + M3**2) / 4}
@@ -76,7 +85,7 @@ def curve_model() -> Model:
 
 
 def residue_model() -> list[Model]:
-    """Model the place nu = -1, with a rate of nu of either sign, and the logarithmic rate of xi there."""
+    """Return two models of the place nu = -1, dnu/dt of sign 1 and -1, and the residue of xi's logarithmic rate."""
     w, cases = sympy.Symbol("w", real=True), []
     rate = (
         w + sympy.I * (p - M3 * nu)
@@ -103,7 +112,10 @@ def sigma_model() -> Model:
     factors: dict[Value, Value] = {}
 
     def zeta(argument: Value) -> Value:
-        """Return zeta of a place, or of t and a place."""
+        """Return Weierstrass's zeta of a place z, or of t + z or t - z by the addition theorem.
+
+        Raises ValueError for any other argument.
+        """
         if argument.coeff(t) == -1:
             return -zeta(-argument)
         place = next((symbol for symbol in vocabulary if argument.has(symbol)), t)
@@ -116,7 +128,7 @@ def sigma_model() -> Model:
         return sympy.Symbol("zeta_t", real=True) + sign * value + (P1 - sign * rate) / (P - height) / 2
 
     def sigma(place: Value) -> Value:
-        """Return sigma of t and a place: a letter whose logarithmic rate is zeta."""
+        """Return the letter for Weierstrass's sigma of ``place``, such as t - z; its logarithmic rate is zeta."""
         return factors.setdefault(place, sympy.Symbol(f"sigma{len(factors)}", positive=True))
 
     x = e + slope / 4 / (P - bend / 24)

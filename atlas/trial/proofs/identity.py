@@ -13,7 +13,7 @@ Value = Any
 
 
 def ordered(bindings: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
-    """Sort definitions so that each comes after those that it uses."""
+    """Return the pairs (symbol, value) in an order in which each comes after those whose symbols its value contains."""
     remaining, result = list(bindings), list[tuple[Value, Value]]()
     done: set[Value] = set()
     names = {symbol for symbol, _ in bindings}
@@ -28,7 +28,7 @@ def ordered(bindings: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
 
 
 def resolved(bindings: list[tuple[Value, Value]]) -> dict[Value, Value]:
-    """Return the value of each symbol of `bindings` in free parameters alone."""
+    """Return a dictionary from each symbol of ``bindings`` to its value in free parameters alone."""
     values: dict[Value, Value] = {}
     for symbol, value in ordered(bindings):
         values[symbol] = sympy.cancel(sympy.sympify(value).xreplace(values))
@@ -71,7 +71,10 @@ def vanishes(difference: Value, bindings: dict[Value, Value] | None = None) -> b
 
 
 def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value:
-    """Multiply a polynomial in s = 1/n by the power of n that clears s."""
+    """Return a polynomial in s = 1/n multiplied by the lowest power of n that clears s, the generator number ``place``.
+
+    ``bottom`` is n as an element of the ring ``algebra``.
+    """
     by_power: dict[int, dict[tuple[int, ...], Value]] = {}
     for powers, coefficient in element.terms():
         by_power.setdefault(powers[place], {})[(*powers[:place], 0, *powers[place + 1 :])] = coefficient
@@ -82,12 +85,15 @@ def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value
 
 
 def sign_forms(value: Value, *, strict: bool) -> list[bool]:
-    """Whether a function of symbols of known sign is positive (nonnegative): as it is, by factors, or term by term."""
+    """Return three booleans: whether SymPy sees that a function is positive as given, factored, and expanded.
+
+    Without ``strict`` nonnegative suffices. False means that its sign is not seen.
+    """
     factored = sympy.factor(sympy.together(value))
     forms = value, factored, sympy.expand(sympy.numer(factored)) / sympy.expand(sympy.denom(factored))
     return [bool(form.is_positive or (not strict and form.is_nonnegative)) for form in forms]
 
 
 def positive(value: Value, *, strict: bool) -> bool:
-    """Whether a function of symbols of known sign is positive (nonnegative)."""
+    """Whether SymPy can see that a function of symbols of known sign is positive, or nonnegative without ``strict``."""
     return any(sign_forms(value, strict=strict))

@@ -57,16 +57,16 @@ COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": distances
 
 
 def potential_energy(*, equal: bool = True) -> Value:
-    """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m.
+    """Return minus U of (2): the sum of e A0(y) + (e/c) (A(y), v) over particles, A0 = (y, E), A = [B, y]/2.
 
-    All particles have one charge-to-mass ratio, as the paper supposes, or each its own.
+    All particles have one ratio mu of charge to mass, as in the paper, or, unless ``equal``, each its own.
     """
     charges = {N: (mu if equal else sympy.Symbol(f"mu{N}", real=True)) * m[N] for N in ALL}
     return sum(charges[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
 
 
 def free_action() -> Value:
-    """Kinetic energy, and each constraint with its multiplier."""
+    """Return the kinetic energy plus half of each constraint times its multiplier."""
     kinetic = sum(m[N] * dot(dy[N], dy[N]) for N in ALL) / 2
     inner = {key: dot(y[key[0]] - y[1], y[key[1]] - y[1]) - distances[key] for key in lam}
     return kinetic + sum(lam[key] * inner[key] for key in lam) / 2
@@ -74,7 +74,7 @@ def free_action() -> Value:
 
 @cache
 def forces(*, equal: bool = True) -> dict[int, Value]:
-    """Return m times acceleration of each particle: the variation of the action, d/dt dL/dv = dL/dy."""
+    """Return mass times acceleration (3, 1) of each particle, by varying the action: d/dt dL/dv = dL/dy; cached."""
     L = sympy.expand(free_action() + potential_energy(equal=equal))
     sums = {}
     for N in ALL:
@@ -85,12 +85,12 @@ def forces(*, equal: bool = True) -> dict[int, Value]:
 
 
 def action_model() -> Model:
-    """Return the model of the letters of the action."""
+    """Return the model of places y, velocities dy and the Lagrangian L without potential energy."""
     return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES)
 
 
 def potential_model() -> Model:
-    """Return the model of the letters of the potential energy."""
+    """Return the model of places, velocities, U, and the potentials A0, A and charges e of each particle."""
     A0 = {N: dot(y[N], E) for N in ALL}
     A = {N: cross(Bf, y[N]) / 2 for N in ALL}
     e = {N: mu * m[N] for N in ALL}
@@ -98,7 +98,7 @@ def potential_model() -> Model:
 
 
 def particles_model() -> Model:
-    """Model the particles with accelerations from the action."""
+    """Return the model of the particles with accelerations ddy from the action, and rates dy0, ddy0 of their centre."""
     forces_on_particles = forces()
     ddy = {N: forces_on_particles[N] / m[N] for N in ALL}
     mass = sum(m.values())
@@ -109,10 +109,10 @@ def particles_model() -> Model:
 
 @cache
 def relative_model(*, equal: bool = True) -> Model:
-    """Model the particles about the centre of mass, whose acceleration is that of (4).
+    """Return the model of the particles about their centre of mass, with accelerations ddx there; cached.
 
-    Where each has a charge-to-mass ratio of its own, that acceleration is the mean of theirs. Places and velocities are
-    letters of the centre and of all particles but the last, whose own follow from these.
+    The centre has the acceleration (4), or, unless ``equal``, the mean of the particles'. Places and velocities of all
+    particles but the last are letters; those of the last follow.
     """
     mass = sum(m.values())
     y0, v0 = vector("y0_"), vector("v0_")
@@ -130,19 +130,19 @@ def relative_model(*, equal: bool = True) -> Model:
 
 
 def _about_centre(places: dict[int, Value]) -> dict[int, Value]:
-    """Return places about the centre of mass: those of all particles but the last are free."""
+    """Return places (3, 1) by particle with the last replaced so that the centre of mass is 0."""
     remainder = -sum((m[N] * places[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
     return {**places, ALL[-1]: remainder}
 
 
 def free_model(*, equal: bool = True) -> Model:
-    """Model the free particles with N for those whose places and velocities are letters."""
+    """Return `relative_model` with the index N over all particles but the last."""
     basis = relative_model(equal=equal)
     return replace(basis, ranges={**RANGES, "N": ALL[:-1]})
 
 
 def _push(x: dict[int, Value]) -> dict[int, Value]:
-    """Return forces of the constraints on particles at x."""
+    """Return by particle the force (3, 1) of the constraints, with the particles at ``x`` and without fields."""
     no_field = dict.fromkeys((*E, *Bf), 0)
     places = {s: value for N in ALL for s, value in zip(y[N], x[N], strict=True)}
     return {N: forces()[N].xreplace(no_field).xreplace(places) for N in ALL}
@@ -153,7 +153,7 @@ def _components(x: dict[int, Value]) -> dict[Any, Value]:
 
 
 def rotation_model() -> Model:
-    """Model the particles at x_N(t) = R x_N(0); R and its rate are any matrices, as linear algebra needs no more."""
+    """Return the model of particles at x_N(t) = R x_N(0), with any matrices R and dR: linear algebra needs no more."""
     x = y
     R, dR = matrix("R"), matrix("W")
     push = _push(x)
@@ -173,7 +173,7 @@ def rotation_model() -> Model:
 
 
 def rigid_model() -> Model:
-    """Model the frame of particles 2, 3, 4 seen from particle 1, as columns of X at t and X0 at 0; R X0 = X."""
+    """Return the model of vectors from particle 1 to 2, 3, 4: columns of X at t and of X0 at 0, and R = X X0^-1."""
     X, X0 = matrix("X"), matrix("Y")
     letters = {"X": X, "X0": X0, "R": X * X0.adjugate() / X0.det(), "inverse": X0.adjugate() / X0.det()}
     letters["x"] = {N: X.col(N - 2) for N in FRAME}
@@ -181,20 +181,23 @@ def rigid_model() -> Model:
 
 
 def plane_model() -> Model:
-    """Model a frame whose vectors X lie in one plane, a particle x0 there, and x, out of the plane by a height."""
+    """Return the model of vectors X in one plane, a particle x0 there, and x above x0 at a height."""
     X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
     x0, height = sympy.Matrix([*sympy.symbols("p1:3", real=True), 0]), sympy.Symbol("height", positive=True)
     return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height]), "height": height})
 
 
 def spatial_model() -> Model:
-    """Model a frame of three independent vectors, a particle x0, and x, solved from the products that are kept."""
+    """Return the model of three independent vectors X, a place x0, and x with the same products: X^T x = X^T x0."""
     X, x0 = matrix("X"), vector("p")
     return Model({"X": X, "x0": x0, "x": (X.T.adjugate() / X.det()) * (X.T * x0)})
 
 
 def _equivalent(line: str) -> str:
-    """Return that X = 0 if and only if P = Q, as one is a multiple of the other: (1 + delta) X = P - Q."""
+    """Return the line (1 + delta) (X - 0) = P - Q for the line "X = 0.
+
+    P = Q": each equation then follows from the other.
+    """
     slope, held_ = equations(line)
     minuend, subtrahend = (ast.unparse(side) for side in (held_.left, held_.comparators[0]))
     zero = ast.unparse(slope.comparators[0])

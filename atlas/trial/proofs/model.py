@@ -10,7 +10,7 @@ Value = Any
 
 
 class _Indexed:
-    """A function of indices, written with brackets."""
+    """A function of integer indices, called with square brackets as eps[i, j, k]."""
 
     def __init__(self, function: Callable[..., Value]) -> None:
         self.function = function
@@ -20,7 +20,7 @@ class _Indexed:
 
 
 def certain(fact: Any) -> None:
-    """Raise ArithmeticError unless a premise of a model holds."""
+    """Raise ArithmeticError if ``fact``, a premise on which a model is built, is false."""
     if not fact:
         raise ArithmeticError("a model builds on something that isn't so")
 
@@ -31,7 +31,10 @@ def cross(a: Value, b: Value) -> Value:
 
 
 def partial(value: Value, by: Value) -> Value:
-    """Gradient of a number, or the Jacobian of a vector, by a vector of symbols; the derivative by one symbol."""
+    """Return the derivative of ``value`` by a symbol or by a column of N symbols.
+
+    By a column it is the gradient of a number, (N, 1), or the Jacobian of a column, entry (i, j) = d value_i/d by_j.
+    """
     if not isinstance(by, sympy.MatrixBase):
         return sympy.diff(value, by)
     return sympy.Matrix([value]).jacobian(by).T if not isinstance(value, sympy.MatrixBase) else value.jacobian(by)
@@ -43,7 +46,7 @@ def dot(a: Value, b: Value) -> Value:
 
 
 def entrywise(act: Callable[[Value], Value]) -> Callable[[Value], Value]:
-    """Let a function of one number act on every entry of a matrix too."""
+    """Return a function that applies ``act``, a function of one number, to a number or to every entry of a matrix."""
     return lambda value: value.applyfunc(act) if isinstance(value, sympy.MatrixBase) else act(sympy.sympify(value))
 
 
@@ -75,33 +78,36 @@ COMMON: dict[str, Value] = {
 
 
 def vector(name: str, **assumed: bool) -> Value:
-    """Return a vector of three symbols name1, name2, name3."""
+    """Return the column (3, 1) of symbols name1, name2, name3, real unless other assumptions of SymPy are given."""
     return sympy.Matrix(sympy.symbols(f"{name}1:4", **(assumed or {"real": True})))
 
 
 def matrix(name: str) -> Value:
-    """Return a matrix of nine symbols name11 ... name33."""
+    """Return the matrix (3, 3) of nine real symbols name11 ... name33."""
     return sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"{name}{i + 1}{j + 1}", real=True))
 
 
 def symmetric(name: str) -> Value:
-    """Return a symmetric matrix of six symbols."""
+    """Return the symmetric matrix (3, 3) of six real symbols name11, name12, ... name33."""
     return sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"{name}{min(i, j) + 1}{max(i, j) + 1}", real=True))
 
 
 def hat(v: Value) -> Value:
-    """Return the matrix whose product with x is the vector product [v, x]."""
+    """Return the antisymmetric matrix (3, 3) whose product with a column x is the vector product [v, x]."""
     return sympy.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 
 def direction() -> Value:
-    """Return every unit vector but one, in two free parameters."""
+    """Return a unit vector (3, 1), rational in real symbols x, y: any but -e3 (stereographic projection)."""
     x, y = sympy.symbols("x y", real=True)
     return sympy.Matrix([2 * x, 2 * y, 1 - x**2 - y**2]) / (1 + x**2 + y**2)
 
 
 def rotation(name: str = "q") -> Value:
-    """Return every rotation but the half turns, as a rational function of three symbols (Cayley)."""
+    """Return a rotation matrix (3, 3), rational in three real symbols: any but half turns (Cayley's formula).
+
+    The symbols are name1, name2, name3.
+    """
     x, y, z = sympy.symbols(f"{name}1:4", real=True)
     n = 1 + x**2 + y**2 + z**2
     return (
@@ -117,23 +123,26 @@ def rotation(name: str = "q") -> Value:
 
 
 def rotation_symbols(name: str = "R") -> tuple[Value, list[tuple[Value, Value]]]:
-    """Return a matrix of nine symbols, and the pairs (symbol, value) that make a rotation of the matrix."""
+    """Return the matrix (3, 3) of nine symbols, see `matrix`, and nine pairs (symbol, entry of `rotation`)."""
     symbols = matrix(name)
     return symbols, list(zip(symbols, rotation(), strict=True))
 
 
 def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
-    """Rotation about a unit vector by the angle with that cosine and sine."""
+    """Return the matrix (3, 3) of the right-handed rotation about a unit vector by an angle of this cosine and sine."""
     return cosine * sympy.eye(3) + (1 - cosine) * axis * axis.T + sine * hat(axis)
 
 
 def turn(p: Value) -> tuple[Value, Value]:
-    """Cosine and sine of the angle with tan(angle/2) = p: every angle but pi."""
+    """Return (cosine, sine) of the angle with tan(angle/2) = p: every angle but pi."""
     return (1 - p**2) / (1 + p**2), 2 * p / (1 + p**2)
 
 
 def functions(name: str, value: Value, variable: Value) -> dict[str, Callable[[Value], Value]]:
-    """Return a function of one variable and its first three derivatives, q, dq, ddq and dddq, as letters."""
+    """Return functions of one number by name: q, from the expression ``value`` in ``variable``, dq, ddq, dddq.
+
+    The others are its first three derivatives.
+    """
 
     def derivative(order: int) -> Callable[[Value], Value]:
         return lambda argument: sympy.diff(value, variable, order).xreplace({variable: argument})
@@ -166,7 +175,12 @@ class Model:
     laws: str = ""
 
     def __post_init__(self) -> None:
-        """Add the letters that every formula may use."""
+        """Complete `letters` by `COMMON`, components K1, K2, K3 of each vector K, and functions of this model.
+
+        These are `d` and `d2` where the model has a `flow`, `at0` where it has a `start`, and `cos`, `sin`, `tan` where
+        it has `phases`. A letter given by the caller replaces one of `COMMON` or a component, but none of these
+        functions.
+        """
         vectors = [(name, value) for name, value in self.letters.items() if getattr(value, "shape", ()) == (3, 1)]
         operators: dict[str, Value] = {}
         if self.flow:
@@ -183,15 +197,21 @@ class Model:
         self.letters = {**COMMON, **components, **self.letters, **operators}
 
     def rate(self, value: Value) -> Value:
-        """Rate in time along the flow."""
+        """Return the time derivative of an expression, by the rates of the symbols in `flow`."""
         return sum((sympy.diff(value, x) * rate for x, rate in self.flow.items() if value.has(x)), sympy.Integer(0))
 
     def about(self, axis: Value) -> Callable[[Value], Value]:
-        """Return the rotation about a unit vector as a function of the angle."""
+        """Return a function from an angle to the matrix (3, 3) of the right-handed rotation about a unit vector.
+
+        Integer multiples of `phases` enter by their cosines and sines.
+        """
         return lambda angle: rodrigues(axis, *self._cosine_sine(angle))
 
     def _cosine_sine(self, angle: Value) -> tuple[Value, Value]:
-        """Cosine and sine of a whole combination of the phases and of pi, as polynomials in their cosines and sines."""
+        """Return (cosine, sine) of an angle; integer multiples of `phases` as polynomials in their cosines and sines.
+
+        Of any other term of the angle these are SymPy's cos and sin.
+        """
         c, s = sympy.Integer(1), sympy.Integer(0)
         basis = any(sympy.cancel(angle / phase).is_Integer for phase in self.phases)
         for term in [angle] if basis else sympy.Add.make_args(sympy.expand(angle)):

@@ -34,7 +34,10 @@ class NoMeaningError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """One comparison of two formulas, in components: the values of both sides for each set of free indices."""
+    """One comparison of two formulas: `text` in plain letters, `letters` in it, `sign` such as "<=".
+
+    `lhs` and `rhs` are the values of both sides, one entry for each component and each value of the free indices.
+    """
 
     text: str
     letters: tuple[str, ...]
@@ -44,7 +47,10 @@ class Relation:
 
 
 def parse(line: str) -> list[ast.Compare]:
-    """Return the relations of a line as syntax trees."""
+    """Return one syntax tree for each relation of a line; "=" is read as "==", "^" as "**".
+
+    Raises NoMeaningError for a statement without a sign of comparison, SyntaxError for one that Python can't read.
+    """
     trees = []
     for text in line.split(";"):
         python = re.sub(r"(?<![<>!=])=(?!=)", "==", text.strip()).replace("^", "**")
@@ -56,7 +62,7 @@ def parse(line: str) -> list[ast.Compare]:
 
 
 def equations(line: str) -> list[ast.Compare]:
-    """Return the relations of a line, all of which are equations; NoMeaningError if one isn't."""
+    """Return the relations of a line as syntax trees. Raises NoMeaningError if one of them is not an equation."""
     trees = parse(line)
     if not all(isinstance(sign, ast.Eq) for tree in trees for sign in tree.ops):
         raise NoMeaningError(f"{line} is not said with signs of equality")
@@ -64,19 +70,23 @@ def equations(line: str) -> list[ast.Compare]:
 
 
 def write(trees: list[ast.Compare]) -> str:
-    """Return the line of these syntax trees, the inverse of parse."""
+    """Return the line of `notation` for syntax trees, relations joined by "; ": the inverse of `parse`."""
     text = "; ".join(ast.unparse(tree) for tree in trees)
     return re.sub(r" ([*/^]) ", r"\1", text.replace("==", "=").replace("**", "^"))
 
 
 def sides(line: str) -> list[str]:
-    """Return the sides of the first relation of a line."""
+    """Return the sides of the first relation of a line as texts. Raises NoMeaningError if a relation is no equation."""
     tree = equations(line)[0]
     return [write([ast.Compare(side, [ast.Eq()], [ast.Constant(0)])])[:-4] for side in (tree.left, *tree.comparators)]
 
 
 def conserved(line: str) -> str:
-    """Return three statements for a = c = b of a conserved quantity: a = c, a rate of zero, and b at t = 0."""
+    """Return the line "a = c; d(a) = 0; at0(c) = b" for a = c = b, which says that a is conserved.
+
+    For a = b it is "d(a) = 0; at0(a) = b". Equations of a longer line are treated one by one. Raises NoMeaningError for
+    a relation that is no equation.
+    """
     lines: list[str] = []
     for tree in equations(line):
         sides = [ast.unparse(side) for side in (tree.left, *tree.comparators)]
@@ -95,7 +105,7 @@ def names(node: ast.AST) -> set[str]:
 
 
 def factors(node: ast.expr) -> Iterator[tuple[ast.expr, bool]]:
-    """Yield the factors of a product, each with whether it divides."""
+    """Yield pairs (factor, whether it divides) of a product or quotient; (formula, False) for any other formula."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div):
         yield from factors(node.left)
         divides = isinstance(node.op, ast.Div)
@@ -110,7 +120,10 @@ def is_sum(node: ast.expr) -> TypeGuard[ast.BinOp]:
 
 
 class Reader:
-    """Reads lines with given letters; indices run over 1, 2, 3 unless `ranges` says otherwise."""
+    """Evaluates lines with given values of letters; indices run over 1, 2, 3 unless `ranges` gives other integers.
+
+    A letter without a value is a real symbol of its name.
+    """
 
     def __init__(self, letters: Mapping[str, Value], ranges: Mapping[str, tuple[int, ...]] | None = None) -> None:
         self.letters = letters
@@ -118,7 +131,10 @@ class Reader:
         self._fixed: dict[str, Value] = {}  # parts without indices, which sums would build again and again
 
     def relations(self, line: str) -> list[Relation]:
-        """Return all relations of a line; a chain a = b = c gives two."""
+        """Return the `Relation` of each comparison in a line; a chain a = b = c gives two, a = b and b = c.
+
+        Raises NoMeaningError if the free indices of its sides differ, or a vector stands beside a number other than 0.
+        """
         relations = []
         for tree in parse(line):
             sides = [tree.left, *tree.comparators]
@@ -145,7 +161,10 @@ class Reader:
         return relations
 
     def free_indices(self, node: ast.expr) -> set[str]:
-        """Return the free indices of a formula, particles apart; NoMeaningError if terms of a sum differ."""
+        """Return the names of the free indices of a formula, without those of particles (`ranges`).
+
+        Raises NoMeaningError if terms of a sum have different free indices.
+        """
         if is_sum(node):
             lhs, rhs = self.free_indices(node.left), self.free_indices(node.right)
             if lhs != rhs and not is_zero(node.left) and not is_zero(node.right):
@@ -174,7 +193,10 @@ class Reader:
         return NoMeaningError("the indices do not balance", *says)
 
     def value(self, node: ast.expr, bound: Mapping[str, int]) -> Value:
-        """Return the value of a formula, indices in `bound` given, all others summed."""
+        """Return the value of a formula, an expression or a matrix, with the indices in ``bound`` at these integers.
+
+        All other indices are summed over. Raises KeyError for a function that the letters lack.
+        """
         if bound and not names(node) and not isinstance(node, ast.Constant | ast.Name):
             key = ast.dump(node)
             if key not in self._fixed:
@@ -191,7 +213,10 @@ class Reader:
         return sum(terms[1:], terms[0]) if terms else sympy.Integer(0)
 
     def summed(self, operands: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
-        """Return the indices over which a product of these factors is summed as a whole."""
+        """Return those of ``indices`` over which the product is summed as a whole.
+
+        An index within a single factor that is itself a sum is summed inside that factor.
+        """
         holders = {name: [factor for factor, _ in operands if name in names(factor)] for name in indices}
         return {name for name, group in holders.items() if len(group) > 1 or not is_sum(group[0])}
 
@@ -202,7 +227,10 @@ class Reader:
     def _products(
         self, operands: list[tuple[ast.expr, bool]], sums: set[str], bound: dict[str, int], so_far: Value
     ) -> Iterator[Value]:
-        """Yield the terms of a sum over indices, factor by factor: products with a first factor zero are skipped."""
+        """Yield ``so_far`` times each product of factor values, one product for each value of the indices ``sums``.
+
+        A factor that has a new index and is zero, and is no divisor, is skipped with all its products.
+        """
         if not operands:
             yield so_far
             return
@@ -237,7 +265,10 @@ class Reader:
         return self.value(node, bound)
 
     def _power(self, base: Value, power: Value) -> Value:
-        """Return the square of a vector, its scalar product with itself, or a power or the inverse of a matrix."""
+        """Return v.v for a vector and the exponent 2, a power of a square matrix, or its inverse for the exponent -1.
+
+        Raises NoMeaningError for another power of a vector, and for an exponent of a matrix that is no integer.
+        """
         if base.shape[1] == 1 and power == 2:
             return base.dot(base)
         if base.shape[1] == 1 or not getattr(power, "is_Integer", False):
@@ -245,7 +276,10 @@ class Reader:
         return self.letters["inv"](base) if power == -1 else base**power
 
     def _entry(self, node: ast.Subscript, bound: Mapping[str, int]) -> Value:
-        """Return the entry of a vector, matrix or table at indices; those of a matrix count from one."""
+        """Return the entry of a vector, matrix or dictionary at indices; those of vectors and matrices count from 1.
+
+        Raises NoMeaningError if a dictionary with a key above 3 has a spatial index.
+        """
         base = self._factor(node.value, bound)
         strange = isinstance(node.slice, ast.Name) and node.slice.id not in self.ranges
         if strange and isinstance(base, dict) and any(isinstance(key, int) and key > 3 for key in base):
@@ -257,7 +291,7 @@ class Reader:
 
 
 def letters_of(tree: ast.AST) -> tuple[str, ...]:
-    """Return the letters of a formula that aren't indices or functions, in order."""
+    """Return the distinct letters of a formula in their order, without indices in brackets and names of functions."""
     functions = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     inside = {id(name) for node in ast.walk(tree) if isinstance(node, ast.Subscript) for name in ast.walk(node.slice)}
     letters = [node for node in ast.walk(tree) if isinstance(node, ast.Name) and id(node) not in functions | inside]
@@ -270,7 +304,10 @@ def is_zero(node: ast.expr) -> bool:
 
 
 def _entries(lhs: Value, rhs: Value) -> list[tuple[Value, Value]]:
-    """Pair two values entry by entry; the number 0 stands for a zero matrix of any shape."""
+    """Return pairs of corresponding entries of two values: one pair for two numbers.
+
+    The number 0 stands for a zero matrix of any shape. Raises NoMeaningError if the shapes differ.
+    """
     matrices = [isinstance(side, sympy.MatrixBase) for side in (lhs, rhs)]
     if not any(matrices):
         return [(lhs, rhs)]

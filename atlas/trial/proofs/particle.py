@@ -39,14 +39,17 @@ e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
 
 
 def euler(lagrangian: Value) -> Value:
-    """Acceleration that a Lagrangian gives: d/dt dL/dv = dL/dy, solved."""
+    """Return the acceleration (3, 1) by a Lagrangian of place y and velocity v: d/dt dL/dv = dL/dy, solved."""
     momentum = partial(lagrangian, v)
     force = partial(lagrangian, y) - momentum.jacobian(y) * v
     return (momentum.jacobian(v).inv() * force).applyfunc(sympy.cancel)
 
 
 def lagrangian_model() -> Model:
-    """Model the Lagrangian of (104) with the potentials of (102), mu = e/m; its acceleration by variation."""
+    """Return the model of the Lagrangian (104) with the potentials (102): K, U, and the acceleration ddy by variation.
+
+    `force`, `grad`, `curl` and `acceleration` are functions of expressions in y and v.
+    """
     A0, A = dot(y, E), cross(B, y) / 2
     L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
     letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
@@ -65,14 +68,14 @@ def lagrangian_model() -> Model:
 
 
 def potentials_model() -> Model:
-    """Model the potentials (102), or any part of E taken from A0 to A, which then changes in time."""
+    """Return the model of the potentials (102) with any share of E taken from A0 into an A that changes in time."""
     base, share = lagrangian_model().letters, sympy.Symbol("share", real=True)
     letters = {**base, "A0": (1 - share) * base["A0"], "A": base["A"] - share * c * t * E}
     return Model({**letters, "partial_t": lambda field: field.diff(t)})
 
 
 def velocity_model() -> Model:
-    """Model a particle with the velocity of the line."""
+    """Return the model of a particle at y with velocity dy, in fields E and B, and a constant vector C."""
     C = vector("C")
     letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
     flow = {t: sympy.Integer(1), **dict(zip(y, v, strict=True))}
@@ -80,7 +83,7 @@ def velocity_model() -> Model:
 
 
 def fall_model() -> Model:
-    """Return the model with B = 0."""
+    """Return the model of a particle without magnetic field: y0, C, E and mu; its solution is defined by the line."""
     C, y0 = vector("C"), vector("yo")
     letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
@@ -99,7 +102,7 @@ def _split() -> dict[str, Value]:
 
 
 def split_model() -> Model:
-    """Return the model of (90), B along e3, E in the plane (e2, e3), in parts along and across B; any sign of mu."""
+    """Return the model of (90) in parts along and across B = (0, 0, b), E in the plane (e2, e3), mu of any sign."""
     components = _split()
     flow = dict(zip(components["y"], components["dypar"] + components["dyperp"], strict=True))
     start = {t: sympy.Integer(0), components["y"][2]: components["ypar0"][2]}
@@ -107,21 +110,21 @@ def split_model() -> Model:
 
 
 def parallel_model() -> Model:
-    """Return the model of constants of the motion along B."""
+    """Return the model of constants for the part along B, with ypar left to be defined by the line."""
     letters = _split()
     del letters["ypar"]
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
 def fall_along_model() -> Model:
-    """Return the model of the fall (93) along B."""
+    """Return the model of the part along B by (93), ypar as a function of t."""
     components = _split()
     ypar = components["ypar0"] + components["Cpar"] * t + mu * PARALLEL * t**2 / 2
     return Model({**components, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
 def helix_model() -> Model:
-    """Return the model with E = 0: the part across B, from its centre, and the part along B."""
+    """Return the model with E = 0: y2, the part across B from its centre, and ypar, which rises with velocity C3."""
     place, rise = vector("y"), sympy.Symbol("C3", real=True)
     speed_across = sympy.diag(1, 1, 0) * place
     flow = dict(zip(place, mu / c * cross(speed_across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
@@ -129,7 +132,7 @@ def helix_model() -> Model:
 
 
 def along_field_model() -> list[Model]:
-    """Return the models with B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
+    """Return two models with B = 0, mu > 0 and mu < 0: the motion of text-no-magnetic-field in E along e3."""
     C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
     cases = []
     for mu in (strength, -strength):
@@ -139,7 +142,7 @@ def along_field_model() -> list[Model]:
 
 
 def shifted_model() -> Model:
-    """Model the shifted variables y1 and y2 of the part across B, with their rates by (92)."""
+    """Return the model of the shifted variables y1 and y2 of the part across B, with their rates by (92)."""
     components = _split()
     drift = c * cross(ACROSS, ALONG_Z) / b**2
     second = (c * cross(components["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
@@ -153,9 +156,9 @@ def shifted_model() -> Model:
 
 
 def charges_model(choice: str = "any") -> list[Model]:
-    """Return the models with B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
+    """Return two models, mu > 0 and mu < 0, with B along e3 and E_perp along e2; omega t and omega0 are phases.
 
-    choice: C_perp, any vector across B, or the choice of the text for (99) or for (100).
+    ``choice`` sets C_perp: "any" vector across B, that of the text for (99), "origin", or for (100), "trochoid".
     """
     cases = []
     for sign in (1, -1):
@@ -175,7 +178,7 @@ def charges_model(choice: str = "any") -> list[Model]:
 
 
 def drift_model() -> list[Model]:
-    """Model the velocity that (89) keeps constant, solved from (89), for a charge of either sign."""
+    """Return two models, mu > 0 and mu < 0, of the velocity `drift` that (89) keeps constant, solved from (89)."""
     cases = []
     for case in charges_model():
         remainder = sympy.symbols("rest1:3", real=True)
@@ -188,18 +191,18 @@ def drift_model() -> list[Model]:
 
 
 def signed_model(choice: str = "any") -> list[Model]:
-    """Model the drift with a frequency that has the sign of the charge."""
+    """Return the two models of `charges_model` with omega of the sign of mu."""
     model, second = charges_model(choice)
     return [model, replace(second, bindings=[(omega, -strength * b / c), *second.bindings[1:]])]
 
 
 def _general(model: Model, **letters: Value) -> Value:
-    """Return the right side of (98) with other letters."""
+    """Return the right side (3, 1) of (98) at the model's letters, some of them replaced."""
     return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 
 def start_model() -> list[Model]:
-    """Return the models of (98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
+    """Return two models of (98) as corrected, with omega0 = 0 and the C_perp for which its first term vanishes."""
     return [
         replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
         for model in signed_model("origin")
@@ -211,7 +214,10 @@ _SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
 
 
 def trajectory_model(*, signed: bool = True) -> list[Model]:
-    """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
+    """Return two models, mu > 0 and mu < 0, of ypar of (93) and yperp of (99).
+
+    omega has the sign of mu if ``signed``; otherwise it is positive as in (97), and the models are those of t = 0.
+    """
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
         letters = dict(model.letters)
@@ -222,7 +228,7 @@ def trajectory_model(*, signed: bool = True) -> list[Model]:
 
 
 def later_model() -> list[Model]:
-    """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
+    """Return two models with (98) as corrected as a function `place` of time, C_perp and omega0."""
 
     def place(model: Model) -> Callable[..., Value]:
         return lambda time, constant, angle: _general(model, t=time, Cperp=constant, omega0=angle)

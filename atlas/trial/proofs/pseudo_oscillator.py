@@ -31,7 +31,10 @@ START = dict(zip([*Omega, *K], [*omega, 0, B2, B3], strict=True))
 
 
 def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
-    """E', c3, c5 at a point: twice the energy over I2, and the conserved quantities of (40) and (41)."""
+    """Return E', c3 and c5 at a point by name: twice the energy over I2, (40) and (41).
+
+    ``spin`` is Omega, ``field`` K, ``scale`` I = I3/I2.
+    """
     c3 = field[2] + spin[2]
     return {
         "E": spin[0] ** 2 + spin[1] ** 2 + scale * spin[2] ** 2,
@@ -41,7 +44,10 @@ def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
 
 
 def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Value]:
-    """Coefficients of the cubic, (48) as corrected; square is that of the field."""
+    """Return the coefficients a0 ... a3 of the cubic (48), as corrected, by name.
+
+    ``values`` has E', c3, c5; ``square`` is K^2, ``scale`` I = I3/I2.
+    """
     E, c3, c5 = values["E"], values["c3"], values["c5"]
     return {
         "a0": ((2 - scale) * c5 + E) * c3,
@@ -53,7 +59,10 @@ def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Va
 
 @cache
 def state_model() -> Model:
-    """Return the model of any state Omega, K of (34), (35), with E', c3 and c5 as functions of the state."""
+    """Return the model of any Omega, K with rates (34), (35), and E', c3, c5, the cubic, phi and f at that state.
+
+    Cached.
+    """
     energy = (tensor * Omega).dot(Omega) / 2
     letters = {"omega": omega, "Omega": Omega, "K": K, "B2": B2, "B3": B3, "I": ratio, **integrals(Omega, K, ratio)}
     letters |= {"E": 2 * energy / I2, "energy": energy, "I1": I1, "I2": I2, "I3": I3, "Bsquare": dot(K, K)}
@@ -69,12 +78,12 @@ def state_model() -> Model:
 
 
 def launch_model() -> Model:
-    """Model the state at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
+    """Return `state_model` at the start in the paper's field: K = B' = (0, B2, B3), both positive."""
     return replace(state_model(), bindings=[(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)])
 
 
 def field_model() -> Model:
-    """Return the model of (16) and (12) with K = mu/(2c) R^T B and a symmetric body."""
+    """Return the model of a symmetric body with K = mu/(2c) R^T B, I dOmega/dt by (16) and dK/dt by (12)."""
     (R, bindings), B = rotation_symbols(), vector("B")
     mu, c = general.mu, general.c
     field_in_body = mu / (2 * c) * R.T * B
@@ -99,7 +108,7 @@ def field_model() -> Model:
 
 
 def frame_model() -> Model:
-    """Return the model with B' = (0, B'2, B'3), K = R^T B' with B = 2c/mu B', and R = 1 at t = 0."""
+    """Return the model of K = R^T B' with B' = (0, B2, B3), B = (2c/mu) B', Omega = R^T omega; R = 1 at t = 0."""
     mu, c = general.mu, general.c
     field = sympy.Matrix([0, 2 * c * B2 / mu, 2 * c * B3 / mu])
     (R, bindings), w = rotation_symbols(), vector("w")
@@ -120,13 +129,13 @@ def frame_model() -> Model:
 
 
 def symmetric_body_model() -> Model:
-    """Return the model with I1 = I2 and I = tr(g) - g."""
+    """Return the model of a body with mass moments g1, g1, g3: I1 = I2 = g1 + g3, I3 = 2 g1."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"g": sympy.diag(g1, g1, g3), "I1": g1 + g3, "I2": g1 + g3, "I3": 2 * g1})
 
 
 def passing_model() -> Model:
-    """Model the motion with a root rho of either sign, whose rate is -I u w/rho; f is its logarithm."""
+    """Return `quadrature_model` with a root rho of E' - I u^2 of either sign, rate -I u w/rho, and f = ln(rho)."""
     basis = quadrature_model()
     rho, u, I, E = sympy.Symbol("rho", real=True), *(basis.letters[name] for name in ("u", "I", "E"))
     bindings = [(E, rho**2 + I * u**2), *basis.bindings[1:]]
@@ -135,7 +144,10 @@ def passing_model() -> Model:
 
 
 def quadrature_model() -> Model:
-    """Return the model of any function Omega3 = u of time, u' = w; N = n^2 stands for E' - I u^2; Phi' = phi."""
+    """Return the model of any function Omega3 = u of time with rate w, and an angle Phi with rate phi.
+
+    E' - I u^2 is n^2, n > 0, and f half its logarithm; Phi and phi0 are phases.
+    """
     u, w, E, phi, Phi, phi0, f0 = sympy.symbols("u w E phi Phi phi0 f0", real=True)
     I, n = sympy.symbols("I n", positive=True)
     c1, s1, c2, s2, p, q = sympy.symbols("c1 s1 c2 s2 p q", real=True)
@@ -148,14 +160,14 @@ def quadrature_model() -> Model:
 
 
 def free_constant_model(*, fixed: bool = False) -> list[Model]:
-    """Model any state with its E', and any f0, or f0 = 1 and -1 where f0 is fixed."""
+    """Return one model of any state with any f0, or two with f0 = 1 and -1 if ``fixed``."""
     letters = state_model().letters
     values = map(sympy.Integer, (1, -1)) if fixed else [sympy.Symbol("f0", real=True)]
     return [Model({**letters, "f0": value}) for value in values]
 
 
 def initial_model() -> Model:
-    """Model the cubic (47), (48) as proved, with its integrals at t = 0: Omega = omega, K = B'."""
+    """Return the model of the cubic (47), (48) as corrected in Omega3, with its integrals at Omega = omega, K = B'."""
     u, field = sympy.Symbol("Omega3", real=True), sympy.Matrix([0, B2, B3])
     a = cubic(integrals(omega, field, ratio), dot(field, field), ratio)
     letters = {"omega": omega, "Omega3": u, "B2": B2, "B3": B3, "I": ratio}
@@ -164,7 +176,7 @@ def initial_model() -> Model:
 
 
 def laboratory_model(B_across: Value = B2, B_along: Value = B3) -> Model:
-    """Model a field, its part across e3 of that length at an angle to e2; S turns about e3 by that angle."""
+    """Return the model of a field with this part across e3, at any angle to e2, and S, the rotation about e3 by it."""
     cosine, sine = turn(sympy.Symbol("p", real=True))
     S = sympy.Matrix([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
     field = sympy.Matrix([B_across * sine, B_across * cosine, B_along])
@@ -172,7 +184,7 @@ def laboratory_model(B_across: Value = B2, B_along: Value = B3) -> Model:
 
 
 def degree_model() -> list[Model]:
-    """Return the models with I below and above 1, and I = 1."""
+    """Return three models, I > 1, I < 1 and I = 1, of the cubic's coefficients: leading, square, slope."""
     excess, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
     cases = []
     for scale in (1 + excess, 1 / (1 + excess), sympy.Integer(1)):

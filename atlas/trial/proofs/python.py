@@ -54,10 +54,9 @@ class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
 
 
 class Line:
-    """One line in one case.
+    """One line of a trial in one model, as Python code.
 
-    used     the letters of the model in the written text
-    symbols  the symbols in it
+    `relations` are to be checked, `used` are the model's letters in the code written so far, `symbols` its symbols.
     """
 
     def __init__(self, line: str, model: Model, defines: tuple[str, ...], solves: str) -> None:
@@ -80,7 +79,7 @@ class Line:
         }
 
     def identifier(self, symbol: Value) -> str:
-        """Return the identifier of a symbol: its name, with a stroke behind it where a letter has that name."""
+        """Return the Python identifier of a symbol: its name, with underscores added until no other letter has it."""
         if symbol not in self.identifiers:
             name = re.sub(r"\W", "_", symbol.name)
             while name in self.occupied_names or name in self.identifiers.values():
@@ -89,7 +88,10 @@ class Line:
         return self.identifiers[symbol]
 
     def plain(self, value: Value) -> str:
-        """Return a value as Python."""
+        """Return a number, expression, matrix or dictionary of these as Python code.
+
+        Its symbols are added to `symbols`.
+        """
         if isinstance(value, dict):
             return "{" + ", ".join(f"{key}: {self.plain(entry)}" for key, entry in value.items()) + "}"
         value = value.as_immutable() if isinstance(value, sympy.MatrixBase) else sympy.sympify(value)
@@ -98,22 +100,22 @@ class Line:
         return f"Integer({text})" if value.is_Matrix is not True and value.is_Integer else text
 
     def table(self, values: Mapping[Value, Value]) -> str:
-        """Return a dictionary of symbols as Python."""
+        """Return the code of a dictionary from symbols to expressions."""
         pairs = (f"{self.plain(s)}: {v if sympy.sympify(v).is_Integer else self.plain(v)}" for s, v in values.items())
         return "{" + ", ".join(pairs) + "}"
 
     def points(self) -> Iterator[dict[Value, Value]]:
-        """Yield the points at which the line is tried."""
+        """Yield the points at which `decide` tries the line: dictionaries from free parameters to rational numbers."""
         every = tuple(name for tree in self.trees for name in letters_of(tree))
         return points(parameters(self.relations, self.model, every), self.model)
 
     def symbols_reached(self) -> set[Value]:
-        """Return the symbols on which the written text depends, also through `bindings` and the rates."""
+        """Return the symbols on which the code depends, directly or through `bindings` and rates of the model."""
         values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
         return reached(values, [*self.model.bindings, *self.model.flow.items()])
 
     def assumptions(self) -> dict[str, str]:
-        """Return the identifiers of the symbols, each with its assumptions as arguments of `symbols`."""
+        """Return assumptions of the symbols by identifier, as text of arguments: ", positive=True", or ""."""
         for value in self.used.values():
             if isinstance(value, sympy.Symbol):
                 self.plain(value)
@@ -125,11 +127,14 @@ class Line:
         return assumptions
 
     def is_said(self, name: str, value: Value) -> bool:
-        """Whether a letter needs a row: not one that is the symbol of its name."""
+        """Whether the code needs a line "name = value": not for a symbol whose identifier is the name."""
         return not (isinstance(value, sympy.Symbol) and self.identifier(value) == name)
 
     def definition(self, name: str) -> str:
-        """Return the definition of a letter, as read or, with a function of the model's own, evaluated."""
+        """Return the code of a defined letter's value: its formula as read, or its components written out.
+
+        They are written out where the formula has a function of the model's own.
+        """
         try:
             text = self.code(self.definitions[name], ())
             return f"Integer({text})" if text.isdigit() else text
@@ -137,7 +142,10 @@ class Line:
             return self.plain(self.model.letters[name])
 
     def in_order(self) -> list[str]:
-        """Return the letters that the line defines, each after those that its definition uses."""
+        """Return the names that the line defines, each after those in its definition.
+
+        Names in a circle are left out.
+        """
         ordered: list[str] = []
         for _ in self.definitions:
             for name, tree in self.definitions.items():
@@ -146,7 +154,7 @@ class Line:
         return ordered
 
     def loops(self, relation: Relation) -> list[tuple[str, tuple[int, ...]]]:
-        """Return the free indices of a relation with their numbers; none where its components are written out."""
+        """Return (index, its integers) for each free index of a relation; [] where its components are written out."""
         tree = parse(relation.text)[0]
         ranges = self.reader.ranges
         indices = sorted(self.reader.free_indices(tree.left) | (names(tree.left) & set(ranges)))
@@ -164,7 +172,10 @@ class Line:
         return [(name, ranges.get(name, (1, 2, 3))) for name in indices]
 
     def sides(self, relation: Relation) -> list[str]:
-        """Return both sides of a relation, with free indices as variables, or written out."""
+        """Return the code of the left and the right side of a relation, with free indices as variables.
+
+        Where the model has a function of indices, both are code of a matrix of all components.
+        """
         tree, indices = parse(relation.text)[0], tuple(name for name, _ in self.loops(relation))
         try:
             return [self.code(side, indices) for side in (tree.left, tree.comparators[0])]
@@ -172,7 +183,7 @@ class Line:
             return [self.plain(sympy.Matrix(side)) for side in (relation.lhs, relation.rhs)]
 
     def difference(self, relation: Relation, *, reverse: bool = False) -> str:
-        """Return the left side less the right one, or the other way round."""
+        """Return the code of left side - right side, or of right - left if ``reverse``."""
         lhs, rhs = self.sides(relation)
         if is_zero(parse(relation.text)[0].comparators[0]):
             return f"-({lhs})" if reverse else lhs
@@ -208,7 +219,7 @@ class Line:
         return _tree(f"sum(({ast.unparse(product)} {loops}){start})")
 
     def value(self, node: ast.expr, bound: tuple[str, ...]) -> Value:
-        """Return the value of a formula where all indices are the first ones."""
+        """Return the value of a formula, each index in ``bound`` at its first integer."""
         return self.reader.value(node, {name: self.reader.ranges.get(name, (1,))[0] for name in bound})
 
     def factor(  # noqa: PLR0911  one return for each kind of factor
@@ -247,7 +258,10 @@ class Line:
         return self.formula(node, bound)
 
     def name(self, node: ast.Name, bound: tuple[str, ...]) -> ast.expr:
-        """Return a letter, and note its use."""
+        """Return the syntax tree of a letter; unless it is an index, defined or common, it is added to `used`.
+
+        Raises _NoFormulaError if its value in the model is a function.
+        """
         value = self.model.letters.get(node.id, sympy.Symbol(node.id, real=True))
         if node.id in bound or node.id in self.definitions:
             return node
@@ -259,7 +273,10 @@ class Line:
         return node
 
     def call(self, node: ast.Call, name: str, bound: tuple[str, ...]) -> ast.expr:
-        """Return a call of a function: SymPy's own, a rate, or the value of a function of the model."""
+        """Return the syntax tree of a function's call: SymPy's function or method, d(...), at0(...), or its value.
+
+        Raises _NoFormulaError for a function of the model's own that has an index of a loop.
+        """
         vocabulary = {*_METHODS, *_CALLED, "T", "norm", "d", "d2", "at0"}
         if name not in vocabulary or (
             self.model.letters[name] is not COMMON.get(name) and name not in {"d", "d2", "at0"}
@@ -284,7 +301,7 @@ class Line:
 
 
 def _less(index: ast.expr) -> ast.expr:
-    """Return an index counted from zero, as in Python."""
+    """Return the syntax tree of an index less one: indices of the paper count from 1."""
     if isinstance(index, ast.Constant):
         return ast.Constant(int(str(index.value)) - 1)
     return ast.BinOp(index, ast.Sub(), ast.Constant(1))

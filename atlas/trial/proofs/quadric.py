@@ -34,7 +34,10 @@ LETTERS = {
 
 
 def at_start(u: Value) -> Value:
-    """Return the cubic of (47), (48) as corrected, at Omega3 = u and with its integrals at t = 0."""
+    """Return the cubic of (47), (48) as corrected, an expression in u = Omega3, with its integrals at t = 0.
+
+    At t = 0 are Omega = (omega1, omega2, omega3) and K = B' = (0, B2, B3).
+    """
     field = sympy.Matrix([0, B2, B3])
     a = cubic(integrals(sympy.Matrix([omega1, omega2, omega3]), field, I), field.dot(field), I)
     return a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3
@@ -42,14 +45,21 @@ def at_start(u: Value) -> Value:
 
 @cache
 def constant_omega3() -> Value:
-    """Return the omega3 for which Omega3 = omega3 makes the cubic vanish: the condition is linear in it."""
+    """Return the root omega3 of `at_start` (omega3) = 0, an expression in omega1, omega2, I, B2, B3; cached.
+
+    The condition is linear in omega3. The root is infinite where omega2 = -B2.
+    """
     condition = sympy.Poly(sympy.expand(at_start(omega3)), omega3)
     slope, remainder = condition.all_coeffs()
     return sympy.factor(-remainder / slope)
 
 
 def condition_model() -> tuple[Model, Model]:
-    """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
+    """Return the two models of all points at which Omega3 = omega3 solves the cubic for all times.
+
+    The first has omega3 of `constant_omega3`, the second the lines omega2 = -B2, omega1 = s B2, I = 1 - s^2 with any
+    omega3. Raises ArithmeticError if the cubic had other zeros at omega2 = -B2.
+    """
     certain(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
     resolved = Model({**LETTERS, "Omega3": omega3}, [(omega3, constant_omega3())])
     lines = [(omega2, -B2), (omega1, s * B2), (I, 1 - s**2)]  # where omega3 has the coefficient 0
@@ -57,12 +67,15 @@ def condition_model() -> tuple[Model, Model]:
 
 
 def free_model() -> Model:
-    """Return the model of any initial angular velocity, on the surface or not."""
+    """Return the model of any initial angular velocity (omega1, omega2, omega3), on the surface (50) or not."""
     return Model(LETTERS)
 
 
 def lost_lines_model() -> list[Model]:
-    """Return the models of the lines omega2 = -B2 for I < 1: omega1 = sign sqrt(1 - I) B2, I = 1 - s^2, any omega3."""
+    """Return two models, of sign 1 and -1, of the lines omega2 = -B2 of the quadric for I < 1, with any omega3.
+
+    On them omega1 = sign sqrt(1 - I) B2; I is written 1 - s^2.
+    """
     root = sympy.Symbol("s", positive=True)
     cases = []
     for sign in (1, -1):
@@ -73,7 +86,10 @@ def lost_lines_model() -> list[Model]:
 
 
 def _angles() -> list[tuple[Value, Value]]:
-    """Delta = beta/2 + pi/4 by the tangent of its half; B3 from tan(beta) = B3/(I B2), beta = 2 delta - pi/2."""
+    """Return the bindings of B3, cos(delta), sin(delta), delta in p = tan(delta/2), where delta = beta/2 + pi/4.
+
+    B3 follows from tan(beta) = B3/(I B2) with beta = 2 delta - pi/2.
+    """
     return [
         (B3, -I * B2 * (cd**2 - sd**2) / (2 * cd * sd)),
         (cd, turn(p)[0]),
@@ -87,7 +103,11 @@ PHASES = {delta: (cd, sd)}
 
 
 def coordinates_model() -> Model:
-    """Model the quadratic form of (51), and the canonical form from its eigenvalues."""
+    """Return the model of (53): values of the quadratic forms in which its coordinates w1, w2, w3 must agree.
+
+    `form` is the quadratic form of (51), `length` the squared distance from -B', a2 and a3 are those of (54), and
+    `sense` is the determinant of the coordinates' Jacobian.
+    """
     form = omega1**2 + (omega2 + B2) ** 2 - I * B2 / B3 * (omega2 + B2) * (omega3 + B3)
     length = omega1**2 + (omega2 + B2) ** 2 + (omega3 + B3) ** 2
     sine = -(cd**2 - sd**2)
@@ -99,7 +119,10 @@ def coordinates_model() -> Model:
 
 @cache
 def _axes() -> tuple[Value, Value]:
-    """Return unit eigenvectors of the form (51) in the plane (omega2, omega3), checked."""
+    """Return the unit eigenvectors (cos, sin) and (-sin, cos) of the form (51) in the plane (omega2, omega3).
+
+    The angle is delta of `_angles`. Raises ArithmeticError if one is no eigenvector.
+    """
     cotangent = I * B2 / B3
     form = sympy.Matrix([[1, -cotangent / 2], [-cotangent / 2, 0]])
     direction, normal = sympy.Matrix([cd, sd]), sympy.Matrix([-sd, cd])
@@ -113,7 +136,10 @@ def _axes() -> tuple[Value, Value]:
 
 
 def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
-    """Return the model of points of the quadric in the coordinates along its own eigenvectors, centre -B'."""
+    """Return the model of points of the quadric in coordinates w1, w2, w3 along its eigenvectors, from the centre -B'.
+
+    ``ratio`` is "any", "one" (I = 1), "above" (I > 1) or "below" (I < 1); ``plane`` restricts to omega1 = 0.
+    """
     direction, normal = _axes()
     shifted = sympy.Matrix([omega2 + B2, omega3 + B3])
     sine = -(cd**2 - sd**2)
@@ -127,7 +153,10 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
 
 
 def axes_model(above: bool, sheets: int) -> Model:
-    """Return the model of squared semi-axes, of (55) for two sheets, of (57) for one; sin(beta) in (0, 1)."""
+    """Return the model of squared semi-axes, of (55) for two sheets and of (57) for one.
+
+    ``above`` has I > 1, otherwise I < 1; sin(beta) is any number in (0, 1).
+    """
     sine = 1 / (1 + sympy.Symbol("r", positive=True))
     I = 1 + excess if above else 1 / (1 + excess)
     a2, a3, square = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if sheets == 2 else 1 - I) * B2**2
@@ -135,27 +164,27 @@ def axes_model(above: bool, sheets: int) -> Model:
 
 
 def angle_model() -> Model:
-    """Return the model with I^-1 B' = r (0, cos beta, sin beta)."""
+    """Return the model of beta as the angle of I^-1 B' = r (0, cos beta, sin beta), with I = I3/I2."""
     I2, I3, r = sympy.symbols("I2 I3 r", positive=True)
     letters = {"I": I3 / I2, "B2": I2 * r * cd, "B3": I3 * r * sd, "beta": delta}
     return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1]), (delta, 2 * sympy.atan(p))], phases=PHASES)
 
 
 def range_model() -> Model:
-    """Return the model of beta in the open interval from 0 to pi/2, as B3/(I B2) runs over the positive numbers."""
+    """Return the model of beta in (0, pi/2); at0 and at_end are its limits at both ends of the interval."""
     beta, s = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
     letters = {"beta": beta, "at_end": lambda x: x.subs(beta, sympy.pi / 2)}
     return Model(letters, [(beta, sympy.pi / 2 * s / (1 + s))], start={beta: 0})
 
 
 def _sharp(line: str) -> str:
-    """Return that a < f < b, and that a and b are the values of f at the ends."""
+    """Return the line "a < f < b; a = at0(f); b = at_end(f)" for a line a < f < b: its bounds are the limits of f."""
     lower, middle, upper = sides(line.replace("<", "="))
     return f"{line}; {lower} = at0({middle}); {upper} = at_end({middle})"
 
 
 def shell_model() -> Model:
-    """Return the model of moments of a cylindrical surface of mass M, by integration over the surface."""
+    """Return the model of I = I3/I2 of a cylindrical shell of radius r and height h, by integrals over the surface."""
     r, h, z, w, M = sympy.symbols("r h z w M", positive=True)
     density = M / (2 * sympy.pi * h)
     bounds = ((w, 0, 2 * sympy.pi), (z, -h / 2, h / 2))
@@ -165,13 +194,16 @@ def shell_model() -> Model:
 
 
 def plane_body_model() -> Model:
-    """Return the model with I1 = I2."""
+    """Return the model of a body with two equal moments of mass g1, and g3 along its axis: I = 2 g1/(g1 + g3)."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"I": 2 * g1 / (g1 + g3), "g3": g3, "I2": g1 + g3})
 
 
 def leaving_points_model() -> Model:
-    """Return the model of points of the quadric with omega1 > 0; the rate of Omega3 there is that of (38) at t = 0."""
+    """Return the model of points of the quadric with omega1 > 0; `rate` is dOmega3/dt there at t = 0, by (38).
+
+    Raises ArithmeticError unless that rate is omega1 B2.
+    """
     away = sympy.Symbol("omega1", positive=True)
     rate = state_model().letters["at0"](state_model().letters["d"](state_model().letters["Omega3"]))
     certain(sympy.expand(rate - omega1 * B2) == 0)
@@ -185,7 +217,7 @@ AXES = ("C1s", "C2s", "C3s")
 
 
 def turned_model() -> Model:
-    """Model axes turned counter-clockwise in the plane (e2, e3), with the components of omega + B' along these axes."""
+    """Return the model of axes e'_1, e'_2, e'_3, rotated by delta about e1, and components w of omega + B' there."""
     rolled = sympy.Matrix([[1, 0, 0], [0, cd, -sd], [0, sd, cd]])
     shifted = sympy.Matrix([omega1, omega2 + B2, omega3 + B3])
     letters = {**LETTERS, **BETA, "Bp": sympy.Matrix([0, B2, B3]), "omega": sympy.Matrix([omega1, omega2, omega3])}

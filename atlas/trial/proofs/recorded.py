@@ -32,7 +32,7 @@ def _normal(stem: str) -> str:
 
 @cache
 def _reach(stem: str) -> frozenset[str]:
-    """Return the files of this folder that a topic imports, its own included, but not `verdict`."""
+    """Return the stems of files here that a topic's file imports, directly or not, itself included, not "verdict"."""
     text = _normal(stem)
     direct = set(re.findall(r"^from atlas\.trial\.proofs\.(\w+) import", text, re.MULTILINE))
     for names in re.findall(r"^from atlas\.trial\.proofs import (.+)$", text, re.MULTILINE):
@@ -47,13 +47,16 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 
 
 def source(name: str) -> str:
-    """Return the fingerprint of the proof of an entry of the ledger."""
+    """Return the fingerprint of an entry's proof, 16 hexadecimal digits. Raises AtlasError for an unknown entry."""
     entry = equation(name)
     return hashlib.sha256(f"{_fingerprint(topic(name), MACHINERY)}\0{entry}".encode()).hexdigest()[:16]
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:
-    """Return the recorded verdicts by name, in the ledger's order."""
+    """Return the recorded verdicts by name, in the ledger's order; {} if the file is missing.
+
+    Raises AtlasError if it holds no valid JSON.
+    """
     recorded = {entry["name"]: Verdict(**entry) for entry in _read(path)}
     return {name: recorded[name] for name in EQUATIONS if name in recorded}
 
@@ -71,19 +74,22 @@ def _read(path: Path) -> list[dict[str, Any]]:
 
 
 def scripts(path: Path = SCRIPTS) -> dict[str, str]:
-    """Return the recorded scripts by name, or why there is none; see `atlas.trial.proofs.script`."""
+    """Return by name the recorded script, or the sentence on why there is none; {} if the file is missing."""
     return dict(json.loads(path.read_text("utf-8"))) if path.is_file() else {}
 
 
 def save_scripts(texts_by_name: Mapping[str, str], path: Path = SCRIPTS) -> None:
-    """Write scripts, in place of recorded ones of the same names."""
+    """Write scripts by name into the record, which keeps scripts of other names, in the ledger's order."""
     texts = scripts(path) | dict(texts_by_name)
     ordered = {name: texts[name] for name in EQUATIONS if name in texts}
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
 def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
-    """Write records, in place of recorded ones of the same names; seconds change only where the proof did."""
+    """Write verdicts into the record, which keeps those of other names, in the ledger's order.
+
+    The seconds of a verdict stay as recorded unless the proof has another fingerprint.
+    """
     old = {entry["name"]: entry for entry in _read(path)}
     for record in verdicts:
         entry = record.as_dict()
@@ -96,7 +102,10 @@ def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
 
 
 def differs(verdicts: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
-    """Return (name, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
+    """Return (name, recorded decision, decision found) for verdicts that differ from the record, read if none is given.
+
+    A decision is text such as "refuted, corrected form proved"; "not recorded" for a new entry.
+    """
     records = load() if recorded is None else recorded
     changed = []
     for verdict in verdicts:

@@ -34,9 +34,9 @@ class OverTimeError(Exception):
 
 @contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Raise OverTimeError in the block after that many seconds of processor time; only in the main thread.
+    """Raise OverTimeError within the block after ``seconds`` of processor time; other programs do not shorten it.
 
-    So a verdict does not depend on other programs of the machine.
+    Outside the main thread, or where the system has no such timer, the block runs without a limit.
     """
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         yield
@@ -56,7 +56,7 @@ def limit(seconds: float) -> Iterator[None]:
 
 @cache
 def trials(stem: str) -> dict[str, Trial]:
-    """Return the trials of one topic by name; its `SIGNS` hold for each trial."""
+    """Return the trials of one topic by name, each with the topic's `SIGNS` added to its own; cached."""
     module = import_module(f"atlas.trial.proofs.{stem}")
     signs: dict[str, str] = getattr(module, "SIGNS", {})
     return {
@@ -66,7 +66,7 @@ def trials(stem: str) -> dict[str, Trial]:
 
 
 def trial(name: str) -> Trial:
-    """Return the trial of an entry of the ledger."""
+    """Return the trial of an entry of the ledger. Raises AtlasError for an unknown entry, or one without a trial."""
     equation(name)
     named = trials(topic(name)).get(name)
     if named is None:
@@ -75,7 +75,7 @@ def trial(name: str) -> Trial:
 
 
 def try_one(name: str) -> Verdict:
-    """Try one entry of the ledger, now."""
+    """Try an entry of the ledger now, and return its verdict; each form is undecided after `LIMIT` seconds."""
     entry, case = equation(name), trial(name)
     start = time.process_time()
     outcome = within_time(lambda: case.of_printed(shrink=True))
@@ -109,7 +109,10 @@ def try_one(name: str) -> Verdict:
 
 
 def _unread(case: Trial) -> Iterable[str]:
-    """Return the assumptions that the trial does not read; one sentence if the model takes longer than `LIMIT`."""
+    """Return the clauses of assumptions that the trial does not read.
+
+    One sentence if reading takes longer than `LIMIT`.
+    """
     try:
         with limit(LIMIT):
             return case.assumed.unread
@@ -122,7 +125,7 @@ def _lines(statements: Iterable[Part]) -> str:
 
 
 def within_time(run: Callable[[], Outcome]) -> Outcome:
-    """Return the outcome of a trial, undecided after `LIMIT` seconds."""
+    """Return the outcome of ``run``; undecided if it takes longer than `LIMIT` seconds of processor time."""
     try:
         with limit(LIMIT):
             return run()

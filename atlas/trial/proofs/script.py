@@ -43,9 +43,10 @@ Rows = tuple[dict[str, str], list[str]]  # symbols with their assumptions, and t
 
 
 def script_of(verdict: Verdict) -> str:
-    """Return the script of an entry of the ledger on which this was found, or the line that says why there is none.
+    """Return the Python script that proves or refutes an entry, or a sentence on why there is none.
 
-    It refutes the printed form where that is refuted, and proves the corrected one; otherwise the printed one.
+    It refutes the printed form where that is refuted, unless by its indices, and proves a corrected one; otherwise it
+    proves the printed form. There is none for an undecided entry.
     """
     case = trial(verdict.name)
     if verdict.verdict == "undecided" or (verdict.method == "indices" and not case.corrected):
@@ -67,7 +68,7 @@ def script_of(verdict: Verdict) -> str:
 
 
 def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
-    """Yield the rows of all blocks, without repetitions; symbols are declared before they are used."""
+    """Yield the rows of all blocks, without repetitions; each symbol is declared before its first use."""
     symbols, vocabulary, comment = dict[str, str](), dict[str, str](), ""
     supposed = [any(row.startswith("where = ") for row in rows) for _, rows in blocks]
     for (declared, rows), has_supposition in zip(blocks, supposed, strict=True):
@@ -95,9 +96,9 @@ def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
 
 
 def sides_of(name: str) -> list[str]:
-    """Return both sides of each line of a true form in free parameters, or their difference with its sign.
+    """Return a text for each relation of an entry's true form, with the common value of its sides; see `_sides`.
 
-    None if that takes too long.
+    It is [] if that takes longer than `LIMIT`.
     """
     sides: list[str] = []
     try:
@@ -110,7 +111,10 @@ def sides_of(name: str) -> list[str]:
 
 
 def _sides(relation: Relation, line: Line) -> str:
-    """Return the sides of a relation as text; of several components, the first that is not 0."""
+    """Return "relation: each side is VALUE" in free parameters; of several components the first that is not 0.
+
+    For an inequality it is "relation: left - right = VALUE"; where all sides are 0 it names the values of the symbols.
+    """
     bindings, printer = resolved(line.model.bindings), line.printer
     pairs = [(sympy.sympify(a), sympy.sympify(b)) for a, b in zip(relation.lhs, relation.rhs, strict=True)]
     if relation.sign != "=":
@@ -129,7 +133,7 @@ def _sides(relation: Relation, line: Line) -> str:
 
 
 def _short(value: Value, printer: StrPrinter) -> str:
-    """Return a rational function as text, or its size where that is long."""
+    """Return a rational function as text; beyond `_LONG` letters, its numbers of terms and its degrees in words."""
     text = str(printer.doprint(value)).replace("**", "^")
     if len(text) <= _LONG:
         return text
@@ -144,7 +148,7 @@ def _lines(statements: Sequence[Part]) -> list[Line]:
 
 
 def _proved(line: Line) -> Rows:
-    """Return the rows that prove a line in one case."""
+    """Return the rows of a script that check all relations of a line in one model, after their premises."""
     bindings, rows = resolved(line.model.bindings), list[str]()
     for relation in line.relations:
         indent = ""
@@ -166,7 +170,10 @@ def _proved(line: Line) -> Rows:
 
 
 def _refuted(statements: Sequence[Part]) -> Rows:
-    """Return the rows that put in the point which breaks a line."""
+    """Return the rows of a script that evaluate both sides at a point which refutes a line.
+
+    Raises ValueError if no point refutes any of the lines.
+    """
     for line in _lines(statements):
         for assignment in line.points():
             values = completed(assignment, line.model)
@@ -206,7 +213,7 @@ def _broken(line: Line, relation: Relation, entry: int, values: dict[Value, Valu
 
 
 def _stated(line: Line, rows: Sequence[str]) -> Rows:
-    """Return the rows with their premises: symbols, letters, rates, definitions, and values of symbols."""
+    """Return (assumptions by symbol, rows): ``rows`` after those that define letters, rates and values of symbols."""
     definitions = [f"{name} = {line.definition(name)}" for name in line.in_order()]
     text = "\n".join([*definitions, *rows])
     letters = [f"{name} = {line.plain(value)}" for name, value in line.used.items() if line.is_said(name, value)]
@@ -227,7 +234,10 @@ def _stated(line: Line, rows: Sequence[str]) -> Rows:
 
 
 def _rotation(line: Line, bindings: list[tuple[Value, Value]]) -> tuple[list[str], list[tuple[Value, Value]]]:
-    """Return the rows that make a rotation of nine symbols by Cayley's formula, and the other substitutions."""
+    """Return (rows that make nine symbols a rotation matrix by Cayley's formula, the other bindings).
+
+    If the bindings hold no rotation there are no rows, and all bindings are returned.
+    """
     rotation_entries = [(symbol, value) for symbol, value in bindings if value in set(rotation())]
     if len(rotation_entries) < 9:
         return [], bindings
@@ -242,7 +252,7 @@ def _rotation(line: Line, bindings: list[tuple[Value, Value]]) -> tuple[list[str
 
 
 def _wrapped(row: str) -> str:
-    """Break a long row at spaces, which are all within brackets."""
+    """Return a row of Python broken at spaces to at most `_WIDTH` characters a line; its spaces lie within brackets."""
     if len(row) <= _WIDTH:
         return row
     indent = " " * (len(row) - len(row.lstrip()))

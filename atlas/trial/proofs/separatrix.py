@@ -26,7 +26,10 @@ T, C = sympy.symbols("T C", real=True)
 
 
 def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]:
-    """Return M3, p and the quartic q of a steady precession with this rate w at nu0, by theorem-steady."""
+    """Return M3, p, G and q with its derivatives, by name, of a steady precession at nu0, by theorem-steady.
+
+    ``rate`` is its angular velocity w, ``leading`` A, ``double`` nu0; G stands for g.
+    """
     momentum = double * (rate**2 + leading) / rate
     momentum_along_field = rate * (1 - double**2) + double * momentum
     remainder = leading * double**2 + rate**2 * (1 - double**2)
@@ -37,13 +40,13 @@ def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]
 
 
 def any_model() -> Model:
-    """Model any constants of the quartic q, and any nu0; g is 2H - M3^2/I - b^2."""
+    """Return the model of any constants of the quartic q, and any nu0; g is 2H - M3^2/I - b^2."""
     letters = {"nu0": nu0, "A": A, "M3": M3, "p": p, "g": g, "w": (p - M3 * nu0) / (1 - nu0**2)}
     return Model({**letters, **functions("q", QUARTIC.xreplace({general.g: g, general.A: A}), nu)})
 
 
 def precession_model() -> Model:
-    """Model an elementary motion: (71), its rate k of precession, and the constants of its top."""
+    """Return the model of an elementary motion: omega3 by (71), its rate k, and the constants of its top."""
     I, B2, B3, omega2, q1 = sympy.symbols("I B2 B3 omega2 q1", real=True)
     h2, h3 = turn(q1)[::-1]
     omega3 = B3 * omega2 * (omega2 + (2 - I) * B2) / (I * B2 * (omega2 + B2))
@@ -58,14 +61,14 @@ def precession_model() -> Model:
 
 
 def nutation_model() -> list[Model]:
-    """Model a steady precession with the rate w at nu0, and either sign."""
+    """Return two models, of sign 1 and -1, of a steady precession with rate w at nu0; nun2 is -q''(nu0)/2."""
     letters = {"nu0": nu0, "A": A, "w": w, **steady(w, A)}
     letters["nun2"] = -letters["ddq"](nu0) / 2
     return [Model({**letters, "sign": sympy.Integer(sign)}) for sign in (1, -1)]
 
 
 def range_model() -> Model:
-    """Model a steady precession with A = -w^2/z, z between nu0^2 and 1."""
+    """Return the model of a steady precession with A = -w^2/z, any z in the range of the theorem, and q at nu."""
     z = sympy.Symbol("z", positive=True)
     letters = {"nu": nu, "nu0": nu0, "w": w, "z": z, "A": -(w**2) / z, "b": b, "I": 1 - w**2 / z / b**2}
     letters |= steady(w, -(w**2) / z)
@@ -73,7 +76,10 @@ def range_model() -> Model:
 
 
 def _spinors(model: Model) -> Model:
-    """Add functions of a pair of complex numbers: nu, and the rates of their two arguments."""
+    """Return the model with functions of a pair of complex numbers added: `height`, and `argument` (pair, 1 or 2).
+
+    `height` is (|a|^2 - |b|^2)/(|a|^2 + |b|^2), `argument` the rate of one number's argument.
+    """
 
     def size(value: Value) -> Value:
         return sympy.expand(value * value.xreplace({sympy.I: -sympy.I}))
@@ -92,9 +98,9 @@ def _spinors(model: Model) -> Model:
 
 
 def family_model() -> Model:
-    """Model the family by the tangents of half the angles kappa and delta, w and b; all its constants are rational.
+    """Return the model of theorem-companion's family, in tangents of half the angles kappa and delta, w and b.
 
-    With T = S/C, S and C as in theorem-companion, dT = (1 - c T^2)/2 and dC = c S/2.
+    All its constants are rational. With T = S/C of the theorem, dT/dt = (1 - c T^2)/2 and dC/dt = c S/2.
     """
     kappa, delta, x, y = sympy.symbols("kappa delta x y", real=True)
     ck, sk, cd, sd = sympy.symbols("ck sk cd sd", real=True)
@@ -120,7 +126,7 @@ def family_model() -> Model:
 
 
 def double_model() -> Model:
-    """Model any quartic with a double root at nu0 and a root at e = nu0 + y; S and C with dS = C/2, dC = c S/2."""
+    """Return the model of any quartic with a double root nu0 and a root e = nu0 + y; dS/dt = C/2, dC/dt = c S/2."""
     y, S = sympy.symbols("y S", real=True)
     letters = {"nu0": nu0, "e": nu0 + y, "A": A, "c": c, "S": S, "C": C, "d": -(c + A * y**2) / y}
     shift = nu - nu0
@@ -129,7 +135,10 @@ def double_model() -> Model:
 
 
 def triple_model() -> Model:
-    """Model a double root at an end of the band, where the others of theorem-companion-range are -nu0 +- 2 nu0."""
+    """Return the model of a quartic with double root nu0 and roots -nu0 + 2 nu0 and -nu0 - 2 nu0: a triple root.
+
+    It is an end of the band of theorem-companion-range.
+    """
     I = sympy.Symbol("I", positive=True)
     basis = (I - 1) * b**2 * (nu - nu0) ** 2 * ((nu + nu0) ** 2 - 4 * nu0**2)
     letters = {"nu0": nu0, "t": t, "I": I, "b": b, "e": -nu0 - 2 * nu0, **functions("q", basis, nu)}
@@ -137,7 +146,7 @@ def triple_model() -> Model:
 
 
 def axis_model() -> Model:
-    """Model any state near the spin along the field, in the letters of the top; n = K/b."""
+    """Return the model of any state near the spin along the field, in letters of the top; n = K/b."""
     basis = top_model()
     M, K, letters = basis.letters["M"] / basis.letters["I2"], basis.letters["K"], dict(basis.letters)
     letters |= {"M1": M[0], "M2": M[1], "n1": K[0] / b, "n2": K[1] / b, "nu": K[2] / b}
@@ -146,7 +155,7 @@ def axis_model() -> Model:
 
 
 def escape_model() -> list[Model]:
-    """Model the motion that leaves the axis: A = a^2, M3 of either sign, e = cos(2 delta); T = S/C, as above."""
+    """Return two models of a motion that leaves the axis, M3 > 0 and M3 < 0; A = a^2, e = cos(2 delta), T = S/C."""
     a, delta = sympy.Symbol("a", positive=True), sympy.Symbol("delta", real=True)
     cosine = 1 / sympy.sqrt(1 - c * T**2)  # C, for C^2 = 1 + c S^2
     letters = {"delta": delta, "e": e, "c": c, "M3": M3, "c3": c3, "b": b, "I": 1 + a**2 / b**2, "t": t}
@@ -173,7 +182,7 @@ def pushed_model() -> Model:
 
 
 def pendulum_model() -> Model:
-    """Model nu as a function of T = tanh(a t), a^2 = A; the disk has M3 = p = 0 and 2H - b^2 = A."""
+    """Return the model of nu as a function of T = tanh(a t), a^2 = A, for M3 = p = 0 and 2H - b^2 = A."""
     a = sympy.Symbol("a", positive=True)
     zero = sympy.Integer(0)
     state = {general.p: zero, general.M3: zero, general.A: a**2, general.g: a**2}

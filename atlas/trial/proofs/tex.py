@@ -61,14 +61,14 @@ class UnreadableError(ValueError):
 
 @dataclass(frozen=True)
 class _Said:
-    """A phrase that the table puts into plain letters."""
+    """A phrase of the TeX already replaced by `plain`, its text in plain letters from the table."""
 
     plain: str
 
 
 @dataclass(frozen=True)
 class _Letter:
-    """A letter with its marks: accents from outside in, the letter with its font, primes, and its index."""
+    """A letter of TeX: `accents` from outside in, `base` with its font, number of `primes`, tokens of its index."""
 
     accents: tuple[str, ...]
     base: str
@@ -81,30 +81,40 @@ _Token = str | _Said
 
 @dataclass(frozen=True)
 class _Table:
-    """Meanings of letters and phrases, the long ones first, and the left side of a formula that is printed without."""
+    """Meanings in plain letters: of `letters`, and of `phrases` (tokens, meaning), the longest phrase first.
+
+    `left_side` is the left side, in plain letters, of a formula that is printed without one; empty if it has one.
+    """
 
     letters: Mapping[_Letter, str] = field(default_factory=dict)
     phrases: tuple[tuple[tuple[str, ...], str], ...] = ()
     left_side: str = ""
 
     def names_of_others(self, letter: _Letter) -> set[str]:
-        """Return the plain names that the table gives to letters other than this one, bold or not."""
+        """Return the plain names that the table gives to other letters; a letter in another font is not another."""
         bare = replace(letter, base=letter.base.split()[-1])
         return {plain for entry, plain in self.letters.items() if replace(entry, base=entry.base.split()[-1]) != bare}
 
 
 def line(tex: str, signs: Mapping[str, str]) -> str:
-    """Return a formula in plain letters; UnreadableError if something in it is neither read nor said by `signs`."""
+    """Return TeX as a line of `notation`, relations joined by "; ".
+
+    ``signs`` maps letters and phrases in TeX to plain ones. Raises UnreadableError if something is neither read nor in
+    ``signs``, nothing is a relation, or one plain name stands for a bold and a thin letter.
+    """
     return _read(tex, tuple(signs.items()))[0]
 
 
 def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
-    """Return the letters of a formula, as the line has them, that are not bold: none may be a vector."""
+    """Return the plain names of letters of a formula that are not bold and have no index: none may be a vector."""
     return _read(tex, tuple(signs.items()))[1]
 
 
 def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
-    """Return the phrases that are not read, each with the line in its place; without one, the model says them."""
+    """Return the phrases of ``signs`` that occur in the TeX and replace a whole relation, each with its line.
+
+    The line is empty where nothing is read in the place of a phrase, because the model says it.
+    """
     tokens = _tokens(tex)
     phrases = {}
     for key, plain in signs.items():
@@ -116,7 +126,7 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
 
 
 def arrows(tex: str, signs: Mapping[str, str]) -> list[tuple[int, str]]:
-    """Return the arrows of a formula outside the phrases of the table, each with the number of statements before it."""
+    """Return pairs (number of statements before an arrow, its TeX), for arrows outside the phrases of ``signs``."""
     tokens = _said(_tokens(tex), _table(tuple(signs.items())))
     marks = [(place, mark) for place, mark in enumerate(tokens) if isinstance(mark, str) and mark in _ARROWS]
     return [(len(_statements(tokens[:place])), mark) for place, mark in marks]
@@ -152,7 +162,7 @@ def _table(signs: tuple[tuple[str, str], ...]) -> _Table:
 
 
 def _tokens(tex: str) -> list[str]:
-    r"""Return the tokens of a formula; without \boxed, marks of size and the braces of a single token."""
+    r"""Return the TeX commands and single characters of a formula, without spaces and \boxed with its braces."""
     tokens = [_SAME.get(mark, mark) for mark in _TOKEN.findall(tex) if mark not in _SILENT]
     result: list[str] = []
     drops, depth, matrices = list[int](), 0, 0
@@ -178,7 +188,10 @@ def _tokens(tex: str) -> list[str]:
 
 
 def _statements(tokens: list[_Token]) -> list[list[_Token]]:
-    """Return the formulas between commas, spaces, arrows, ends of rows and words, each as tokens."""
+    """Return the token lists of single statements: they end at commas, spaces, arrows, ends of rows and words between.
+
+    A part that begins with a sign of comparison, or after an end of row with + or -, continues the statement before.
+    """
     statements: list[list[_Token]] = [[]]
     depth, row, ended = 0, False, False
     for mark in tokens:
@@ -211,7 +224,7 @@ def _signed(statement: list[_Token]) -> list[list[_Token]]:
 
 
 def _said(tokens: list[str], table: _Table) -> list[_Token]:
-    """Replace phrases by their meanings in the table."""
+    """Return tokens with each phrase of the table replaced by the tokens of its meaning, see `_phrase`."""
     result: list[_Token] = []
     place = 0
     while place < len(tokens):
@@ -227,7 +240,11 @@ def _said(tokens: list[str], table: _Table) -> list[_Token]:
 
 
 def _phrase(plain: str) -> list[_Token]:
-    """Return the tokens for a phrase: none, a statement of its own, the left side of one, or an expression."""
+    """Return the tokens for the meaning of a phrase.
+
+    That is a comma for an empty meaning, the tokens of a meaning in TeX, a left side and "=" for one that ends in "=",
+    a statement of its own between commas for a relation, and one `_Said` for an expression.
+    """
     if not plain:
         return [","]
     if plain.startswith("\\"):
@@ -238,7 +255,11 @@ def _phrase(plain: str) -> list[_Token]:
 
 
 class _Formula:
-    """A recursive-descent reader of one statement: relations of sums of products of powers."""
+    """A recursive-descent reader of one statement, a list of tokens; `position` is the index of the next token.
+
+    Methods named for a part of a formula read it, step past it and return its syntax tree. They raise UnreadableError
+    at a token that they do not expect.
+    """
 
     def __init__(self, tokens: list[_Token] | list[str], table: _Table) -> None:
         self.tokens: list[_Token] = list(tokens)
@@ -250,7 +271,11 @@ class _Formula:
         self.sums: list[str] = []
 
     def relations(self) -> list[str]:
-        """Return the statement as relations in plain letters; "= const" says that the rate is zero."""
+        """Return the statement as one or two relations in plain letters; "= const" at its end says d(left side) = 0.
+
+        Raises UnreadableError if tokens are left over, nothing is compared, or a sum has the free index of the left
+        side.
+        """
         if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
             return [write(parse(self.tokens[0].plain))]
         sides, operators, lines = [self.sum()], list[ast.cmpop](), list[str]()
@@ -275,11 +300,14 @@ class _Formula:
         return ([write([ast.Compare(sides[0], operators, sides[1:])])] if operators else []) + lines
 
     def peek(self, ahead: int = 0) -> _Token:
-        """Return the next mark, "" at the end."""
+        """Return the token ``ahead`` places behind the position, "" past the end."""
         return self.tokens[self.position + ahead] if self.position + ahead < len(self.tokens) else ""
 
     def take(self, mark: str = "") -> _Token:
-        """Return the next mark and step past it; UnreadableError if it is not `mark`, where one is given."""
+        """Return the next token and step past it.
+
+        Raises UnreadableError at the end of the tokens, or if ``mark`` is given and the token is another.
+        """
         here = self.peek()
         if here == "" or (mark and here != mark):
             raise UnreadableError(f"{mark or 'something'} is missing where the formula has {here or 'its end'}")
@@ -302,7 +330,11 @@ class _Formula:
         return result
 
     def product(self, *, of_letters: bool = False) -> ast.expr:
-        """Read a product; as the argument of a function without brackets, one of letters and numbers alone."""
+        """Read factors until the product ends, with sums, products over an index and quotients among them.
+
+        ``of_letters`` reads the argument of a function without brackets: letters, digits and slashes alone. Raises
+        UnreadableError if there is no factor, or a sum has no such index behind it.
+        """
         result: ast.expr | None = None
         sums: list[str] = []
         while not self.ends(of_letters=of_letters and result is not None):
@@ -329,7 +361,10 @@ class _Formula:
         return result
 
     def argument(self, before: ast.expr | None) -> None:
-        """Refuse a bracket behind a letter that looks like the argument of a function."""
+        """Raise UnreadableError if a bracket with one token, such as (x) or (-x), stands next: it may be an argument.
+
+        Nothing is done where no factor stands ``before``, or the token in the bracket is an already replaced phrase.
+        """
         if before is None or self.peek() != "(":
             return
         behind = self.tokens[self.position + 1 : self.position + 3]
@@ -339,14 +374,14 @@ class _Formula:
             raise UnreadableError(f"({''.join(str(mark) for mark in behind).rstrip(')')}) is not read as an argument")
 
     def ends(self, *, of_letters: bool) -> bool:
-        """Whether a product ends here."""
+        """Whether the next token ends a product; ``of_letters`` stops also at all but letters, digits and slashes."""
         here = self.peek()
         if here == "" or here in _SIGNS or here in {"+", "-", r"\pm", r"\mp", ",", ";", r"\\"} or here in _CLOSING:
             return True
         return of_letters and not (self.is_letter() or str(here).isdigit() or here == "/")
 
     def summed(self) -> list[str]:
-        """Read a sign of summation; limits must be said by the table."""
+        """Step past a sign of sum or product and its lower index; return the index names, [] without an index."""
         self.take()
         if self.peek() != "_":
             return []
@@ -356,7 +391,10 @@ class _Formula:
         return indices
 
     def power(self) -> ast.expr:
-        """Read a factor with its suffixes: powers, indices, an argument t or 0, T for the transpose."""
+        """Read a factor with what follows it: powers, T for the transpose, indices, and an argument (t) or (0).
+
+        The argument (t) is dropped, (0) becomes at0(factor).
+        """
         bold, self.bold = self.bold, False
         base = self.atom()
         while True:
@@ -376,7 +414,7 @@ class _Formula:
                 return base
 
     def raised(self, base: ast.expr) -> ast.expr:
-        """Read a superscript: a power, the transpose, or an index."""
+        """Read a superscript of ``base``: the transpose for T, a further index of an array, otherwise a power."""
         if self.peek() == "T":
             self.take()
             return _call("T", base)
@@ -391,7 +429,7 @@ class _Formula:
         return self.peek() == "{" and self.peek(2) == "}" and isinstance(mark, str) and mark.isalpha()
 
     def group(self) -> ast.expr:
-        """Read a group in braces, or one mark without them."""
+        """Read a sum in braces, one digit, or one atom without braces."""
         if self.peek() == "{":
             self.take()
             result = self.sum()
@@ -402,7 +440,7 @@ class _Formula:
         return self.atom()
 
     def atom(self) -> ast.expr:
-        """Read a number, a letter, a bracket, a fraction, a root, a matrix, or a function."""
+        """Read a replaced phrase, an integer, a letter, a bracket, a norm, a fraction, a matrix or a function."""
         here = self.peek()
         if isinstance(here, _Said):
             self.take()
@@ -421,7 +459,10 @@ class _Formula:
         return readers[here]()
 
     def function(self) -> ast.expr:
-        """Read a function with its argument: a bracket, a group, or a product of letters."""
+        """Read a function and its argument: a bracket, a group, or letters without brackets.
+
+        A power behind the name is one of the value: sin^2 x is the square of sin(x).
+        """
         name = str(self.take()).strip("\\")
         if name == "sqrt":
             return _call(name, self.group())
@@ -434,7 +475,11 @@ class _Formula:
         return _call(name, self.bracket() if self.peek() == "(" else self.product(of_letters=True))
 
     def bracket(self) -> ast.expr:
-        """Read a bracket: a group, a product of two, or a row of numbers."""
+        """Read a bracket: a group of one entry, a product of two entries, or a row (a, b, c)^T as a list.
+
+        The product is scalar for (a, b), vector for [a, b], Poisson's for {a, b}. Raises UnreadableError for three or
+        more entries without ^T.
+        """
         closing, product = _PAIRS[str(self.peek())]
         entries = self.entries(str(self.take()))
         if len(entries) == 1:
@@ -447,7 +492,7 @@ class _Formula:
         raise UnreadableError("a row of numbers is not read where a column should stand")
 
     def entries(self, opening: str) -> list[ast.expr]:
-        """Read the entries of a bracket, between commas."""
+        """Read the sums between commas or semicolons up to the bracket that closes ``opening``; return their trees."""
         entries = [self.sum()]
         while self.peek() in {",", ";"}:
             self.take()
@@ -456,7 +501,7 @@ class _Formula:
         return entries
 
     def length(self) -> ast.expr:
-        """Read the length of a vector, or the size of a number."""
+        """Read a formula between bars: norm(...) if it has a bold letter, else abs(...)."""
         self.take()
         bold, self.bold = self.bold, False
         inside = self.sum()
@@ -466,7 +511,7 @@ class _Formula:
         return _call(name, inside)
 
     def fraction(self) -> ast.expr:
-        """Read a fraction, or d/dt of the next factor."""
+        """Read a fraction: d/dt of the next factor, a partial derivative, or a quotient."""
         self.take()
         if self.tokens[self.position : self.position + 7] == ["{", "d", "}", "{", "d", "t", "}"]:
             self.position += 7
@@ -477,7 +522,7 @@ class _Formula:
         return ast.BinOp(top, ast.Div(), self.group())
 
     def varied(self) -> ast.expr:
-        """Read the numerator or the denominator of a partial derivative."""
+        r"""Read the braces behind a fraction of partial derivatives, such as {\partial f}, and return the tree of f."""
         self.take("{")
         self.take(r"\partial")
         inside = self.product()
@@ -485,7 +530,7 @@ class _Formula:
         return inside
 
     def matrix(self) -> ast.expr:
-        """Read a matrix or a column."""
+        """Read a matrix as a list of rows, or a column as a list of its entries."""
         self.take()
         rows: list[list[ast.expr]] = [[]]
         while True:
@@ -514,7 +559,7 @@ class _Formula:
         )
 
     def letter(self) -> _Letter:
-        """Read a letter with its marks."""
+        """Read a letter with accents, font, primes and lower index, in this order, as a `_Letter`."""
         accents: list[str] = []
         closing = 0
         while self.peek() in _ACCENTS:
@@ -548,7 +593,7 @@ class _Formula:
                 return _Letter(tuple(accents), (font and f"{font} ") + base, primes, tuple(below))
 
     def below(self) -> list[str]:
-        """Read the index of a letter as tokens."""
+        """Return the tokens of a lower index: one token, or those in braces."""
         if self.peek() != "{":
             return [str(self.take())]
         self.take()
@@ -561,11 +606,16 @@ class _Formula:
         return marks
 
     def indices(self) -> list[str]:
-        """Read indices, each a letter or a digit."""
+        """Return the names of a lower index, each a letter or a number. Raises UnreadableError for any other token."""
         return _plain(self.below())
 
     def named(self) -> ast.expr:
-        """Return the plain name of a letter: that of the table, else its own."""
+        """Return the syntax tree of a letter: the table's meaning, or its own name with its index.
+
+        A letter without a meaning stands in d(...) or d2(...) if it has dots. A meaning that ends in "()" is called
+        with the bracket that follows; one that ends in "[]" takes the index. Plain names are noted in `vectors` (bold)
+        or `thin`.
+        """
         letter = self.letter()
         self.bold |= letter.base.startswith(r"\mathbf")
         family = self.table.letters.get(_Letter(letter.accents, letter.base, letter.primes, ()), "")
@@ -585,7 +635,11 @@ class _Formula:
         return value
 
     def meant(self, letter: _Letter) -> ast.expr:
-        """Return the syntax tree of a letter without dots: a name, or an entry of an array."""
+        """Return the syntax tree of a letter without dots: the table's meaning, an array's entry R[i, j], or a name.
+
+        A name joins accents, letter, "p" for each prime, and digits of the index: hB2, B2p. Raises UnreadableError if
+        the table gives that name to another letter.
+        """
         if letter in self.table.letters:
             return _expression(self.table.letters[letter].removesuffix("[]"))
         bare = _Letter(letter.accents, letter.base, letter.primes, ())
@@ -608,13 +662,13 @@ _COMMON = {r"\mathbf{1}": "one", r"\epsilon": "eps[]"}
 
 
 def _expanded(term: ast.expr, index: str, sign: str) -> ast.expr:
-    """Return the product, or by `+` the sum, of a term with its index at 1, 2 and 3."""
+    """Return the sum ("+") or product ("*") of three copies of a term, with its index at 1, 2 and 3."""
     text = ast.unparse(term)
     return _expression(sign.join("(" + re.sub(rf"\b{index}\b", str(n), text) + ")" for n in (1, 2, 3)))
 
 
 def _plain(below: Iterable[str]) -> list[str]:
-    """Return indices in plain letters."""
+    """Return indices without backslashes: numbers, single letters, Greek names. Raises UnreadableError otherwise."""
     names = [_name(mark.strip("\\")) for mark in below]
     if not all(
         index.isdigit() or _GREEK.fullmatch(index.rstrip("_")) or (len(index) == 1 and index.isalpha())
@@ -625,7 +679,7 @@ def _plain(below: Iterable[str]) -> list[str]:
 
 
 def _name(word: str) -> str:
-    """Return a name with a stroke behind a keyword of Python such as lambda."""
+    """Return the word, with an underscore behind it where it is a keyword of Python such as lambda."""
     return f"{word}_" if keyword.iskeyword(word) else word
 
 
@@ -642,7 +696,7 @@ def _product(product: ast.expr | None, factor: ast.expr) -> ast.expr:
 
 
 def _minus(term: ast.expr) -> ast.expr:
-    """Return a product with the opposite sign, which its first factor takes."""
+    """Return a term with the opposite sign: the minus stands before the first factor of a product."""
     if isinstance(term, ast.BinOp) and isinstance(term.op, ast.Mult | ast.Div):
         return ast.BinOp(_minus(term.left), term.op, term.right)
     return ast.UnaryOp(ast.USub(), term)

@@ -31,7 +31,7 @@ ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, an
 
 
 def quartic_model() -> Model:
-    """Return the model of any state of the symmetric body; b^2 = K^2; Q and the cubic p depend on a symbol u."""
+    """Return the model of u = Omega3 at any state of the symmetric body, with the cubic's coefficients, b^2 = K^2."""
     basis = state_model().letters
     names = ("E", "c3", "c5", "I", "Bsquare")
     fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
@@ -44,9 +44,10 @@ def quartic_model() -> Model:
 
 
 def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
-    """Return Q of theorem-quartic and its derivatives, for the motion with these initial data in the field (0, B2, B3).
+    """Return Q of theorem-quartic and its derivatives by name, and nun2 = -Q''(omega3)/2.
 
-    And the square of the nutation frequency at Omega3 = omega3, which is -Q''/2.
+    The motion starts with ``spin`` (3, 1) in the field (0, B2, B3); ``scale`` is I. nun2 is the square of the frequency
+    of nutation.
     """
     field = sympy.Matrix([0, B2, B3])
     letters = {**integrals(spin, field, scale), "Bsquare": field.dot(field), "I": scale, "u": U}
@@ -55,7 +56,7 @@ def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
 
 
 def stability_model() -> Model:
-    """Model Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
+    """Return the model of Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
     b, hB3 = elementary.b, elementary.hB3
     bindings = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), *elementary.FIELD]
     letters = {"tau": hB3 / elementary.hB2, "x": x, "w": x * b, "b": b, "Bsquare": b**2, "hB3": hB3}
@@ -63,7 +64,7 @@ def stability_model() -> Model:
 
 
 def short_model() -> Model:
-    """Model Q on the hyperbola for 1 <= I <= 2 and any real X but 0."""
+    """Return the model of Q on the hyperbola for 1 <= I <= 2, omega2 = X - B2 with any X but 0."""
     X, surplus = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
     bindings = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + surplus})), (omega2, X - B2), (B3, tau * B2)]
     letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + surplus), "X": X, "tau": tau, "I": 1 + surplus}
@@ -72,7 +73,7 @@ def short_model() -> Model:
 
 @cache
 def _slope_in_squares() -> Value:
-    """Return -Q''(omega3)/2 on the hyperbola as a function of z = x^2 and t2 = tau^2 alone."""
+    """Return -Q''(omega3)/2 on the hyperbola, an expression in z = x^2, t2 = tau^2, I and B2; cached."""
     value = quartic(sympy.Matrix([0, omega2, omega3]))["nun2"]
     for symbol, meaning in ((omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), (B3, tau * B2)):
         value = value.subs(symbol, meaning)
@@ -80,7 +81,10 @@ def _slope_in_squares() -> Value:
 
 
 def places_model(*, within: bool) -> list[Model]:
-    """Model x^2 = z within the band, its ends among them, or outside, below and above it; 8 tau^2 = 1 - root^2."""
+    """Return models of z = x^2 ``within`` the band, its ends among them, or below and above it.
+
+    8 tau^2 = 1 - root^2.
+    """
     share, surplus = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
     long, cases = 1 - 1 / (1 + excess), []
     for root in ROOTS:
@@ -94,16 +98,16 @@ def places_model(*, within: bool) -> list[Model]:
 
 
 def above_model() -> Model:
-    """Return the model with 8 tau^2 = 1 + gain and I < 1; z = x^2 is any positive number."""
+    """Return the model of any z = x^2 > 0 with 8 tau^2 = 1 + gain and I < 1."""
     t2, scale = (1 + r) / 8, 1 / (1 + excess)
     slope = _slope_in_squares().subs({T2: t2, I: scale})
     return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
 
 
 def root_model() -> list[Model]:
-    """Q at omega3 + v, and p'(omega3), for every elementary motion: of the hyperbola, and of the lines omega2 = -B2.
+    """Return three models of Q for elementary motions: the hyperbola, and two kinds of lines omega2 = -B2.
 
-    These are I = 1 with any omega3, and B3 = 0 with any I and omega3.
+    On the lines I = 1 with any omega3, or B3 = 0 with any I and omega3.
     """
     zero = sympy.Integer(0)
     letters = {**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), "v": sympy.Symbol("v", real=True)}
@@ -116,7 +120,7 @@ def root_model() -> list[Model]:
 
 
 def leaving_model() -> Model:
-    """Model I < 1, time, and Q by theorem-root with the frequency 0."""
+    """Return the model of I < 1, time, and Q by theorem-root with nutation frequency 0."""
     t, v = sympy.symbols("t v", real=True)
     letters: dict[str, Value] = {"I": 1 / (1 + excess), "B3": B3, "t": t, "v": v, "omega3": omega3}
     basis = evaluated("theorem-root", SIGNS, {**letters, "nun2": sympy.Integer(0)})
@@ -125,21 +129,21 @@ def leaving_model() -> Model:
 
 
 def equatorial_model() -> Model:
-    """Return the model with B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
+    """Return the model of nun2 for B3 = 0: `upright`, omega2 = -B2 with any omega3; `level`, omega3 = 0, any omega2."""
     lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
     rates = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
     return Model({**LETTERS, **rates}, [(B3, sympy.Integer(0))])
 
 
 def ball_nutation_model() -> Model:
-    """Return the model with I = 1 and any initial angular velocity."""
+    """Return the model of nun2 for I = 1 and any initial angular velocity omega."""
     spin = sympy.Matrix([omega1, omega2, omega3])
     Q = quartic(spin, sympy.Integer(1))
     return Model({"nun2": Q["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
 
 
 def torque_model() -> Model:
-    """Return the model of (17) for any symmetric mass matrix and any Omega."""
+    """Return the model of m and its rate dm by (17), for any symmetric mass matrix and any Omega."""
     basis = euler_poisson.magnetic_model()
     R, tensor, mass = (basis.letters[name] for name in ("R", "I", "g"))
     spin, field = euler_poisson.Omega, euler_poisson.Bf
@@ -149,14 +153,17 @@ def torque_model() -> Model:
 
 
 def lines_model() -> list[Model]:
-    """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2, with omega1 of either sign."""
+    """Return two models, of sign 1 and -1: omega2 = -B2, omega1 = sign sqrt(1 - I) B2."""
     size = sympy.Symbol("size", positive=True)
     letters = {**LETTERS, "I": 1 - size**2, "omega2": -B2}
     return [Model({**letters, "sign": sympy.Integer(sign), "omega1": sign * size * B2}) for sign in (1, -1)]
 
 
 def turning_model(case: str) -> Model:
-    """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
+    """Return the model of two rotations, about the field by -b t, or about e2 by -B2 t, and about e3, on the lines.
+
+    ``case`` is "ball" (I = 1, about the field), otherwise B3 = 0 and e2; Omega = (-B2 sin, -B2 cos, omega3).
+    """
     e = elementary
     precession, axis, bindings = (
         (e.b, sympy.Matrix([0, e.hB2, e.hB3]), [(I, sympy.Integer(1))])
@@ -174,7 +181,7 @@ def turning_model(case: str) -> Model:
 
 
 def rest_model() -> Model:
-    """Model a ball with m = (0, 0, -alpha I0)."""
+    """Return the model of a ball with m = (0, 0, -alpha I0)."""
     b = ball
     letters = {"alpha": b.alpha, "t": b.t, "I0": b.I0, "m": sympy.Matrix([0, 0, -b.alpha * b.I0])}
     model = Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})
@@ -183,7 +190,10 @@ def rest_model() -> Model:
 
 
 def angles_model() -> Model:
-    """Model R = R_z(psi) R_x(theta) R_z(chi) with any rates of the angles; B = b e3, Omega from R^T dR/dt."""
+    """Return the model of R = R_z(psi) R_x(theta) R_z(chi) with any rates of the angles; Omega is read off R^T dR/dt.
+
+    K is b times the third row of R; xi and eta are logarithmic rates of the Cayley-Klein parameters.
+    """
     b = sympy.Symbol("b", positive=True)
     names = sympy.symbols("psi theta chi", real=True)
     rates = psi1, _, chi1 = sympy.symbols("psi1 theta1 chi1", real=True)
@@ -211,7 +221,7 @@ def angles_model() -> Model:
 
 
 def _and_only_there(line: str) -> str:
-    """Add that the first relation does not hold elsewhere."""
+    """Return a line a <= b; ... with "a > b" added as its last statement."""
     return f"{line}; {line.split('; ', maxsplit=1)[0].replace('<=', '>')}"
 
 

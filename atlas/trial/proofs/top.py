@@ -21,12 +21,12 @@ QUARTIC = (1 - nu**2) * (g - 2 * a * nu - A * nu**2) - (p - M3 * nu) ** 2
 
 
 def _force(b: Value) -> Value:
-    """Return U'(nu)."""
+    """Return U'(nu) = a0 + A0 nu for the unit vector b, nu = b3."""
     return a0 + A0 * b[2]
 
 
 def state_model() -> Model:
-    """Model any state M, b of the top, b a unit vector, with the rates of the equations; and the state at t = 0."""
+    """Return the model of any state M, b of the top, |b| = 1, with its rates, constants h, p, M3, g, and psi1, chi1."""
     M, b = vector("M"), vector("b")
     Omega = J.inv() * (M - COUPLING * b)
     rates = cross(M, Omega) + cross(COUPLING * Omega - _force(b) * E3, b), cross(b, Omega)
@@ -52,7 +52,10 @@ def state_model() -> Model:
 
 
 def start_model() -> Model:
-    """Model the start with b = (0, n2, n3), and the rates of nu at this start."""
+    """Return the model of the start with b = (0, n2, n3) and Omega = omega.
+
+    W and v are symbols, D is of the theorem.
+    """
     basis, (n2, n3) = state_model(), turn(x)[::-1]
     omega, direction = sympy.Matrix([omega1, omega2, omega3]), sympy.Matrix([0, *sympy.symbols("n2 n3", real=True)])
     M, symbols = J * omega + COUPLING * direction, sympy.symbols("w v", real=True)
@@ -64,7 +67,7 @@ def start_model() -> Model:
 
 
 def paper_model() -> Model:
-    """Model the paper's body with B' = b n: k2 = b, k3 = I b, no potential."""
+    """Return `start_model` for the paper's body: k2 = b, k3 = I b, and no potential."""
     b = sympy.Symbol("b", positive=True)
     bindings = [(k2, b), (k3, I * b), (a0, sympy.Integer(0)), (A0, sympy.Integer(0))]
     letters = {**start_model().letters, "b": b}
@@ -72,7 +75,7 @@ def paper_model() -> Model:
 
 
 def turns_model() -> Model:
-    """Model b turned about the axis by an angle with cosine and sine, and Omega = psi b + chi e3 on the hyperbola."""
+    """Return the model of b rotated about e3, and Omega = psi1 b + chi1 e3, on the top's hyperbola."""
     base = start_model().letters
     n2, n3 = base["n2"], base["n3"]
     c, s, w, v, psi, chi = sympy.symbols("c s w v psi1 chi1", real=True)
@@ -84,13 +87,13 @@ def turns_model() -> Model:
 
 
 def quartic_model() -> Model:
-    """Model any constants of the quartic, and any nu0."""
+    """Return the model of any constants of the quartic q, any nu0, and w = (p - M3 nu0)/(1 - nu0^2)."""
     letters = {"nu0": r, "a": a, "A": A, "M3": M3, "p": p, "g": g, "w": (p - M3 * r) / (1 - r**2)}
     return Model({**letters, **functions("q", QUARTIC, nu)})
 
 
 def precession_model() -> Model:
-    """Model a steady precession with the rate w at nu = r."""
+    """Return the model of a steady precession with rate w at nu = r; M3, p and g follow."""
     w = sympy.Symbol("w", real=True)
     momentum = (r * w**2 + a + A * r) / w
     momentum_along_field, remainder = w * (1 - r**2) + r * momentum, 2 * a * r + A * r**2 + w**2 * (1 - r**2)
@@ -101,7 +104,7 @@ def precession_model() -> Model:
 
 
 def marginal_model() -> Model:
-    """Model a steady precession whose nutation has no frequency, c = (a + A r)/w."""
+    """Return `precession_model` with nutation frequency 0; A and a follow from c = (a + A r)/w."""
     base = precession_model()
     w = base.letters["w"]
     c = sympy.Symbol("c", real=True)
@@ -111,7 +114,7 @@ def marginal_model() -> Model:
 
 
 def sleeping_model() -> list[Model]:
-    """Model the state at rest at nu = sigma."""
+    """Return two models of the quartic q of a top at rest at nu = sigma, sigma = 1 and -1."""
     models = []
     for sigma in (1, -1):
         letters = {"nu": nu, "a": a, "A": A, "M3": M3, "sigma": sympy.Integer(sigma)}
@@ -120,7 +123,7 @@ def sleeping_model() -> list[Model]:
 
 
 def border_model() -> list[Model]:
-    """Model the border of stability, A = M3^2/4 - sigma a."""
+    """Return `sleeping_model`, two models, at the border of stability: A = M3^2/4 - sigma a."""
     return [Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model()]
 
 

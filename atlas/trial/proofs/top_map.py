@@ -21,13 +21,16 @@ r, k2, kappa, spin = sympy.symbols("nuc k2 kappa spin", real=True)
 
 
 def cusp_model() -> Model:
-    """Model any constants of the quartic q, with p such that the axis would not precess at nu = r."""
+    """Return the model of any constants of q, and psi1, the rate of precession as a function of nu."""
     letters = {"nu": nu, "nuc": r, "a": a, "A": A, "M3": M3, "g": g, "k2": k2, "p": p}
     return Model({**letters, "psi1": (p - M3 * nu) / (1 - nu**2) - k2, **functions("q", QUARTIC, nu)})
 
 
 def spin_model() -> list[Model]:
-    """Model any state M, b, |b| = 1, near a spin about n in either sense s."""
+    """Return two models of any state M, b, |b| = 1.
+
+    Sigma = 1 and -1 is the sense of the spin about e3 near which it is.
+    """
     models = []
     for sense in (1, -1):
         M, b = vector("M"), vector("b")
@@ -40,7 +43,7 @@ def spin_model() -> list[Model]:
 
 
 def residue_model() -> list[Model]:
-    """Model any constants of the quartic q at either end s of its range, and the rates P of psi and C of chi."""
+    """Return two models of residues of the rates of psi and chi at nu = sigma, for any constants of q."""
     turn, cases = (p - M3 * nu) / (1 - nu**2), []
     for sense in (1, -1):
         letters = {"nu": nu, "M3": M3, "p": p, "k2": k2, "sigma": sympy.Integer(sense), **functions("q", QUARTIC, nu)}

@@ -18,7 +18,7 @@ Cases = Model | Sequence[Model]
 
 @cache
 def _made(model: Callable[[], Cases]) -> Sequence[Model]:
-    """Return the models of a line, made once for all trials in these models."""
+    """Call ``model`` and return its models as a sequence, of one model where it returns one; cached by function."""
     models = model()
     return [models] if isinstance(models, Model) else models
 
@@ -30,7 +30,7 @@ def _assumed(
     model: Callable[[], Cases],
     excluded: tuple[str, ...],
 ) -> Read:
-    """Hold assumptions against a model, once for all forms that are tried."""
+    """Compare assumptions with the models by `assumed.compare`; cached. ``signs`` are pairs of the table of letters."""
     return compare(assumptions, dict(signs), _made(model), excluded)
 
 
@@ -45,11 +45,14 @@ class Part:
 
     @property
     def cases(self) -> Sequence[Model]:
-        """The models in which the line is tried."""
+        """The sequence of models in which the line is tried, one or more; see `_made`."""
         return _made(self.model)
 
     def outcome(self, **options: bool) -> Outcome:
-        """Return the outcome of the line in its models; `options` are keywords of `decide`."""
+        """Return the `Outcome` of the line in its models.
+
+        ``options`` are flags of `decide`: ``sample_only`` and ``shrink``.
+        """
         return decide(self.line, self.cases, defines=self.defines, solves=self.solves, **options)
 
 
@@ -112,17 +115,21 @@ class Trial:
 
     @property
     def printed(self) -> str:
-        """The printed form in plain letters. Raises UnreadableError if its TeX can't be read."""
+        """The printed form as a line of `notation`, after `form`. Raises UnreadableError if its TeX can't be read."""
         return self.form(tex.line(self.formula, self.signs))
 
     @property
     def formula(self) -> str:
-        """The TeX that is tried."""
+        """The TeX to be read: that of the trial, or of the ledger's entry where the trial has none."""
         return self.tex or EQUATIONS[self.name].tex
 
     @property
     def true_form(self) -> "Trial | None":
-        """The trial of the true form; None if there is no slip."""
+        """The trial of the corrected form; None if the entry has no `corrected_tex`.
+
+        Each field `corrected_...` replaces that of the printed form where it is given; `also` is `corrected_also`
+        alone.
+        """
         if not self.corrected_tex:
             return None
         return Trial(
@@ -140,17 +147,26 @@ class Trial:
 
     @property
     def corrected(self) -> str:
-        """The true form in plain letters, empty if there is no slip. Raises UnreadableError if it can't be read."""
+        """The corrected form as a line of `notation`; empty if there is none.
+
+        Raises UnreadableError if its TeX can't be read.
+        """
         return self.true_form.printed if self.true_form else ""
 
     @property
     def said(self) -> dict[str, str]:
-        """Phrases of the printed and the corrected form that are not read, with the lines tried in their place."""
+        """Phrases of the TeX, printed and corrected, that are not read, each with the line tried instead.
+
+        See `tex.said`: the line is empty where nothing is tried.
+        """
         return tex.said(self.formula, self.signs) | (self.true_form.said if self.true_form else {})
 
     @property
     def assumed(self) -> Read:
-        """The assumptions, held against the model of the true form."""
+        """The clauses of the entry's assumptions, each satisfied, broken or unread in the models of the true form.
+
+        The true form is the corrected one, or the printed one where there is no correction.
+        """
         return self._compared(EQUATIONS[self.name].assumptions)
 
     def _compared(self, assumptions: tuple[str, ...]) -> Read:
@@ -159,9 +175,10 @@ class Trial:
 
     @property
     def outside(self) -> str:
-        """False domain beside the entry, with the reason for which nothing is proved there; empty if there is none.
+        """The false domain of the entry and the reason for which nothing is proved there; empty if the entry has none.
 
-        Raises ValueError if the false domain replaces no assumption, or the trial has no objection to it.
+        It is the text "WRONG in the place of RIGHT: undecided (REASON)". Raises ValueError if the replaced words stand
+        in no assumption, or the models do not contradict the false domain.
         """
         entry = EQUATIONS[self.name]
         if not entry.outside:
@@ -175,7 +192,11 @@ class Trial:
 
     @property
     def parts(self) -> tuple[Part, ...]:
-        """The lines of the printed form."""
+        """The lines of the printed form, each with its models.
+
+        Statements of one model are joined by "; ", those at the places in `elsewhere` stand in parts of their own
+        models. The lines of `arrows` and `also` follow. Raises UnreadableError if the TeX can't be read.
+        """
         statements: dict[Callable[[], Cases], list[str]] = {}
         for place, statement in enumerate(self.printed.split("; ")):
             statements.setdefault(self.elsewhere.get(place, self.model), []).append(statement)
@@ -189,17 +210,21 @@ class Trial:
 
     @property
     def corrected_parts(self) -> tuple[Part, ...]:
-        """The lines of the corrected form; none if there is no such form."""
+        """The lines of the corrected form, as `parts`; an empty tuple if there is no corrected form."""
         return self.true_form.parts if self.true_form else ()
 
     @property
     def true_parts(self) -> tuple[Part, ...]:
-        """The lines of the form that is proved: the corrected one where there is one."""
+        """The lines of the form to be proved: the corrected one, or the printed one if none is corrected."""
         return (self.true_form or self).parts
 
     @property
     def false_part(self) -> Part:
-        """The part of the true form that the false sentence changes. Raises ValueError if there is none."""
+        """The first part of the true form that contains ``false.right``, with ``false.wrong`` in that place.
+
+        It has the model of `false` where one is given. Raises ValueError if the trial has no false sentence, or no part
+        contains ``false.right``.
+        """
         if self.false is None or not (self.false.right or self.false.model):
             raise ValueError(f"{self.name} has no false sentence beside it")
         for true_part in self.true_parts:
@@ -209,7 +234,11 @@ class Trial:
         raise ValueError(f"{self.name}: the false sentence changes {self.false.right!r}, which is not there")
 
     def of_printed(self, *, shrink: bool = False) -> Outcome:
-        """Try the printed form; a definition that holds is called one."""
+        """Return the `Outcome` of the printed form; ``shrink`` makes a counterexample as simple as possible.
+
+        It is undecided, with the reason as `method`, where the TeX can't be read, its arrows are not those of the
+        trial, or the models contradict an assumption. A definition that is proved has the decision "definition".
+        """
         try:
             parts, objection = self.parts, self._objection(tex.thin(self.formula, self.signs))
         except (tex.UnreadableError, NoMeaningError) as reason:
@@ -222,7 +251,11 @@ class Trial:
         return outcome
 
     def _objection(self, thin: Iterable[str]) -> str:
-        """Return why the line is not tried: arrows, assumptions or letters that it does not have; empty if none."""
+        """Return the reason for which the printed form is not tried, as a sentence; empty if there is none.
+
+        Reasons are arrows other than those in `arrows`, those of `_unlike`, and a letter of ``thin`` (not bold) whose
+        value in a model is a vector.
+        """
         tried = [(place, r"\implies" if line is None else r"\iff") for place, line in self.arrows.items()]
         if tex.arrows(self.formula, self.signs) != tried:
             return "unreadable: its arrows are not those that are tried"
@@ -234,7 +267,11 @@ class Trial:
         return ""
 
     def _unlike(self, read: Read) -> str:
-        """Return an assumption that is false in the model, or for which the line has no value; "" if none."""
+        """Return a sentence with the first conflict between assumptions and models; empty if there is none.
+
+        Conflicts are an assumption that is false in a model, and one that gives a number to a free symbol for which a
+        side of the first part is infinite or undefined.
+        """
         if read.broken:
             return f"assumed, and not so in the model: {'; '.join(read.broken)}"
         first_statement = (self.true_form or self).parts[0]
@@ -249,18 +286,25 @@ class Trial:
 
 
 def read(name: str, signs: Mapping[str, str]) -> str:
-    """Return an entry of the ledger as a line in plain letters."""
+    """Return the printed TeX of an entry of the ledger as a line of `notation`; ``signs`` are its table of letters."""
     return tex.line(EQUATIONS[name].tex, signs)
 
 
 def evaluated(name: str, signs: Mapping[str, str], letters: Mapping[str, Value], side: int = 1) -> Value:
-    """Return the value of a side of the first relation of an entry of the ledger."""
+    """Return the value, SymPy expression or matrix, of a side of the first relation of an entry's printed form.
+
+    ``side`` counts the sides from 0: by default the one behind the first sign of equality. ``letters`` are added to
+    `COMMON`; other letters stay symbols.
+    """
     line = sides(read(name, signs))[side]
     return Reader({**COMMON, **letters}).value(parse(f"{line} = 0")[0].left, {})
 
 
 def _joined(outcomes: Sequence[Outcome]) -> Outcome:
-    """Return the outcome of several lines: refuted if one is, proved if all are."""
+    """Return the outcome of several lines: the first one refuted, else undecided, else supported, else proved.
+
+    A proof names the methods of all lines, each once.
+    """
     for decision in ("refuted", "undecided", "supported"):
         for outcome in outcomes:
             if outcome.decision == decision:

@@ -63,12 +63,15 @@ class Verdict:
     source: str = ""
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the record for JSON."""
+        """The fields as a dictionary with the names of the attributes, ready for JSON."""
         return asdict(self)
 
     @property
     def example(self) -> str:
-        """The counterexample as one line to retype; empty if there is none."""
+        """The counterexample as one line; empty if there is none.
+
+        Its pieces, each where it is given, are "reason; letters = values; relation; left: ...; right: ...".
+        """
         letters_and_sides = dict(self.counterexample)
         relation = letters_and_sides.pop("relation", "")
         sides = [f"{side}: {letters_and_sides.pop(side)}" for side in ("left", "right") if side in letters_and_sides]
@@ -78,7 +81,11 @@ class Verdict:
 
 
 def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
-    """Return the distinct slips by grade, the grave ones first, each by the name under which it is counted."""
+    """Return the names of entries with a slip of their own, as lists by grade, in the order of `GRADES`.
+
+    Every grade is a key, with an empty list where no entry has it. An entry whose `slip` names another entry is left
+    out.
+    """
     by_grade: dict[Grade, list[str]] = {grade: [] for grade in GRADES}
     for verdict in verdicts:
         if verdict.grade and not verdict.slip:
