@@ -54,7 +54,7 @@ def _invariants(a0: Any, a1: Any, a2: Any, a3: Any, a4: Any) -> tuple[Any, Any]:
 
 
 def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3, as `four_roots` does."""
+    """Return three complex balls, the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3; see `four_roots`."""
     b0, b1, b2, b3 = b
     H, G = b1 * b1 - b0 * b2, b0 * b0 * b3 - 3 * b0 * b1 * b2 + 2 * b1 * b1 * b1
     discriminant, h = 4 * H * H * H - G * G, ball(H)

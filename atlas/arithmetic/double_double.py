@@ -234,11 +234,12 @@ def over(
     degree: int | Sequence[int] = 1,
     alone: Formula | None = None,
 ) -> Any:
-    """Evaluate a formula, each result rounded once: floats for plain inputs, arrays of their common shape otherwise.
+    """Evaluate a formula at floats, arrays or `Given`, each result rounded once to the nearest double.
 
-    `formula` takes as many numbers, of flint or `DoubleDouble`. The inputs `unit` share one unit, in which the result
-    is homogeneous of this degree; degrees, if it returns several. `alone` takes floats and returns floats, where 256
-    digits do not suffice.
+    ``formula`` takes as many numbers as there are inputs, of flint or `DoubleDouble`, and returns one, or a tuple if
+    ``degree`` is a sequence. The result is a float for scalar inputs, an array of their common shape otherwise, a list
+    of these for several degrees. The inputs ``unit`` share one unit, in which each result is homogeneous of its degree.
+    ``alone``, which takes and returns floats, replaces the evaluation in 256 digits where those do not suffice.
     """
     alone = alone or partial(numbers.alone, formula)
     if not any(np.ndim(x) for x in inputs):

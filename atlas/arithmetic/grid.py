@@ -62,11 +62,12 @@ class Progression:
         self.table = np.array([*(cut[:2] for cut in cuts), *(cut[2:] for cut in cuts)])
 
     def circle(self, i: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-        """Write the arrays of `Phases.circle`, within the same 8 w, at integers i in the first of two rows (i, 1).
+        """Fill ``cos``, ``sin`` (n, m) and ``versine`` (m,) as `Phases.circle` does.
 
-        Unless `refined`, x/2 is rounded: that adds half an ulp of it times 1 + u^2, at most w, to the error of
-        u = tan(x/2), and saves that of a sum. As |u| is below 1 + 2^-12 for size <= 8000, u is within 2 w below 1 and
-        3 w above, cos within 3 w + 3.5 w + 0.5 w, and sin, for which u counts little near 1, within 5 w.
+        Rows of ``i`` are integers and ones. They are within the same 8 w. Unless `refined`, x/2 is rounded: that adds
+        half an ulp of it times 1 + u^2, at most w, to the error of u = tan(x/2), and saves that of a sum. As |u| is
+        below 1 + 2^-12 for size <= 8000, u is within 2 w below 1 and 3 w above, cos within 3 w + 3.5 w + 0.5 w, and
+        sin, for which u counts little near 1, within 5 w.
         """
         head, remainder, sign, half = self.parts(i, work)
         np.add(head, remainder, out=half)
@@ -208,7 +209,10 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
 
 
 def product(functions: FloatArray, table: FloatArray, rows: FloatArray, start_row: int) -> None:
-    """Write functions (r, m) times table (r, 9 FINE_TIMES) to rows (count, 9) from the first on, no others."""
+    """Write matrices, functions (r, m) transposed times table (r, 9 FINE_TIMES), into ``rows`` (count, 9).
+
+    The first goes to row ``start_row``; results before row 0 and beyond the last row are dropped.
+    """
     m = functions.shape[1]
     if start_row < 0:
         np.matmul(functions[:, :1].T, table[:, -9 * start_row :], out=rows[: start_row + FINE_TIMES].reshape(1, -1))

@@ -188,7 +188,7 @@ class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
 
 
 def plain(array: Any) -> Any:
-    """Return an array of dimension 0 as a Python float, any other array unchanged; a `Given` is rounded to doubles."""
+    """Return an array of dimension 0 as a float, a `Given` with axes as its nearest doubles, others unchanged."""
     return float(array) if not np.ndim(array) else array.hi if isinstance(array, Given) else array
 
 
@@ -207,7 +207,10 @@ def turn_time(rate: Any) -> float | FloatArray:
 
 
 def scaled(v: FloatArray) -> tuple[FloatArray, Any]:
-    """Return v (n, ...) over powers of two, so that sums of squares along the first axis are floats, and the powers."""
+    """Return (v/2^e, e) for vectors v (n, ...): squares of the scaled components neither over- nor underflow.
+
+    The exponents e have the shape (...).
+    """
     exponent = np.frexp(np.abs(v).max(axis=0))[1]
     return np.ldexp(v, -exponent), exponent
 

@@ -79,7 +79,7 @@ def rational(x: float | fmpq) -> fmpq:
 
 
 def as_rational(x: fmpq | arb) -> fmpq:
-    """Return a rational number, or the middle of a ball."""
+    """Return the midpoint of a ball as an exact rational; a rational unchanged."""
     if isinstance(x, fmpq):
         return x
     m, e = (int(n) for n in x.mid().man_exp())
@@ -101,20 +101,23 @@ def pi_like(x: Number) -> Number:
 
 
 def select(x: Number, positive: Number, other: Number) -> Number:
-    """Return `positive` where x > 0, `other` elsewhere."""
+    """Return ``positive`` if x > 0, ``other`` otherwise; element by element for `DoubleDouble`."""
     if isinstance(x, fmpq | arb):
         return positive if x > 0 else other
     return x.select(positive, other)
 
 
 def dot(a: Vector, b: Vector) -> Number:
-    """Scalar product (a, b)."""
+    """Return the scalar product of two vectors of the same length."""
     first_product, *other_products = (x * y for x, y in zip(a, b, strict=True))
     return sum(other_products, first_product)
 
 
 def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ...], ...]:
-    """Return 4 q_i q_j of the quaternion (x, y, z, w) of a rotation matrix; the row of the largest loses nothing."""
+    """Return the matrix 4 q_i q_j, four rows, of the quaternion q = (x, y, z, w) of a rotation matrix.
+
+    The row of the largest component has no cancellation.
+    """
     trace = R[0][0] + R[1][1] + R[2][2]
     x, y, z = (2 * R[i][i] - trace for i in range(3))
     xy, yz, xz = (R[i][j] + R[j][i] for i, j in ((0, 1), (1, 2), (0, 2)))
@@ -123,12 +126,12 @@ def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ..
 
 
 def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
-    """Vector product [a, b]."""
+    """Return the vector product [a, b] of vectors of three components, as a tuple."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
-    """Return a vector turned by the quaternion (x, y, z, w), which need not be of length 1."""
+    """Return the components of v rotated by the quaternion q = (x, y, z, w) of any length but 0."""
     axis, w = q[:3], q[3]
     across_square, axis_square = w * w, dot(axis, axis)
     size, less, twice = across_square + axis_square, across_square - axis_square, dot(axis, v)
@@ -137,7 +140,7 @@ def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
 
 
 def length(*components: Number) -> Number:
-    """Return the length of a vector."""
+    """Return the length of a vector: an exact rational where it is one, else a ball."""
     return root(dot(components, components))
 
 
@@ -150,19 +153,25 @@ def direction(vector: Vector) -> tuple[Number, ...]:
 
 
 def unit(vector: Vector) -> list[Number]:
-    """Return the unit vector along a nonzero vector, each component by a single square root."""
+    """Return the unit vector along a nonzero vector, a list; each component is +- sqrt(x^2/|v|^2)."""
     square = dot(vector, vector)
     roots = [(x, root(x * x / square)) for x in vector]
     return [select(x, size, -size) for x, size in roots]
 
 
 def alone(formula: Callable[..., Any], *inputs: float) -> Any:
-    """Evaluate a formula on floats, which are taken as exact; each result is rounded once."""
+    """Evaluate a formula at floats, taken as exact, in 256 binary digits, each result rounded once.
+
+    The result is a float, or a list of floats if the formula returns several numbers.
+    """
     return rounded(lambda *x: formula(*map(rational, x)), *inputs)
 
 
 def rounded(function: Callable[..., Any], *inputs: Any) -> Any:
-    """Return a number, or several, in 256 digits, each rounded once."""
+    """Return function(*inputs), evaluated in 256 binary digits, each result rounded once.
+
+    The result is a float, or a list of floats if the function returns several numbers.
+    """
     with workprec():
         values = function(*inputs)
         return [nearest(x) for x in values] if isinstance(values, tuple | list) else nearest(values)

@@ -15,13 +15,16 @@ LENGTH_TOLERANCE, LENGTH_ROUNDING = 1e-3, 1e-6
 
 
 def of_matrix(R: Any) -> FloatArray:
-    """Return unit quaternions of rotation matrices (..., 3, 3), one of the two of each; shape (..., 4)."""
+    """Return a unit quaternion (x, y, z, w) for each rotation matrix (..., 3, 3), shape (..., 4).
+
+    Its sign is arbitrary.
+    """
     quaternions = rows_of_matrix(R)
     return np.asarray(quaternions / np.sqrt((quaternions * quaternions).sum(-1))[..., None])
 
 
 def rows_of_matrix(R: Any) -> FloatArray:
-    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), each 4 times its largest component long."""
+    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), of length 4 |q_i|, q_i the largest component."""
     entries: Any = np.moveaxis(np.asarray(R), (-2, -1), (0, 1))
     rows = quaternion_products(entries)
     table = np.array([np.stack(row, -1) for row in rows])
@@ -30,7 +33,7 @@ def rows_of_matrix(R: Any) -> FloatArray:
 
 
 def product(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Return the quaternions p q of a rotation q and p after it; shapes (..., 4) broadcast."""
+    """Return the quaternions of the rotation q followed by p; shapes (..., 4) broadcast."""
     (a, b, c, d), (x, y, z, w) = np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0)
     return np.stack([
         d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x,
@@ -39,7 +42,7 @@ def product(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def between(R_p: FloatArray, R_r: FloatArray) -> FloatArray:
-    """Return the matrix (4, 4) that takes a row q to p q r, p and r the quaternions of two rotation matrices."""
+    """Return the matrix (4, 4) that maps a row q to the quaternion p q r of the rotation matrices R_p and R_r."""
     return product(product(of_matrix(R_p), np.eye(4)), of_matrix(R_r))
 
 
@@ -56,7 +59,10 @@ class Attitude(NamedTuple):
 
 
 def rotation_of(quaternion: Sequence[float], name: str) -> Attitude:
-    """Return the rotation of a typed quaternion, which has a name; AtlasError for a length that is not 1 to 1e-3."""
+    """Return a typed quaternion (x, y, z, w) as `Attitude`. Raises AtlasError unless its length is 1 to 1e-3.
+
+    A length that is off by more than rounding is told as a warning; ``name`` stands in both messages.
+    """
     if (off := abs((length := hypot(*quaternion)) - 1)) > LENGTH_TOLERANCE:
         raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
     if off > LENGTH_ROUNDING:

@@ -161,7 +161,10 @@ class DoubleRotationRows:
 
     @property
     def extreme(self) -> Any:
-        """Indices of the motions with a frequency out of the range of MAX_FREQUENCY, which need the scalar path."""
+        """Indices of the selected motions with a frequency out of the range of MAX_FREQUENCY.
+
+        These need the scalar path.
+        """
         size = abs(self.words[0])
         return np.flatnonzero(~((size == 0) | ((size > 1 / MAX_FREQUENCY) & (size < MAX_FREQUENCY))).all(axis=0))
 

@@ -199,7 +199,10 @@ def _is_lost(values: list[float], size: int) -> bool:
 
 
 def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, set[Place]]:
-    """Return the places of numbers that are sampled, and of those that too many of `size` draws lack, by sentence."""
+    """Return sets of places by sentence: of sampled deviations, and of numbers that too many draws lack.
+
+    A sentence names the number of draws, and the largest number of draws without a value.
+    """
     lost = {key for key, values in draws.items() if _is_lost(values, size)}
     sentences = {}
     for keys, text in ((draws.keys() - lost, BY_SAMPLING), (lost, BY_NEITHER)):
@@ -252,7 +255,7 @@ def _listed(value: Any) -> Any:
 
 
 def _uncertain(value: Any) -> Iterator[Any]:
-    """Yield the numbers with a standard deviation in a value."""
+    """Yield the numbers with `nominal_value` and `std_dev` in a value, in nested lists and `UncertainObject`."""
     value = _listed(value)
     if isinstance(value, UncertainObject):
         value = value.inputs

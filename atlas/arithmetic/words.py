@@ -12,18 +12,18 @@ from atlas.arithmetic.numbers import BITS, Number, nearest, rational, workprec
 
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return each double or single `Given` as an exact rational number, rational numbers unchanged, in a tuple."""
+    """Return doubles and single `Given` as exact rationals, rationals unchanged, in a tuple."""
     singles = (x.at(()) if isinstance(x, Given) else x for x in numbers)
     return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in singles)
 
 
 def floats(numbers: Iterable[Number]) -> FloatArray:
-    """Return numbers, each rounded once."""
+    """Return numbers, balls or rationals, as a float array (n,), each rounded once."""
     return np.array([nearest(x) for x in numbers])
 
 
 def middle(x: Number) -> arb:
-    """Return the middle of a ball, or a rational number, in 256 digits, as a ball without a radius."""
+    """Return the midpoint of a ball, or a rational to 256 binary digits, as a ball of radius 0."""
     if isinstance(x, arb):
         return x.mid()
     with workprec():
@@ -31,25 +31,25 @@ def middle(x: Number) -> arb:
 
 
 def scaled(x: arb, exponent: int) -> arb:
-    """Return x 2^exponent, for a ball without a radius."""
+    """Return x 2^exponent, exactly; x is a ball of radius 0."""
     m, e = x.man_exp()
     return arb((m, int(e) + exponent))
 
 
 def units(x: arb, digits: int) -> int:
-    """Return x in units of 2^-digits, rounded down, for a ball without a radius."""
+    """Return the integer part (rounded down) of x 2^digits; x is a ball of radius 0."""
     m, e = (int(number) for number in x.man_exp())
     return m << e + digits if e + digits >= 0 else m >> -(e + digits)
 
 
 def magnitude(x: arb) -> int:
-    """Least n with |x| < 2^n, for a ball without a radius that is not zero."""
+    """Return the least integer n with |x| < 2^n; x is a ball of radius 0, not zero."""
     m, e = x.man_exp()
     return int(m).bit_length() + int(e)
 
 
 def words(x: Number, count: int) -> list[float]:
-    """Return a number as a list of doubles, each the nearest to the remainder of the previous ones."""
+    """Return ``count`` doubles whose sum is the number to that many words; each is the nearest to what remains."""
     doubles, remainder = [], middle(x)
     with workprec(2 * BITS):
         for _ in range(count):

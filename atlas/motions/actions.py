@@ -44,7 +44,7 @@ class Actions:
 
 
 def actions(motion: Any) -> Actions:
-    """Return the actions of one motion, see `Motion.actions`."""
+    """Return the `Actions` of one motion, see `Motion.actions`. Raises AtlasError for an array of motions."""
     if motion.shape:
         raise AtlasError(f"Actions are those of one motion, not of an array of them, of shape {motion.shape}.")
     motion = motion.own

@@ -80,7 +80,7 @@ class Motion(Shown, Generic[Single]):
     """Whether formulas of the class have R(0) = 1 and Omega(0) without rounding."""
 
     def __new__(cls, *inputs: Any, **arguments: Any) -> Self:
-        """Refuse a start that another class takes, by its name."""
+        """Raise TypeError for a keyword that only another class takes, with the name of that class."""
         code = cls.__init__.__code__
         known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
         for name in arguments.keys() - set(known) & OTHERS.keys():
@@ -102,7 +102,10 @@ class Motion(Shown, Generic[Single]):
         return single
 
     def _row(self, i: int = 0) -> list[Any]:
-        """Return the inputs of the i-th motion: floats, rational numbers that no float holds, or None."""
+        """Return the inputs of the i-th motion: floats, rationals that no float holds, or None.
+
+        I counts the array flattened.
+        """
         index = tuple(map(int, np.unravel_index(i, self.shape))) if self.shape else ()
         return [element(x, index) for x in self._inputs]
 
@@ -304,7 +307,10 @@ class Motion(Shown, Generic[Single]):
         return self._started(self._in_body(Omega), self._omega_at_zero, t)
 
     def _started(self, values: FloatArray, start: Callable[[], FloatArray], t: Any, rank: int = 1) -> FloatArray:
-        """Return vectors (rank 1) or matrices (rank 2) with those at t = 0 exactly as given, by `start`."""
+        """Return ``values`` with those at t = 0 replaced by start(), where the formulas are not exact there.
+
+        They are vectors for ``rank`` 1, matrices for rank 2.
+        """
         exact = self._placement is None and self._is_exact_at_zero
         return values if exact or np.all(bare(t, "The time", TIME)) else Placement.started(values, start(), rank, t)
 
@@ -316,15 +322,19 @@ class Motion(Shown, Generic[Single]):
         return np.stack(np.broadcast_arrays(*map(np.asarray, omega)), -1)
 
     def _in_body(self, v: FloatArray) -> FloatArray:
-        """Return vectors along the axes of the class along those of the body."""
+        """Return components along the axes of the body from components v (..., 3) along the axes of the class."""
         return v if self._placement is None else self._placement.vectors(v)
 
     def _along_class(self, v: FloatArray) -> FloatArray:
-        """Return vectors along the axes of the body along those of the class."""
+        """Return components along the axes of the class from components v (..., 3) along the axes of the body."""
         return v if self._placement is None else self._placement.along_class(v)
 
     def _momentum_of(self, factors: Callable[[FloatArray], FloatArray], t: Any, name: str = "m") -> FloatArray:
-        """Return R II Omega in the laboratory; `factors` gives II Omega along the axes of the class."""
+        """Return the angular momentum R II Omega in the laboratory at times t, shape (..., 3), in inertia/time.
+
+        ``factors`` maps Omega to II Omega along the axes of the class. Without field the momentum is that of t = 0 at
+        all times. Raises DomainError, naming ``name``, if it is too large for a float.
+        """
         Omega, p = self.angular_velocity(t), self._placement
         momentum = factors(Omega) if p is None else np.matvec(p.tensor, Omega)
         m = np.asarray(finite(np.matvec(self.rotation(t), momentum), name))
@@ -688,13 +698,16 @@ class Motion(Shown, Generic[Single]):
         return out if self._placement is None else self._placement.matrices(out, between=1)
 
     def _fill_grid(self, single: Single, start: float, step: float, out: FloatArray) -> None:
-        """Fill the matrices of one motion on a grid."""
+        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step."""
         raise NotImplementedError
 
     def _evaluate(
         self, function: Callable[..., Any], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
     ) -> FloatArray:
-        """Return a function of motions and times, function(motion, t, out), for each motion at the times it meets."""
+        """Return function(motion, t, out) for all motions at times that broadcast with them, shape (..., *shape).
+
+        Few times per motion are evaluated by `_rows`, others motion by motion. ``out``, if given, is filled.
+        """
         t = t if type(t) is np.ndarray else bare(t, "The time", TIME)
         if not self.shape:
             return np.asarray(function(self._single(), t, out))
@@ -714,7 +727,11 @@ class Motion(Shown, Generic[Single]):
     def _evaluate_rows(
         self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
     ) -> None:
-        """Write values of motions of shape `own` into `out` (m, ...), by blocks; `times` broadcast with `own`."""
+        """Write function(rows, t, out) into ``out`` (m, ...) by blocks.
+
+        Motions of shape ``own`` broadcast with ``times``. Motions that `_rows` count as extreme are evaluated one by
+        one.
+        """
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
         for start in range(0, times.size, BLOCK):
             block = slice(start, start + BLOCK)
@@ -738,7 +755,7 @@ class DoubleTurn(Motion[Rotation]):
 
     @property
     def kind(self) -> NameOrArray:
-        """Type of the motion: a string, or an array of strings."""
+        """Type of the motion: a string, or for an array of motions an array of strings."""
         return np.full(self.shape, self._kind) if self.shape else self._kind
 
     @cached_property

@@ -31,7 +31,10 @@ MAX_RATE = 1e140
 
 
 class Moved(NamedTuple):
-    """How a name moves the inputs: by weights, by a turn of the laboratory, and of the body about its third axis."""
+    """Change of the inputs with a name: ``weights`` of inputs, ``turn`` of the laboratory (3,), ``spin`` of the body.
+
+    Both rotations are in rad per unit of the name; ``spin`` is about the third axis of the class.
+    """
 
     weights: Mapping[str, float]
     turn: FloatArray = np.zeros(3)
@@ -39,7 +42,7 @@ class Moved(NamedTuple):
 
 
 def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
-    """Return derivatives of a motion, or of an array of them, see `Motion.sensitivity`."""
+    """Return derivatives of a motion, or of an array of motions, in ``names``; see `Motion.sensitivity`."""
     names = [names] if isinstance(names, str) else list(names)
     ones = _ones(motion)
     if of not in VECTORS:
@@ -56,7 +59,7 @@ def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
 
 
 def of_rounding(motion: Any, t: Any) -> FloatArray:
-    """Return the bound of `Motion.input_error`."""
+    """Return the bound of `Motion.input_error` in rad, of the shape of motions and times."""
     probe = _ones(motion)
     names = list(probe[0].rounded) if probe else []
     v = of(motion, t, names, "rotation")
@@ -71,7 +74,7 @@ def _ones(motion: Any) -> list["One"]:
 
 
 class One:
-    """The i-th motion of an array, its inputs, and the change of the inputs with each name of a derivative."""
+    """The i-th motion of an array, its inputs, and `changes`: by name, the `Moved` inputs of a derivative in it."""
 
     def __init__(self, motion: Any, i: int) -> None:
         self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same folder
@@ -84,7 +87,7 @@ class One:
         self._cache, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
 
     def _changes_by_name(self, placed: bool, i: int) -> dict[str, Moved]:
-        """Return by name of an input the change of all inputs, for each name that `sensitivity` takes."""
+        """Return a `Moved` for each name that `sensitivity` takes, except "t"."""
         names, L, C = self.inputs.names, self.left, self.axes
         changes = {x: Moved({x: 1.0}) for x in names if x[0] not in ("Kn" if placed else "K")}
         if "K1" in names or (placed and "n2" in names):
@@ -121,7 +124,11 @@ class One:
         return {name: float(np.spacing(abs(values[name]))) / 2 for name in self.changes if name in values}
 
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
-        """Return the inputs moved by a change of the field along the class's axes at t = 0, and a turn of the body."""
+        """Return the `Moved` inputs for a change (3,) of the field and a rotation ``turn`` (3,) of the body in space.
+
+        The field changes along the class's axes at t = 0. For a top along its field the spin is NaN: there is no
+        derivative.
+        """
         if "K1" in self.inputs.names:
             return Moved({f"K{k + 1}": change[k] for k in range(3)}, turn)
         # a top's direction has no first component: its axes turn with that about the third
@@ -131,7 +138,10 @@ class One:
         return Moved(weights, turn - spin * self.left[:, 2], spin)
 
     def _inputs_behind(self, names: Sequence[str]) -> list[str]:
-        """Return the inputs that names move. Raises AtlasError for another name."""
+        """Return the class's inputs on which ``names`` depend, in their order.
+
+        Raises AtlasError for an unknown name, DomainError for a field's direction of a top along n.
+        """
         allowed = [*self.changes, "t"]
         for name in names:
             if name not in allowed:
@@ -141,7 +151,10 @@ class One:
         return [x for x in self.inputs.names if any(x in self.changes[name].weights for name in names if name != "t")]
 
     def scalar(self, names: Sequence[str], of: str) -> FloatArray:
-        """Return the derivatives of a scalar, (len(names),)."""
+        """Return the derivatives of a scalar such as "period" in ``names``, shape (len(names),).
+
+        Raises AtlasError for an unknown scalar, DomainError for an infinite one.
+        """
         if of not in self.inputs.scalars:
             raise AtlasError(
                 f"A {self.motion.family} motion has no derivative of {of!r}: choose from "
@@ -160,7 +173,10 @@ class One:
         return np.asarray(finite(np.array(values), f"A derivative of the {of}"))
 
     def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
-        """Return derivatives at times (m,), (m, len(names), 3)."""
+        """Return derivatives at times t (m,) in ``names``, shape (m, len(names), 3), see `Motion.sensitivity`.
+
+        Raises DomainError for rates beyond `MAX_RATE`.
+        """
         faster, inverse = of == "angular_velocity", "larmor" in self.inputs.names
         if not 1 / MAX_RATE < self.inputs.rate < MAX_RATE:
             raise DomainError(
@@ -197,7 +213,11 @@ class One:
         return out
 
     def _weighted(self, names: Sequence[str]) -> tuple[Any, ...]:
-        """Return derivatives in the inputs that the names change, weights of these inputs, and the function for v."""
+        """Return derivatives in the inputs behind ``names``, and how these are weighted; cached by ``names``.
+
+        The tuple is (derivatives or None, weights (names, inputs), turns (names, 3), spins (names,), prepared data or
+        None).
+        """
         key = tuple(names)
         if key not in self._cache:
             inputs = self._inputs_behind(names)
@@ -217,7 +237,10 @@ class One:
         return self._cache[key]
 
     def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
-        """Return dK/dt, or dOmega/dt: I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega]."""
+        """Return dK/dt for "field", else dOmega/dt, (m, 3), along the body's axes at rotations R and velocities Omega.
+
+        I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega].
+        """
         J, k, linear, quadratic = self.inputs.dynamics
         w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T
         if of == "field":

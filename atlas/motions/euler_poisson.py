@@ -24,7 +24,7 @@ from atlas.bodies.inertia import mass_matrix
 
 
 def hat(omega: Any) -> FloatArray:
-    """Antisymmetric matrices (..., 3, 3) of vectors omega: the row v times the matrix is [v, omega]."""
+    """Return the antisymmetric matrices (..., 3, 3) of vectors omega (..., 3): a row v times it is [v, omega]."""
     omega = np.asarray(omega, dtype=np.float64)
     matrix = np.zeros((*omega.shape, 3))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -34,7 +34,7 @@ def hat(omega: Any) -> FloatArray:
 
 
 def bracket(a: Any, b: Any) -> FloatArray:
-    """Vector product [a, b], shape (..., 3)."""
+    """Return the vector products [a, b], shape (..., 3); a and b broadcast."""
     return np.asarray(np.vecmat(np.asarray(a, dtype=np.float64), hat(b)))
 
 

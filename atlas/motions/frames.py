@@ -58,11 +58,14 @@ class Placement:
         return v if self.right is None else np.asarray(np.vecmat(v, self.right))
 
     def along_class(self, v: FloatArray) -> FloatArray:
-        """Return vectors (..., 3) along the axes of the class from their components along the axes of the body."""
+        """Return components along the axes of the class from components v (..., 3) along the axes of the body."""
         return v if self.right is None else np.asarray(np.matvec(self.right, v))
 
     def quaternions(self, q: FloatArray, t: Any) -> FloatArray:
-        """Return quaternions (x, y, z, w) of the class at times t turned, with w >= 0 at t = 0."""
+        """Return quaternions (x, y, z, w) of the placed motion from those of the class at times t.
+
+        They have w >= 0 at t = 0, where they are those of the given attitude.
+        """
         left, right, start = self._quaternions
         return self.started(product(product(left, q), right), start, 1, t)
 
@@ -76,7 +79,10 @@ class Placement:
 
     @staticmethod
     def started(values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
-        """Return vectors (rank 1) or matrices (rank 2) with those at t = 0 replaced by the given initial value."""
+        """Return ``values`` with those at t = 0 replaced by ``start``; vectors for ``rank`` 1, matrices for 2.
+
+        The array is changed in place.
+        """
         known = np.equal(bare(t, "The time", TIME), 0)
         if known.any():
             known = np.broadcast_to(known, values.shape[:-rank])
@@ -85,12 +91,11 @@ class Placement:
 
 
 def turned_by(v: list[Any], *turns: FloatArray) -> list[Any]:
-    """Return the components of vectors turned by rotations, the first one first, without rounding.
+    """Return the three components of vectors rotated by ``turns``, the first one first, without rounding.
 
-    A rotation is a matrix (..., 3, 3), or a quaternion (4,) of any length.
-
-    A matrix of floats is orthogonal but for rounding: it stands for the rotation of its quaternion, whose components
-    are floats. That is the matrix itself where its entries are -1, 0 and 1.
+    ``turns`` are matrices (..., 3, 3), or quaternions (4,) of any length. A matrix of floats is orthogonal but for
+    rounding: it stands for the rotation of its quaternion, whose components are floats. That is the matrix itself where
+    its entries are -1, 0 and 1. Without rotations other than 1, v itself is returned.
     """
     turns = tuple(M for M in turns if M.shape == (4,) or (np.eye(3) != M).any())
     if not turns:

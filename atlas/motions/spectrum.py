@@ -106,10 +106,10 @@ class Spectrum:
 
 
 class Wheels(NamedTuple):
-    """A motion as R_n(p t) S R_a(s t): n in the laboratory and p, a in the body and s, and the rates of phases of S.
+    """A motion as R_n(p t) S(phases) R_a(s t), n in the laboratory, a in the body; p and s in rad/time.
 
-    `at` gives S, and Omega or K without the turn about a, at phases (d, m); `actions`, of two phases, gives them
-    their actions from the principal moments.
+    `phases` are the rates of the d phases of S, in rad/time. ``at(name, x)`` gives S, or Omega or K without the
+    rotation about a, at phases x (d, m). `actions`, for two phases, gives their actions from the principal moments.
     """
 
     n: FloatArray
@@ -122,7 +122,10 @@ class Wheels(NamedTuple):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rates: of the phases, of p and of s."""
+        """Names of the `rates`: "f1", "f2", "f3", "spin" for two phases, else "nutation", "precession", "spin".
+
+        Without phases there is no "nutation".
+        """
         return (
             ("f1", "f2", "f3", "spin")
             if len(self.phases) > 1
@@ -131,12 +134,15 @@ class Wheels(NamedTuple):
 
     @property
     def rates(self) -> FloatArray:
-        """All basic frequencies: the phases' ones, then p and s."""
+        """Basic angular frequencies: those of the phases, then p and s, in rad/time, shape (d + 2,)."""
         return np.array([*self.phases, self.p, self.s])
 
 
 def spectrum(motion: Any, of: str, least: float) -> Spectrum:
-    """Return the lines of a motion, see `Motion.spectrum`."""
+    """Return the `Spectrum` of a motion, see `Motion.spectrum`.
+
+    Raises AtlasError for an array of motions, another name, and ``least`` outside [`MIN_AMPLITUDE`, 1).
+    """
     if of not in get_args(SpectrumOf):
         raise AtlasError(f"A motion has no spectrum of {of!r}: choose from {', '.join(get_args(SpectrumOf))}.")
     if motion.shape:
@@ -187,17 +193,20 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
 
 
 def _power(amplitudes: Array, unit: float = 1.0) -> FloatArray:
-    """Return the sum of squares of each line in that unit, (N,)."""
+    """Return the sum of squared magnitudes of the amplitudes of each line, over ``unit`` squared, shape (N,)."""
     return np.asarray(((abs(amplitudes) / unit) ** 2).sum(axis=tuple(range(1, amplitudes.ndim))))
 
 
 def _size(amplitudes: Array) -> float:
-    """Return the power of two of the largest amplitude, over which squares are floats."""
+    """Return the power of two next to the largest amplitude; squares of amplitudes over it are floats."""
     return float(np.ldexp(1.0, np.frexp(abs(amplitudes).max())[1] - 1))
 
 
 def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
-    """Return the rotation about n as {-1, 0, 1: complex matrix (3, 3) at this multiple of `rate`}; {0: unit} if 0."""
+    """Return the rotation about n by ``rate`` t as matrices (3, 3) of its Fourier coefficients, by multiple -1, 0, 1.
+
+    For rate 0 it is the unit matrix alone, under 0.
+    """
     if not rate:
         return {0: np.eye(3, dtype=complex)}
     parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
@@ -208,7 +217,11 @@ def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
 
 
 def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
-    """Return the whole numbers (n, d) and the Fourier coefficients (n, ...) of a function of phases (d, m)."""
+    """Return (integers m (n, d), Fourier coefficients (n, ...)) of a function of d phases.
+
+    ``function`` takes phases (d, m) in rad and returns (m, ...). Raises DomainError if more than `LAST` coefficients
+    would be needed for a phase.
+    """
     if not d:
         return np.zeros((1, 0), dtype=int), function(np.zeros((0, 1))).astype(complex)
     count = FIRST[d]
@@ -228,19 +241,19 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
 
 
 def function_of(motion: Any, of: str) -> Any:
-    """Return the method of the motion that `of` names; `rotation` for "axis" too."""
+    """Return the bound method of the motion for "angular_velocity" or "field"; `rotation` for any other name."""
     names = {"angular_velocity": "angular_velocity", "field": "field_in_body"}
     return getattr(motion, names.get(of, "rotation"))
 
 
 def mean(function: Callable[[FloatArray], FloatArray]) -> float:
-    """Return the mean of a function of one phase (1, m)."""
+    """Return the mean over one period of a function of one phase; it takes phases (1, m) and returns (m,)."""
     indices, amplitudes = coefficients(function, 1)
     return float(amplitudes[np.flatnonzero(indices[:, 0] == 0)[0]].real)
 
 
 def rodrigues(n: FloatArray, angle: Any) -> FloatArray:
-    """Return the turn about a unit vector by angles (...), shape (..., 3, 3)."""
+    """Return the rotation matrices about a unit vector n by angles (...) in rad, shape (..., 3, 3)."""
     angle = np.asarray(angle)[..., None, None]
     parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
     return np.asarray(parallel + np.cos(angle) * (np.eye(3) - parallel) + np.sin(angle) * transverse)

@@ -38,11 +38,11 @@ NEARLY_ORTHOGONAL = 2e-3
 
 
 class Body(NamedTuple):
-    """Principal moments (..., 3), axes as rows (..., 3, 3) in the given ones, and the inertia tensor (..., 3, 3).
+    """Principal moments (..., 3), principal axes as rows (..., 3, 3) and inertia tensor (..., 3, 3) along given axes.
 
-    `exact` is a body, or a ratio, with the moments along the first and the last axis without rounding; or three
-    different moments, of which floats do not hold all; or None. `turn` has the nine elements of the axes without
-    rounding where floats do not hold them; then there is an `exact`.
+    `exact` has the moments without rounding where floats do not hold them: a body or ratio with the moments along the
+    first and the last axis, or three different moments; otherwise None. `turn` has the nine elements of the axes
+    without rounding where floats do not hold them; then there is an `exact`.
     """
 
     moments: FloatArray
@@ -53,9 +53,9 @@ class Body(NamedTuple):
 
 
 class Start:
-    """Initial data as given: body, field B' in the laboratory and angular velocity as components, attitude R(0).
+    """Initial data as given: body, components B of B' in the laboratory, components w of the angular velocity, R(0).
 
-    The angular velocity is along the axes of the body, or where `outside` along those of the laboratory.
+    The angular velocity is along the axes of the body, or, if ``outside``, along those of the laboratory.
     """
 
     def __init__(self, body: Body, B: list[Any], w: list[Any], attitude: Any, *, outside: bool = False) -> None:
@@ -65,7 +65,10 @@ class Start:
         self.shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
 
     def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
-        """Return the components of field and of angular velocity along `axes`, rows in the body, without rounding."""
+        """Return (field, angular velocity) at t = 0, three components each along ``axes``, rows in the body.
+
+        They are not rounded: floats, arrays or `Given`.
+        """
         back = np.swapaxes(self.R, -1, -2) if self._turn is None else np.array(self._turn) * (-1.0, -1.0, -1.0, 1.0)
         if not self.body.turn:
             return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
@@ -75,7 +78,7 @@ class Start:
 
     @property
     def moments(self) -> tuple[Any, Any, Any]:
-        """Principal moments without rounding, along the axes of the body."""
+        """The three principal moments, without rounding, along the axes of the body; 1, 1, I for a ratio I."""
         exact = self.body.exact
         if exact is None or isinstance(exact, tuple):
             return exact or parts(self.body.moments)
@@ -84,7 +87,7 @@ class Start:
 
     @property
     def omega(self) -> FloatArray:
-        """Angular velocity along the axes of the body, (..., 3)."""
+        """Angular velocity at t = 0 along the axes of the body, rounded, shape (..., 3), in rad/time."""
         w = joined_columns(self.w)
         return np.asarray(np.vecmat(w, self.R)) if self.outside else w
 
@@ -101,7 +104,10 @@ class Start:
 
     @cached_property
     def symmetric(self) -> tuple[Any, FloatArray, list[Any], list[Any]]:
-        """Tuple (body or ratio, axes with the symmetry axis last, field, velocity), both vectors along these axes."""
+        """Tuple (body or ratio, axes (..., 3, 3), field, angular velocity) of a body with two equal moments.
+
+        The axes are rows in the body, the symmetry axis last; both vectors are components along them.
+        """
         I = self.body.moments
         if self.body.exact is not None:
             return self.body.exact, np.broadcast_to(self.body.axes, (*I.shape, 3)), *self.along(self.body.axes)
@@ -113,13 +119,17 @@ class Start:
 
     @property
     def has_field(self) -> bool:
-        """Whether there is a field."""
+        """Whether any component of the field differs from zero."""
         return any(np.any(x) for x in self.B)
 
     def place(
         self, own: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
     ) -> Any:
-        """Return a motion in the given axes from `own`, along its class's axes; `axes` are these, rows in the body."""
+        """Return ``own``, a motion along the axes of its class, placed in the given axes.
+
+        ``axes`` are the class's, as rows. ``make`` and ``arguments`` are the call that makes the motion again,
+        ``made_by`` its name.
+        """
         outer = self.R @ np.swapaxes(axes, -1, -2)
         before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (outer, axes))
         B, R, omega = frozen((joined_columns(self.B), self.R, self.omega))
@@ -131,7 +141,10 @@ class Start:
 def start_of(
     inertia: Any, field: Any = (0.0, 0.0, 0.0), omega: Any = None, attitude: Any = None, omega_laboratory: Any = None
 ) -> Start:
-    """Return the start of a motion from the arguments of `atlas.motion`."""
+    """Return the `Start` of a motion from the arguments of `atlas.motion`.
+
+    Raises AtlasError unless one of ``omega`` and ``omega_laboratory`` is given.
+    """
     if (omega is None) == (omega_laboratory is None):
         raise AtlasError(
             "A motion takes one angular velocity: omega along the axes of the body, or omega_laboratory along those of "
@@ -143,7 +156,10 @@ def start_of(
 
 
 def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
-    """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
+    """Return a motion of the class ``family``, see `Motion.in_laboratory`; ``parameters`` are those of the class.
+
+    Raises DomainError if the class has no motion from this start.
+    """
     B = columns(field, "The field", "B")
     w = [0.0, 0.0, 0.0] if omega is None else columns(omega, "The angular velocity", "omega")
     start = Start(family._body_of(body), B, w, attitude, outside=True)  # noqa: SLF001  of the same folder
@@ -161,7 +177,7 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
 
 
 def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
-    """Return the component of a vector along e2 after the turn about e3 that makes K1 zero, and that turn."""
+    """Return (component along e2, rotation matrix (3, 3) about e3) such that the rotated vector has K1 = 0."""
     if K1 == 0:
         return K2, np.eye(3)
     with workprec():
@@ -212,7 +228,10 @@ def body_of(inertia: Any) -> Body:
 
 
 def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
-    """Return principal moments and axes of one tensor; the axis of a body with two equal moments is the last one."""
+    """Return (moments, axes as rows) of one tensor, exact rationals near its eigenvalues; equal moments come first.
+
+    Warns NearlySymmetricWarning for two nearly equal moments.
+    """
     I, axes = principal_values(rational_matrix(inertia_tensor(tensor)))
     largest = max(range(3), key=I.__getitem__)
     # the rounding of a tensor's elements may put a plane body beyond all bodies
@@ -224,13 +243,16 @@ def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
 
 
 def _along(*numbers: Number) -> tuple[Number, ...]:
-    """Return the components of a vector, the last three of the numbers, along the axes, the first nine."""
+    """Return the components of a vector, the last three numbers, along axes whose elements are the first nine."""
     *axes, x, y, z = numbers
     return tuple(dot(axes[i : i + 3], (x, y, z)) for i in (0, 3, 6))
 
 
 def _hint_at_symmetry(I: FloatArray, gaps: list[float], axes: FloatArray) -> None:
-    """Warn of ascending principal moments of a tensor two of which are nearly equal: nothing joins them."""
+    """Warn NearlySymmetricWarning if two ascending principal moments of a tensor are different but nearly equal.
+
+    ``gaps`` are their two differences over the largest moment.
+    """
     i, part = min(enumerate(gaps), key=lambda gap: gap[1])
     if 0 < part <= NEARLY:
         third = (0, 2)[1 - i]
@@ -244,7 +266,7 @@ def _hint_at_symmetry(I: FloatArray, gaps: list[float], axes: FloatArray) -> Non
 
 
 def of_moments(moments: Any, axes: FloatArray) -> Body:
-    """Return the body of principal moments along axes. Raises DomainError for moments that no body has."""
+    """Return the `Body` of principal moments along ``axes``, rows. Raises DomainError for moments that no body has."""
     principal_moments = [real(x, "A moment of inertia") for x in moments]
     common_shape(*(x.shape for x in principal_moments))
     rows = joined_columns(principal_moments)
@@ -262,12 +284,15 @@ def of_moments(moments: Any, axes: FloatArray) -> Body:
 
 
 def parts(v: FloatArray) -> tuple[Any, Any, Any]:
-    """Return the components of vectors (..., 3), numbers or arrays."""
+    """Return the three components of vectors (..., 3): floats, or arrays (...)."""
     return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
 
 
 def columns(value: Any, name: str, letter: str) -> list[Any]:
-    """Return the components of vectors: of a `Field`, of a tuple of numbers or arrays, or of an array (..., 3)."""
+    """Return three components, floats or arrays or `Given`, of a `Field`, a tuple of three, or an array (..., 3).
+
+    Errors name the vector ``name`` and its components by ``letter``.
+    """
     listed = isinstance(value, list) and any(isinstance(x, Fraction) for x in value)
     if isinstance(value, tuple) or listed or hasattr(value, "exact"):
         names = [f"{letter}{i}" for i in (1, 2, 3)]
@@ -276,12 +301,12 @@ def columns(value: Any, name: str, letter: str) -> list[Any]:
 
 
 def joined_columns(v: list[Any]) -> FloatArray:
-    """Return vectors (..., 3) by their components, rounded."""
+    """Return vectors (..., 3) from three components that broadcast, rounded to doubles."""
     return np.stack(np.broadcast_arrays(*map(np.asarray, v)), -1)
 
 
 def argument(value: Any, parts: list[Any]) -> Any:
-    """Return vectors for storage: one array, or the value as given where floats do not hold the components."""
+    """Return vectors for storage: an array (..., 3), or ``value`` itself if floats do not hold its components."""
     return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
 
 

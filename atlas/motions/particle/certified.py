@@ -27,31 +27,37 @@ class ParticleMotion:
 
     @property
     def cyclotron_frequency(self) -> Real:
-        """The frequency omega = mu |B|/c of (97), with the sign of mu."""
+        """The frequency omega = mu |B|/c of (97), with the sign of mu, in rad/time: a ball, or a rational."""
         rate: Real = particle.rate(*self._inputs)
         return -rate if self.mu < 0 else rate
 
     @property
     def drift(self) -> Vector:
-        """The drift velocity c [E, B]/B^2 of (94), whatever the sign of mu."""
+        """The drift velocity c [E, B]/B^2 of (94), exact, shape (3,). Raises DomainError without a magnetic force."""
         check_force(bool(self._force), "drift")
         return tuple(particle.drift(*self._inputs))
 
     @property
     def period(self) -> arb:
-        """Time 2 pi/|omega| of one revolution."""
+        """Time 2 pi/|omega| of one revolution, a ball. Raises DomainError without a magnetic force."""
         check_force(bool(self._force), "period")
         return 2 * arb.pi() / abs(self.cyclotron_frequency)
 
     @property
     def radius(self) -> Real:
-        """The radius a of (97): that of the circle around the drifting centre."""
+        """The radius a of (97), of the circle about the drifting centre.
+
+        Raises DomainError without a magnetic force.
+        """
         check_force(bool(self._force), "radius")
         radius: Real = particle.radius(*self._inputs)
         return radius
 
     def guiding_centre(self, t: Any) -> list[fmpq]:
-        """Return the point O(t) of (99), the moving centre of the circle, as a list of three."""
+        """Return the point O(t) of (99), the moving centre of the circle, three rationals.
+
+        Raises DomainError without a magnetic force.
+        """
         check_force(bool(self._force), "guiding centre")
         t = rational(t, "the time")
         terms = zip(self.start, *self._vectors(), strict=True)
@@ -109,6 +115,6 @@ class Flight:
         self.point = rationals(point, "the point", 3)
 
     def position(self, t: Any) -> list[Real]:
-        """Return the point's position at time t."""
+        """Return the point's position at time t, three balls in the unit of length."""
         centre, R = self.particle.position(t), self.motion.rotation(t)
         return [y + sum(r * x for r, x in zip(row, self.point, strict=True)) for y, row in zip(centre, R, strict=True)]

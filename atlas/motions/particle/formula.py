@@ -19,12 +19,15 @@ from atlas.arithmetic.numbers import Number, Vector, cross, dot, length, root, s
 
 
 def rate(mu: Number, c: Number, *x: Number) -> Number:
-    """Return the size of the frequency omega = mu |B|/c of (97)."""
+    """Return the magnitude of the frequency omega = mu |B|/c of (97), in rad/time.
+
+    Arguments of this and the other formulas are mu, c, and x = (E, B, velocity, position), twelve components.
+    """
     return abs(mu) * length(*x[3:6]) / c
 
 
 def prime(mu: Number, c: Number, *x: Number) -> Vector:
-    """Return B' = mu B/(2c), (32)."""
+    """Return B' = mu B/(2c), (32), three components in 1/time."""
     return [mu * b / (c + c) for b in x[3:6]]
 
 
@@ -39,7 +42,7 @@ def along(_: Number, __: Number, *x: Number) -> Number:
 
 
 def bent(_: Number, __: Number, *x: Number) -> Vector:
-    """Return the vector product [E, v]."""
+    """Return the vector product [E, v]: zero if E does not bend a path without magnetic force."""
     return cross(x[:3], x[6:9])
 
 
@@ -50,7 +53,7 @@ def circling(_: Number, c: Number, *x: Number) -> Vector:
 
 
 def looping(mu: Number, c: Number, *x: Number) -> Number:
-    """Return B^4 times the square of the velocity of circling less that of the drift."""
+    """Return B^4 (u^2 - d^2), u the velocity of circling and d the drift: positive if the path has loops."""
     force, drifting = circling(mu, c, *x), [c * e for e in cross(x[:3], x[3:6])]
     return dot(force, force) - dot(drifting, drifting)
 
@@ -73,7 +76,7 @@ def arm(mu: Number, c: Number, *x: Number) -> Vector:
 
 
 def carried(_: Number, c: Number, *x: Number) -> Vector:
-    """Return the velocity of O at t = 0: along B that of the particle, across B the drift."""
+    """Return the velocity of the point O of (99) at t = 0: across B the drift, along B that of the particle."""
     B, b2, forward = x[3:6], dot(x[3:6], x[3:6]), dot(x[3:6], x[6:9])
     return [(forward * b + c * e) / b2 for b, e in zip(B, cross(x[:3], B), strict=True)]
 
@@ -84,28 +87,32 @@ def centre(mu: Number, c: Number, *x: Number) -> Vector:
 
 
 def axes(_: Number, __: Number, *x: Number) -> Vector:
-    """Return unit vectors along [E, B], [B, [E, B]] and B: the frame of figure Magn."""
+    """Return nine components of unit vectors along [E, B], [B, [E, B]] and B: the frame of figure Magn."""
     first_axis, third = cross(x[:3], x[3:6]), x[3:6]
     return [n for row in (first_axis, cross(third, first_axis), third) for n in unit(row)]
 
 
 def velocity_parts(mu: Number, _: Number, *x: Number) -> Vector:
-    """Return v_par, v_perp and [n, v_perp]."""
+    """Return nine components of v_par, v_perp and [n, v_perp], n along B with the sign of -mu."""
     return _split(mu, x[3:6], x[6:9])
 
 
 def acceleration_parts(mu: Number, _: Number, *x: Number) -> Vector:
-    """Return a_par, a_perp and [n, a_perp]."""
+    """Return nine components of a_par, a_perp and [n, a_perp] for a = mu E, as `velocity_parts` does for v."""
     return [mu * a for a in _split(mu, x[3:6], x[:3])]
 
 
 def position(v: Any, a: Any, t: Number, s: Number, f: Number, g: Number, h: Number) -> Number:
-    """Return a component of y(t) - y(0), (101) with (93) and (98), from the three parts of that of v and a."""
+    """Return one component of y(t) - y(0), (101) with (93) and (98).
+
+    ``v`` and ``a`` are that component of the three parts of velocity and acceleration; s, f, g, h are the functions of
+    `Gyration` at the phase |w| t.
+    """
     return t * (v[0] + s * v[1] + g * v[2] + t * (a[0] / 2 + f * a[1] + h * a[2]))
 
 
 def velocity(v: Any, a: Any, t: Number, cos: Number, sin: Number, s: Number, g: Number) -> Number:
-    """Return a component of y'(t), (90)."""
+    """Return one component of y'(t), (90), from that of the three parts of v and of a; s, g as in `Gyration`."""
     return v[0] + cos * v[1] + sin * v[2] + t * (a[0] + s * a[1] + g * a[2])
 
 

@@ -48,7 +48,7 @@ class Gyration:
 
 
 def gyration(x: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> Gyration:
-    """Return the functions at x (m,), given cos x, sin x and 1 - cos x, found from a better reduced x than x itself."""
+    """Return the `Gyration` at phases x (m,), given cos x, sin x and 1 - cos x from phases reduced more precisely."""
     tiny = np.abs(x) < MIN_ARGUMENT
     divisor = np.where(tiny, 1.0, x)
     s, g = sin / divisor, versine / divisor
@@ -90,7 +90,7 @@ class Charge:
             _check(self.mu * np.array(inputs[2:5]), "The acceleration mu E")
 
     def at(self, index: Any, t: FloatArray, *, centre: bool = False) -> Self:
-        """Return the particles of the given indices, paired with times t; if `centre`, their points O(t) of (99) alone.
+        """Return the particles of these indices, paired with times t; if ``centre``, only with the points O(t) of (99).
 
         Raises AtlasError for phases beyond 2^50.
         """
@@ -122,7 +122,7 @@ class Charge:
 
     @cached_property
     def drift(self) -> FloatArray:
-        """Velocity c [E, B]/B^2, (..., 3)."""
+        """Velocity c [E, B]/B^2, (..., 3). Raises DomainError without a magnetic force."""
         self.needs_field("drift")
         return self._over("drift", 3).T
 
@@ -134,14 +134,17 @@ class Charge:
 
     @cached_property
     def centre(self) -> FloatArray:
-        """Position, velocity and acceleration of the point O(t) of (99) at t = 0, (3, 3) or (3, 3, m)."""
+        """Position, velocity and acceleration of the point O(t) of (99) at t = 0, (3, 3) or (3, 3, m).
+
+        Raises DomainError without a magnetic force.
+        """
         self.needs_field("guiding centre")
         centre = self._over("centre", 6)
         return np.array([*centre.reshape(2, 3, *centre.shape[1:]), self.acceleration_parts[0]])
 
     @cached_property
     def axes(self) -> FloatArray:
-        """Frame of figure Magn, rows e1, e2, e3, (..., 3, 3)."""
+        """Frame of figure Magn, rows e1, e2, e3, (..., 3, 3). Raises DomainError without a magnetic force or [E, B]."""
         self.needs_field("frame")
         if not _any(self._signs("crossed", 3)).all():
             raise DomainError("There is no axis along [E, B]: the electric field is along B or zero.")
@@ -168,7 +171,10 @@ class Charge:
         return np.array(KINDS)[np.select(chosen, [0, 1, 2, 3, 1, 2, 4, 5], 6)]
 
     def needs_field(self, what: str) -> None:
-        """Raise DomainError if one of the particles feels no magnetic force."""
+        """Raise DomainError if one of the particles feels no magnetic force.
+
+        ``what`` is the quantity that needs one.
+        """
         check_force(self.force, what)
 
     @cached_property
@@ -178,7 +184,7 @@ class Charge:
 
     @cached_property
     def acceleration_parts(self) -> FloatArray:
-        """Components of the acceleration a = mu E along the axes of the row, as `velocity_parts` for v."""
+        """Rows a_par, a_perp and [n, a_perp] of a = mu E, (3, 3) or (3, 3, m); without a magnetic force, a alone."""
         return self._row_components("acceleration_parts", self.mu * np.array(self.inputs[2:5]))
 
     @cached_property

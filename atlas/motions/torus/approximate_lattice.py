@@ -60,7 +60,10 @@ PAIRS = tuple(combinations(range(4), 2))
 
 @dataclass(frozen=True)
 class Lattice:
-    """Periods (T_H, T_F, T_c): two that generate the real ones, two more, and a symplectic basis (a1, a2, b1, b2)."""
+    """Periods [T_H, T_F, T_c] of the torus: two that generate the real ones, two more, and a symplectic basis.
+
+    The basis is (a1, a2, b1, b2), `a` and `b` two each.
+    """
 
     real: tuple[list[acb], list[acb]]
     other_periods: tuple[list[acb], list[acb]]
@@ -87,7 +90,7 @@ class Lattice:
 
 
 def lattice(motion: Integrals) -> Lattice:
-    """Return the periods of a motion's torus as a `Lattice`, computed along paths in floats.
+    """Return the periods of a motion's torus as a `Lattice`, computed along paths with `BITS` digits, not proved.
 
     Raises NotCertifiedError for a body too near a ball, and where periods cannot be distinguished.
     """
@@ -104,7 +107,10 @@ def lattice(motion: Integrals) -> Lattice:
 
 
 def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
-    """Return the periods that integrals along some paths make, the best first, no more than are needed."""
+    """Return the `Lattice` that integrals along paths generate, with as few paths as possible, the best first.
+
+    Raises NotCertifiedError, with the last reason, if all paths do not suffice.
+    """
     ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(paths_per_zero)
     for path in paths:
         ways.append(list(curve.along(*path)))
@@ -118,7 +124,10 @@ def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
 
 
 def _of_ways(ways: list[list[acb]]) -> Lattice:
-    """Return the periods that some integrals generate, if there are four with a polarization of type (1,2)."""
+    """Return the `Lattice` that integrals [T_H, T_F, T_c] generate.
+
+    Raises NotCertifiedError unless they generate four periods with a polarization of type (1, 2).
+    """
     weights = generating([_real(way) for way in ways])
     periods = sums(ways, weights)
     if len(periods) != 4:
@@ -139,7 +148,10 @@ def _real(period: Sequence[acb]) -> list[arb]:
 
 
 def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the whole coefficients of the conjugate periods."""
+    """Return the integer matrix (4, 4) that maps four periods to their complex conjugates.
+
+    Raises NotCertifiedError if the periods are dependent, or the matrix is not integer within a tolerance.
+    """
     rows = arb_mat([_real(x) for x in periods])
     conjugate = arb_mat([[x, -y, z, -w] for x, y, z, w in (_real(p) for p in periods)])
     try:
@@ -175,9 +187,9 @@ def _real_first(conjugation: Whole) -> list[list[int]]:
 
 
 def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]:
-    """Return Gauss's reduction of the two real periods, as whole weights: by Riemann's form zeta* (Im tau)^-1 zeta.
+    """Return integer weights (2, 2) of the two real periods that make them short and f1, f2 positive.
 
-    Their signs make the frequencies f1 and f2 positive.
+    It is Gauss's reduction by Riemann's form zeta* (Im tau)^-1 zeta.
     """
     vectors = matrix_of(acb_mat(periods))[:, :2]
     a1, a2, _, _ = basis @ vectors
@@ -198,7 +210,10 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
 
 
 def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the alternating form of the lattice, which is to be of type (1,2)."""
+    """Return the alternating integer form (4, 4) of the lattice.
+
+    Raises NotCertifiedError unless one of type (1, 2) is found.
+    """
     areas = [periods[i][0] * periods[j][1] - periods[i][1] * periods[j][0] for i, j in PAIRS]
     size = max(abs(complex_of(x)) for x in areas)
     rows = [
@@ -250,7 +265,7 @@ def _symplectic(form: Whole) -> Whole:
 
 
 def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
-    """Return a symplectic basis for which no single move makes det Im tau larger."""
+    """Return a symplectic basis (4, 4), integer rows, for which no single move makes det Im tau larger."""
     vectors = matrix_of(acb_mat(periods))[:, :2]
     if _riemann(vectors, basis)[0, 0].imag < 0:
         basis = basis * np.array([[1], [1], [-1], [-1]])
@@ -267,13 +282,16 @@ def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
 
 
 def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.complex128]:
-    """Return tau of a basis."""
+    """Return the Riemann matrix tau (2, 2) of a basis, integer rows.
+
+    ``vectors`` (4, 2) are the periods' T_H and T_F.
+    """
     a1, a2, b1, b2 = basis @ vectors
     return np.asarray(np.linalg.solve(np.array([a1, a2 / 2]).T, np.array([b1, b2]).T))
 
 
 def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
-    """Return the basis reduced so that the off-diagonal entry of Im tau is small."""
+    """Return the symplectic basis changed so that the off-diagonal entry of Im tau is small."""
     for _ in range(MAX_REDUCTIONS):
         Y = _riemann(vectors, basis).imag
         a1, a2, b1, b2 = basis
@@ -289,7 +307,7 @@ def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
 
 
 def _shifted(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
-    """Shift the basis so that Re tau is small."""
+    """Return the symplectic basis with b1 and b2 shifted by a1 and a2 so that Re tau is small."""
     tau = _riemann(vectors, basis).real
     a1, a2, b1, b2 = basis
     x, y, z = round(tau[0, 0]), round(tau[0, 1] / 2), round(tau[1, 1] / 2)

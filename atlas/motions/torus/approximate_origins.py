@@ -24,7 +24,10 @@ Vector = list[acb]
 
 @dataclass(frozen=True)
 class State:
-    """Point of the complex torus: M, K and, or [], N, the components in the body of e_x + i e_y across the field."""
+    """Point of the complex torus: M, K and N, three complex components each in the body; N may be [].
+
+    N are the components of e_x + i e_y, unit vectors across the field.
+    """
 
     M: Vector
     K: Vector
@@ -32,7 +35,7 @@ class State:
 
     @property
     def components(self) -> Vector:
-        """The components in a row."""
+        """The components of M, K and N in one list, of nine or six."""
         return [*self.M, *self.K, *self.N]
 
 
@@ -63,7 +66,7 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
 
 
 def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
-    """Return Taylor coefficients of M, K and N along the flow of H, nine or six rows."""
+    """Return Taylor coefficients of M, K and N along the flow of H: nine or six lists of `TAYLOR_TERMS` + 1."""
     rows = [[x] for x in start.components]
     A = [1 / I for I in moments]
     for n in range(TAYLOR_TERMS):
@@ -90,7 +93,7 @@ def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
 
 
 def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
-    """Return pairs (complex time, state) on a circle about zero, along the flow of H."""
+    """Return `FIT_POINTS` pairs (complex time, state) on a circle about time zero, along the flow of H."""
     rows = series(moments, start)
     growth = max(
         abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TAYLOR_TERMS, TAYLOR_TERMS - 1, TAYLOR_TERMS - 2)
@@ -104,7 +107,7 @@ def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
 
 
 def fields(moments: Sequence[fmpq], state: Array) -> Array:
-    """Return the rates of M and K (..., 6) along the flows of H and of F/2, (..., 6, 2)."""
+    """Return the rates of M and K along the flows of H and of F/2, shape (..., 6, 2), for states (..., 6)."""
     I = np.array([int(x.p) / int(x.q) for x in moments])
     M, K = state[..., :3], state[..., 3:]
     J = -I.prod() / I

@@ -62,7 +62,7 @@ Array = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Integrals:
-    """The exact integrals of a motion, and the moments."""
+    """The exact integrals of a motion, rationals: `moments`, H, F, c = (M, K) and `square` = K^2."""
 
     moments: tuple[fmpq, ...]
     H: fmpq
@@ -72,14 +72,14 @@ class Integrals:
 
     @classmethod
     def of_state(cls, moments: tuple[fmpq, ...], Omega: Sequence[fmpq], K: Sequence[fmpq]) -> Self:
-        """Return the integrals of a state, theorem-clebsch."""
+        """Return the integrals of a state Omega, K of a body with principal ``moments``, by theorem-clebsch."""
         J = [moments[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
         H, F, c, square, _ = clebsch(*J, *Omega, *K)
         return cls(moments, H / 2, F, c, square)
 
     @property
     def D(self) -> fmpq:
-        """Product I1 I2 I3 of the moments."""
+        """Product I1 I2 I3 of the moments, a rational."""
         x, y, z = self.moments
         return x * y * z
 
@@ -90,12 +90,12 @@ class Integrals:
 
     @property
     def g(self) -> fmpq_poly:
-        """Psi but for 2 c v, a polynomial in z."""
+        """Polynomial g(z) = K^2 z^2 + (F + e2 K^2) z + 2 D H; Psi is g + 2 c v on the curve v^2 = P(z)."""
         return fmpq_poly([2 * self.D * self.H, self.F + self.e2 * self.square, self.square])
 
     @property
     def P(self) -> fmpq_poly:
-        """The cubic of the body's curve."""
+        """The cubic P(z), the product of z + D/I_i; v^2 = P is the body's curve."""
         factor_1, factor_2, factor_3 = (fmpq_poly([self.D / I, 1]) for I in self.moments)
         return factor_1 * factor_2 * factor_3
 
@@ -110,7 +110,7 @@ class Integrals:
         return twice if self.c else twice * self.g.gcd(self.P)
 
     def zeros(self) -> list[tuple[acb, acb]]:
-        """Return (z, v) of the four zeros of Psi."""
+        """Return the four zeros of Psi as pairs (z, v) of complex balls."""
         roots = [z for z, _ in self.quartic.complex_roots()]
         if self.c:
             return [(z, -value(self.g, z) / (2 * self.c)) for z in roots]
@@ -118,7 +118,7 @@ class Integrals:
 
 
 def real_periods(motion: Integrals) -> list[PeriodPair]:
-    """Return two approximate pairs of real times, as short as can be; fewer where the paths are too long."""
+    """Return two approximate real periods (T_H, T_F), as short as can be; fewer where the paths are too long."""
     with workprec(BITS):
         curve = Curve(motion)
         periods = [curve.along(*path) for path in curve.paths()]
@@ -129,7 +129,8 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
 class Curve:
     """Zeros of Psi on the torus of u, and integrals along paths between them.
 
-    If `proven`, balls keep their radii, which grow; else balls are replaced by their centres.
+    `real` and `imaginary` are periods of z(u). If ``proven``, balls keep their radii, which grow; otherwise they are
+    replaced by their midpoints.
     """
 
     def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
@@ -161,7 +162,7 @@ class Curve:
         return (self.scale * x) ** 2 - self.foot, self.slope * x * y * w
 
     def _place(self, z: acb, v: acb) -> acb:
-        """Return the u of a point of the curve, in the cell about zero."""
+        """Return u with z(u) = z and v(u) = v, in the cell about zero."""
         u = self._centred(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
         _, place = self.at(u)
         if _distance(place - v) > _distance(place + v):
@@ -169,7 +170,7 @@ class Curve:
         return self._centred(self.in_cell(u))
 
     def in_cell(self, u: acb) -> acb:
-        """Return u modulo the periods of wp, in the cell about zero."""
+        """Return u modulo the periods of z(u), in the cell about zero."""
         u -= round(float(u.imag.mid()) / float(self.imaginary.imag.mid())) * self.imaginary
         return u - round(float(u.real.mid()) / float(self.real.mid())) * self.real
 
@@ -211,11 +212,15 @@ class Curve:
         return np.array(rows)
 
     def _other_places(self, start: acb, stop: acb) -> tuple[Array, Array]:
-        """Return the positions of other zeros and poles relative to a path: from its start, and from its stop."""
+        """Return zeros and poles other than the ends of a path as fractions of it: from its start, from its stop."""
         return _fractions(self.distances(start), self.distances(stop), complex_of(stop - start))
 
     def intervals(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
-        """Yield subintervals of (0, 1) on a path whose ellipses hold no other zero or pole; unit: half a turn of s."""
+        """Yield subintervals (low, high) of (0, 1) on a path whose ellipses hold no other zero or pole.
+
+        The unit is pi in s, u = start + (stop - start)(1 - cos s)/2. Raises NotCertifiedError where zeros are too
+        close.
+        """
         starts, stops = (
             np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._other_places(start, stop)
         )
@@ -241,7 +246,10 @@ class Curve:
                 yield arb.pi() * low + half * (1 + x), half * weight
 
     def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
-        """Return -2i times the integral of (D, z, v) du/eta along a path."""
+        """Return -2i times the integrals of D, z and v du/eta along a path, three complex numbers: T_H, T_F, T_c.
+
+        Raises NotCertifiedError where they lose all digits.
+        """
         way, g = stop - start, acb_poly(self.g)
         sum_D, sum_z, sum_v, before = acb(0), acb(0), acb(0), None
         for s, weight in self.nodes(start, stop):
@@ -309,7 +317,10 @@ def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
 
 
 def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
-    """Return the weights of sums that generate all sums of some real vectors, by integer relations that LLL finds."""
+    """Return integer rows, weights of ``vectors``, whose sums generate all integer combinations of the vectors.
+
+    The relations are found by LLL; [] if a component is zero for all vectors.
+    """
     width = len(vectors[0]) if vectors else 0
     sizes = [max(abs(float(x[k].mid())) for x in vectors) for k in range(width)]
     if not (sizes and all(sizes)):
@@ -339,12 +350,12 @@ def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> 
 
 
 def nearest(x: arb) -> int:
-    """Return the whole number nearest to the middle of a ball."""
+    """Return the integer nearest to the midpoint of a ball."""
     return int((x.mid() + 0.5).floor().unique_fmpz())
 
 
 def value(polynomial: fmpq_poly, z: acb) -> acb:
-    """Return the value of a polynomial with rational coefficients."""
+    """Return the value of a rational polynomial at z, as a complex ball."""
     return acb_poly(polynomial)(z)
 
 
@@ -360,17 +371,17 @@ def _elliptic(x: Array, y: Array) -> Array:
 
 
 def centre(x: acb) -> acb:
-    """Return the middle of a complex ball, as a ball without radius."""
+    """Return the midpoint of a complex ball as a ball of radius 0."""
     return acb(x.real.mid(), x.imag.mid())
 
 
 def complex_of(x: acb) -> complex:
-    """Return the middle of a complex ball in doubles."""
+    """Return the midpoint of a complex ball, rounded to a Python complex number."""
     return complex(float(x.real.mid()), float(x.imag.mid()))
 
 
 def matrix_of(x: acb_mat) -> Array:
-    """Return the middle of a matrix in doubles."""
+    """Return the midpoints of a matrix of balls as a complex array."""
     return np.array([[complex_of(y) for y in row] for row in x.tolist()])
 
 

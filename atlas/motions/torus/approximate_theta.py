@@ -38,9 +38,10 @@ ComplexPair = tuple[acb, acb]
 
 
 class ThetaMotion:
-    """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`.
+    """Theta functions of one motion: the forms `denominator`, `K`, `M` and `N`, and `start`, zeta at t = 0; not proved.
 
-    Where a motion `neighbour` is known, its origin and its start are followed; else they are looked for.
+    `l` and `w` are the quasi-periods of N, `misfit` the largest relative residual of the fits. If a ``neighbour`` is
+    given, the origin and the start nearest to its own are taken. Raises NotCertifiedError where they are not found.
     """
 
     def __init__(
@@ -82,7 +83,7 @@ class ThetaMotion:
         return [centre(zeta[0, 0]), centre(zeta[1, 0])]
 
     def pairs(self, zeta: Sequence[acb]) -> list[ComplexPair]:
-        """Return the four pairs of theta functions at zeta."""
+        """Return the four pairs of theta functions at zeta, in the order of CHARACTERISTICS, as complex balls."""
         theta = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
         return [(theta[0, 4 * e + d], theta[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
 
@@ -97,7 +98,7 @@ class ThetaMotion:
         return State(M, K, [])
 
     def _fitted(self) -> tuple[Form, list[Form], list[Form]]:
-        """Return the forms of the denominator, of K and of M."""
+        """Return the form of the denominator, three of K and three of M, fitted to states near the origin."""
         axis, origin = self.origin
         points = around(self.motion.moments, origin)
         pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]
@@ -122,7 +123,11 @@ class ThetaMotion:
         return denominator, forms[3:], forms[:3]
 
     def _form(self, pairs: list[list[ComplexPair]], values: Vector, places: Sequence[int]) -> Form:
-        """Return the form that has some values."""
+        """Return the form, of a place among ``places``, that fits ``values`` best.
+
+        ``pairs`` are the theta functions at the same points. Raises NotCertifiedError for a residual above
+        `MAX_RESIDUAL`.
+        """
         tried = list[tuple[float, Form]]()
         for place in places:
             weights, error = _least_squares([list(p[place]) for p in pairs], values)
@@ -137,7 +142,7 @@ class ThetaMotion:
         """Return zeta at the start, by Newton's method from the nearest points of a grid.
 
         Conjugation takes origins to origins, which are half a period apart: so the imaginary part of the times between
-        them and the start is a fourth of that of a period.
+        them and the start is a fourth of that of a period. Raises NotCertifiedError where the start is not found.
         """
         target = np.array([complex_of(x) for x in self.at_start.components[:6]])
         real, others_ = (matrix_of(acb_mat(pair))[:, :2] for pair in (self.lattice.real, self.lattice.other_periods))
@@ -153,7 +158,7 @@ class ThetaMotion:
 
     @property
     def times(self) -> Array:
-        """Complex times from the origin to the start."""
+        """Complex times (T_H, T_F) from the origin to the start, shape (2,)."""
         return np.asarray(matrix_of(self.X) @ [complex_of(x) for x in self.start])
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
@@ -207,7 +212,7 @@ class ThetaMotion:
         return l, w
 
     def _forms_of_N(self) -> list[Form]:
-        """Return the forms of N, which has besides the factor exp(i l (zeta - start))."""
+        """Return three forms; N is these over the denominator times exp(i l (zeta - start))."""
         points = around(self.motion.moments, self.at_start)
         shifted, factors = list[list[ComplexPair]](), Vector()
         for t, _ in points:
@@ -222,7 +227,10 @@ class ThetaMotion:
 
 
 def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, State]]) -> tuple[int, State]:
-    """Return the origin nearest to a known one, among those found and their images under changes of sign."""
+    """Return the pair (axis, state) nearest to ``reference``, among ``states`` and their changes of sign.
+
+    Only states with the axis of the reference count.
+    """
     axis, state = reference
 
     def images(states: State) -> Iterator[State]:
@@ -249,7 +257,7 @@ class Rough:
         self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), region)
 
     def states(self, times: Array) -> Array:
-        """Return M and K at pairs of times (m, 2), shape (m, 6)."""
+        """Return M and K at pairs of complex times (m, 2), shape (m, 6); not finite where theta functions overflow."""
         v = times @ self.to_arguments.T
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
@@ -273,7 +281,7 @@ class Rough:
 
 
 def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
-    """Return unit vectors e_x and e_y that form a right-handed system with K/|K|."""
+    """Return unit vectors e_x and e_y, three balls each, that form a right-handed system with K/|K|."""
     size = arb(dot(K, K)).sqrt()
     n = [x / size for x in K]
     least = min(range(3), key=lambda i: abs(float(n[i].mid())))
@@ -285,7 +293,7 @@ def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
 
 
 def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
-    """Return the least-squares solution of an overdetermined system, and its largest relative residual."""
+    """Return (least-squares solution of rows x = values, largest residual over the largest value)."""
     A, B = acb_mat(rows), acb_mat([[x] for x in values])
     adjoint = A.transpose().conjugate()
     solution = (adjoint * A).solve(adjoint * B)
@@ -296,7 +304,7 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
 
 
 def _null(rows: list[Vector]) -> tuple[Vector, float]:
-    """Return a vector orthogonal to all rows, its component 0 or 1 set to 1, and the residual."""
+    """Return (vector orthogonal to all rows, residual); component 0 or 1, whichever fits better, is 1."""
     vectors = list[tuple[float, Vector]]()
     for k in range(2):
         columns = [n for n in range(len(rows[0])) if n != k]

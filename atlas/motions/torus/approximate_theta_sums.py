@@ -58,18 +58,18 @@ class Form:
     shift: tuple[acb, acb] = (acb(0), acb(0))
 
     def value(self, pairs: Sequence[tuple[acb, acb]]) -> acb:
-        """Return the value, from those of all pairs of theta functions at v - shift."""
+        """Return the form's value from the pairs of theta functions at v - shift, in the order of CHARACTERISTICS."""
         (n0, n1), (at_zero, second) = self.weights, pairs[self.place]
         return n0 * at_zero + n1 * second
 
     def over(self, x: Any) -> "Form":
-        """Return the form over a number."""
+        """Return the form divided by a number."""
         n0, n1 = self.weights
         return Form(self.place, (n0 / x, n1 / x), self.shift)
 
 
 def weights_at(forms: Sequence[Form], hat: acb_mat, origin: Sequence[acb], place: tuple[int, int]) -> list[acb]:
-    """Return the weights that exp(i pi (P u_1 + Q u_2)) has in some forms at v = origin + u, at a place (P, Q)."""
+    """Return for each form the coefficient of exp(i pi (P u_1 + Q u_2)) at v = origin + u, for ``place`` (P, Q)."""
     P, Q = place
     square = hat[0, 0] * (P * P) + 2 * hat[0, 1] * (P * Q) + hat[1, 1] * (Q * Q)
     shift, power, weights = None, acb(0), list[acb]()
@@ -145,10 +145,10 @@ class Sums:
         return values
 
     def powers(self, once: Array, square: Array) -> FloatArray:
-        """Return even and odd powers of w_2 as words, (2, 3, rows, 2 m): the number, its lower and its upper word.
+        """Return even and odd powers of w_2, and i times these, as words, shape (2, 3, rows, 2 m).
 
-        `once` and `square`, (2, m) each, are 1/w_2 and w_2, and their squares. After the powers follow i times these;
-        real and imaginary parts are adjacent.
+        The words are the number, its lower and its upper word. ``once`` and ``square``, (2, m) each, are 1/w_2 and w_2,
+        and their squares. Real and imaginary parts are adjacent.
         """
         count, m = self.sizes.shape[1], once.shape[1]
         words = np.empty((2, 3, count, 2 * m))
@@ -164,9 +164,9 @@ class Sums:
         return words
 
     def words(self, rows: slice) -> list[Words]:
-        """Return, for even and for odd powers, the indices of the forms with such powers, and their weights as words.
+        """Return `Words` for the even and for the odd powers: (indices of forms, upper weights, lower weights).
 
-        Weights are (forms P, rows): those multiplied with upper words, and those with the powers and their lower words.
+        Upper weights multiply upper words of powers, lower weights the powers and their lower words. Cached.
         """
         key = rows.start or 0, rows.stop or len(self.table)
         if key not in self._words:
@@ -174,7 +174,7 @@ class Sums:
         return self._words[key]
 
     def _split(self, rows: slice, parity: int) -> Words:
-        """Return the forms of a parity, and their weights in an upper and a lower word."""
+        """Return `Words` of the forms with powers of one ``parity``, 0 (even) or 1; see `words`."""
         forms = np.flatnonzero(self.odd[rows] == parity).tolist()
         columns, sizes = self.columns[parity], self.sizes[parity]
         is_in_table = (self.Q[0] <= columns) & (columns <= self.Q[-1])
@@ -204,7 +204,7 @@ class Sums:
 
 
 def inverse(w: Array) -> Array:
-    """Return 1/w, rounded once: one step of Newton's method with the residual of 1, by halves of 26 digits."""
+    """Return 1/w of complex numbers, rounded once: a step of Newton's method with an exact residual."""
     places_near = w.conj() / (w.real * w.real + w.imag * w.imag)
     (a, a_low), (b, b_low) = _halves(w), _halves(places_near)
     product_re, second = a.real * b.real, -a.imag * b.imag
@@ -227,9 +227,9 @@ def _halves(w: Array) -> tuple[Array, Array]:
 def places_that_matter(
     hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array, left_out: float
 ) -> NDArray[np.int64]:
-    """Return the places (P, Q) of terms that matter at v = origin + x/pi, x (2, m) in a region.
+    """Return integer places (P, Q), shape (k, 2), of the terms that matter at v = origin + x/pi, x (2, m) in a region.
 
-    `left_out` is the logarithm of the ratio of the largest term to the omitted ones.
+    ``left_out`` is the logarithm of the ratio of the largest term to the omitted ones.
     """
     Y, shifts = matrix_of(hat).imag, np.array([[complex_of(x) for x in form.shift] for form in forms])
     v0 = np.array([complex_of(x) for x in origin])

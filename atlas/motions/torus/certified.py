@@ -48,7 +48,11 @@ GUARD_BITS = 48
 
 
 class OnTorus:
-    """A certified motion on its torus, or on a closed curve where the torus degenerates."""
+    """A certified motion on its torus, or on a closed curve where the torus degenerates.
+
+    Moments, field and times are divided by powers of two that make the largest of them near one; `rate` is that of
+    1/time.
+    """
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         unit, self.rate = _power(max(moments)), _power(max(map(abs, (*Omega, *K))))
@@ -62,7 +66,7 @@ class OnTorus:
 
     @property
     def b(self) -> arb:
-        """Length |B'| of the field, in 1/time."""
+        """Length |B'| of the field, in units of `rate`, as a ball."""
         return arb(dot(self.field, self.field)).sqrt()
 
     @property
@@ -72,13 +76,16 @@ class OnTorus:
 
     @property
     def frequencies(self) -> list[arb]:
-        """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
+        """Angular frequencies f1, f2 of M and K, and f3 about the field, as balls in rad/time.
+
+        Raises NotCertifiedError where no periods are proved.
+        """
         periods = self.torus.periods(ctx.prec + GUARD_BITS)
         with workprec(ctx.prec + GUARD_BITS):
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
-        """Return this motion as an `EllipticMotion`; None unless it is elliptic with a rational z."""
+        """Return this motion as an `EllipticMotion` with a rational z, if it is one, otherwise None."""
         z_polynomial, (W, K) = self.torus.integrals.double_points(), (self.torus.W, self.field)
         M = [I * w for I, w in zip(self.moments, W, strict=True)]
         D = self.moments[0] * self.moments[1] * self.moments[2]
@@ -90,7 +97,11 @@ class OnTorus:
         return None
 
     def state(self, t: Any) -> tuple[Arrival, arb]:
-        """Return W, K and the quaternion of S at time t, and the angle about the field that comes before S."""
+        """Return (`Arrival` at time t, angle about the field in rad).
+
+        R is the rotation by this angle times S of the arrival. Cached by time and precision. Raises NotCertifiedError
+        where the state cannot be enclosed.
+        """
         t = rational(t, "the time") * self.rate
         key = t, ctx.prec
         arrived = self._arrived.get(key)
@@ -127,7 +138,7 @@ class OnTorus:
             return -t * self.b
 
     def _without_periods(self, t: fmpq) -> str:
-        """Return the reason why no periods reduce time t, as a clause for an error; empty if periods are used."""
+        """Return the reason for which periods do not reduce time t, as a clause; "" if they do."""
         if not self.is_regular:
             return "the motion is one where two periods of its torus fall together"
         if abs(t) > MAX_FLOW_TIME:
@@ -156,7 +167,10 @@ class OnTorus:
             return arrival, n * r1.angle + m * r2.angle + turn
 
     def _directly(self, t: fmpq, why: str) -> Arrival:
-        """Return the state at t by Taylor's series from 0. Raises NotCertifiedError beyond `MAX_FLOW_TIME`."""
+        """Return the state at t by Taylor's series from 0.
+
+        Raises NotCertifiedError, with the reason ``why``, beyond `MAX_FLOW_TIME`.
+        """
         if abs(t) > MAX_FLOW_TIME:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
@@ -165,7 +179,10 @@ class OnTorus:
         return self._along_series(t, ctx.prec + 2 * GUARD_BITS)
 
     def _along_series(self, t: fmpq, bits: int) -> Arrival:
-        """Return the state at t by Taylor's series, with twice the bits where errors grow."""
+        """Return the state at t by Taylor's series at ``bits`` binary digits, doubled as long as errors grow too much.
+
+        Raises GrowthError beyond `MAX_GROWTH_PRECISION`.
+        """
         while True:
             try:
                 return self.torus.flow.go(t, fmpq(0), bits)
@@ -175,7 +192,10 @@ class OnTorus:
                 bits *= 2
 
     def _displaced(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
-        """Return a state after the flows of H and F/2 have gone for the tiny times H and F."""
+        """Return a state after the flow of H for the tiny time H and that of F/2 for the tiny time F.
+
+        Raises NotCertifiedError unless the state moves by less than 2^-16.
+        """
         wide = [x + arb(0, 2.0**-16) for x in (*arrival.W, *arrival.K)]
         X, Y = self.torus.fields(wide[:3], wide[3:])
         ways = [H * x + F * y for x, y in zip(X, Y, strict=True)]
@@ -218,7 +238,7 @@ class OnTorus:
         return [[arb_poly(x)(arb(t)) + arb(0, remaining.upper()) for x in rows] for rows in (Omega, K, *R)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows."""
+        """Return R(t) as three rows of balls, with R(0) = 1."""
         series = self._series_at_zero(t)
         if series:
             return series[2:]
@@ -232,12 +252,12 @@ class OnTorus:
         return product(turn(self.field, angle.cos(), angle.sin()), swing)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B'."""
+        """Return K(t) = R^T B' along the body's axes, three balls in 1/time."""
         series = self._series_at_zero(t)
         return [k * self.rate for k in (series[1] if series else self.state(t)[0].K)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = W - K."""
+        """Return Omega(t) = W - K along the body's axes, three balls in rad/time."""
         series = self._series_at_zero(t)
         if series:
             return [w * self.rate for w in series[0]]
@@ -246,7 +266,7 @@ class OnTorus:
 
 
 def _digits_before_point(t: fmpq) -> int:
-    """Return the binary digits of a time before its point, and eight more."""
+    """Return the number of binary digits of |t| before the point, at least 0, plus 8."""
     return max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
 
 
@@ -301,7 +321,7 @@ class AsymmetricMotion:
             self._motion.follow(times)
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows; exact at t = 0."""
+        """Return R(t) as three rows of balls; at t = 0 the unit matrix of exact numbers."""
         if rational(t, "the time") == 0:
             return identity()
         return self._motion.rotation(t)
@@ -311,13 +331,13 @@ class AsymmetricMotion:
         return [row[j - 1] for row in self.rotation(t)]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', the field in the body."""
+        """Return K(t) = R^T B' along the body's axes, three balls in 1/time; exact at t = 0 and for a spin."""
         if rational(t, "the time") == 0 or isinstance(self._motion, EulerTop):
             return list(self.field)
         return self._motion.field_in_body(t)
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame."""
+        """Return Omega(t) along the body's axes, three balls in rad/time; exact at t = 0."""
         if rational(t, "the time") == 0:
             return list(self.omega)
         return self._motion.angular_velocity(t)
@@ -335,22 +355,36 @@ class AsymmetricMotion:
 
     @property
     def period(self) -> arb:
-        """Period of Omega for a free body, of Omega and K for an elliptic motion; infinite where they are constant."""
+        """Period in time, as a ball; infinite where the motion is constant.
+
+        It is that of Omega for a free body, of Omega and K for an elliptic motion, of nutation for two equal moments.
+        Raises DomainError for other motions.
+        """
         return self._nutating.period
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate, about the momentum or B, of the axis that the momentum of a free body, or K, goes round."""
+        """Mean angular velocity about the momentum of a free body, or about B, in rad/time.
+
+        It is that of the body's axis about which the momentum, or K, goes. Raises DomainError for motions without a
+        period.
+        """
         return self._nutating.precession_rate
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of the body's turn about that axis."""
+        """Mean angular velocity of the body about its axis around which the momentum, or K, goes, in rad/time.
+
+        Raises DomainError for motions without a period.
+        """
         return self._nutating.spin_rate
 
     @property
     def mode(self) -> str:
-        """Axis that the momentum of a free body goes round, see `EulerTop.mode`. DomainError in a field."""
+        """Name of the axis that the momentum of a free body goes round, see `EulerTop.mode`.
+
+        Raises DomainError in a field.
+        """
         motion = self._nutating
         if not isinstance(motion, EulerTop):
             raise DomainError("A mode, long axis or short axis, is that of a free body: this one is in a field.")
@@ -377,37 +411,37 @@ class AsymmetricMotion:
 
     @property
     def invariants(self) -> Integrals:
-        """The integrals H, F, (M, K) and K^2, exactly, theorem-clebsch."""
+        """The `Integrals` of the motion, exact rationals: H, F, (M, K) and K^2 of theorem-clebsch."""
         return Integrals.of_state(self.inertia, self.omega, self.field)
 
     @property
     def H(self) -> fmpq:
-        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K)."""
+        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K): exact, in inertia/time^2."""
         return self.invariants.H
 
     @property
     def F(self) -> fmpq:
-        """Clebsch's F = M^2 - D (K, II^-1 K)."""
+        """Clebsch's F = M^2 - D (K, II^-1 K), D the product of the moments: exact, in inertia^2/time^2."""
         return self.invariants.F
 
     @property
     def MK(self) -> fmpq:
-        """Casimir (M, K), the product of momentum and field in the body, exact and constant."""
+        """Casimir (M, K), M = II (Omega + K), of momentum and field in the body: exact, in inertia/time^2."""
         return self.invariants.c
 
     @property
     def energy(self) -> fmpq:
-        """Kinetic energy (Omega, II Omega)/2 = H - (M, K)."""
+        """Kinetic energy (Omega, II Omega)/2 = H - (M, K): exact, in inertia/time^2."""
         return self.H - self.MK
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m = R II Omega in the laboratory frame."""
+        """Return m = R II Omega in the laboratory, three balls in inertia/time; exact without a field."""
         Omega = self.angular_velocity(t) if any(self.field) else self.omega
         m = [I * w for I, w in zip(self.inertia, Omega, strict=True)]
         return [dot(row, m) for row in self.rotation(t)] if any(self.field) else m
 
 
 def _power(x: fmpq) -> fmpq:
-    """Return the power of two next to a positive number."""
+    """Return the power of two next to a positive rational, within a factor of two."""
     exponent = int(x.p).bit_length() - int(x.q).bit_length()
     return fmpq(2) ** exponent if exponent >= 0 else fmpq(1, 2**-exponent)

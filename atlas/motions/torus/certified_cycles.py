@@ -71,7 +71,10 @@ def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
 
 
 def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
-    """Return tau (2, 2) of a basis of cycles. Raises NotCertifiedError where the periods have too few digits."""
+    """Return the Riemann matrix tau (2, 2) of a basis of cycles, see `cycles`.
+
+    Raises NotCertifiedError where the periods have too few digits.
+    """
     (p, q, *_), (r, s, *_), (x, y, *_), (z, w, *_) = basis
     try:
         return acb_mat([[p, r / 2], [q, s / 2]]).solve(acb_mat([[x, z], [y, w]]))
@@ -80,10 +83,11 @@ def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
 
 
 def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
-    """Return the action of a cycle of the torus, a real period whose angle about a field of length b is given.
+    """Return the action of a real period of the torus as a ball, from the integrals over a ``basis`` of cycles.
 
-    Cycles that go otherwise round the pole of eta du, where its residue is c/b, turn by n whole turns more about the
-    field, and have n c/b more: T_c tells n. NotCertifiedError where that is not certain.
+    ``c`` is (M, K), ``b`` the length of the field. Cycles that go otherwise round the pole of eta du, where its residue
+    is c/b, turn by n whole turns more about the field, and have n c/b more: T_c tells n. Raises NotCertifiedError where
+    it is not certain which cycle the period is.
     """
     places = np.array([[f(complex_of(x)) for x in row[:2] for f in (np.real, np.imag)] for row in basis])
     times = np.array([float(period.H.mid()), 0.0, float(period.F.mid()), 0.0])
@@ -103,9 +107,10 @@ def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
 
 
 def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> list[acb]:
-    """Return -2i times the integrals of (D, z, v) du/eta and eta du between the zeros next to two places.
+    """Return four balls: -2i times the integrals of (D, z, v) du/eta and eta du between the zeros next to two places.
 
-    The first of them is near a known one, not near its negative.
+    Their sign is that for which the first is nearer to ``like`` than to its negative. Raises NotCertifiedError where an
+    integrand has no bound.
     """
     start_zero, stop_zero, D, c = _zero_at(curve, start), _zero_at(curve, stop), curve.motion.D, curve.motion.c
     g, dg, dP = curve.g, curve.g.derivative(), curve.motion.P.derivative()
@@ -169,13 +174,16 @@ def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX
 
 
 def _zero_at(curve: Curve, place: acb) -> acb:
-    """Return the zero of Psi, in a ball, that is next to a place."""
+    """Return the ball of the zero of Psi, shifted by periods, that is nearest to a place u."""
     places = [zero + away - curve.in_cell(away) for zero in curve.zeros for away in (centre(place) - zero,)]
     return min(places, key=lambda u: abs(complex_of(u - place)))
 
 
 def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
-    """Return bounds on the forms divided by r on the ellipse about an interval of a path; None if none are found."""
+    """Return bounds on the four forms divided by r on the ellipse about an interval of a path.
+
+    None if none are found.
+    """
     most, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
     while remainder:

@@ -79,11 +79,11 @@ Place = tuple[int, int]
 
 
 def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
-    """Return proven bounds (3,) on the distance of M, K and N of the forms from the motion in a cell of the periods.
+    """Return proven bounds (3,) on |M|, |K| and |N| of theta functions minus motion, at all phases of a cell.
 
-    The cell reaches from -HALF_TURN to HALF_TURN of both, from the start. Where errors might grow too much on the way
-    from there, the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes.
-    Raises NotCertifiedError where there is no bound.
+    The cell reaches from -HALF_TURN to HALF_TURN of both periods, from the start. Where errors might grow too much on
+    the way from there, the way begins at the nearest of 4, 9 or 25 other states, to which Taylor's series goes. Raises
+    NotCertifiedError where there is no bound.
     """
     _check_characteristics(theta)
     with workprec(BITS + SPARE_BITS), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -153,7 +153,10 @@ class Cell:
         """Factor exp(i l (zeta - start)) of N."""
 
     def rates(self) -> Floats:
-        """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
+        """Return bounds (2, 3) on the defects of M, K and N over D^2 in the cell; inf where no bound is found.
+
+        Row 0 is along the flow of H, row 1 along that of F/2.
+        """
         S, size, beyond = self._defects()
         most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.to_v.imag).sum(axis=1)[:, None]
         top = most.max()
@@ -213,15 +216,15 @@ class Cell:
         return np.concatenate([x for x, _ in sizes_found]), np.concatenate([x for _, x in sizes_found]), all_beyond
 
     def _peaks(self, height: float) -> Floats:
-        """Return the places (4, 2), not whole, of the largest term of a form at the corners of the cell."""
+        """Return the places (4, 2), real numbers, of the largest term of a form at the corners of the cell."""
         return np.asarray(-2 * np.linalg.solve(self.Y, self._heights(height)).T)
 
     def _heights(self, height: float) -> Floats:
-        """Return Im v (2, 4) at the corners, less that part of the shift."""
+        """Return Im v (2, 4) at the corners of the cell, less ``height`` times the imaginary shift."""
         return np.asarray(self._imaginary(height)[:, None] + self.corners.imag / np.pi)
 
     def _highest(self, height: float) -> float:
-        """Return the logarithm of the largest that exp(i pi (n hat n/4 + n v)) is for any real n in the cell.
+        """Return the logarithm of the maximum of |exp(i pi (n hat n/4 + n v))| over real n and v in the cell.
 
         It is pi (y, Y^-1 y), y = Im v, but for the power of the middle, which is taken out: convex, so largest in a
         corner.
@@ -235,12 +238,15 @@ class Cell:
         return np.array([complex_of(v - height * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
 
     def _size(self, S: Floats, height: float) -> Floats:
-        """Return log |g_S|, the size of the coefficient at S."""
+        """Return log |g_S|, the logarithm of the magnitude of the coefficient at places S (..., 2), shape (...)."""
         square = np.einsum("...i,ij,...j->...", S, self.Y, S)
         return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(height)))
 
     def _coefficients(self, S: tuple[int, ...]) -> Iterator[list[acb]]:
-        """Yield the coefficients at S of the defects of M, K and N along the flow of H, and of F/2."""
+        """Yield the coefficients at S, three complex balls, of each of six defects.
+
+        These are the defects of M, K and N along the flow of H, then of M, K and N along that of F/2.
+        """
         motion = self.theta.motion
         I = motion.moments
         A, J, unit = [1 / x for x in I], [-motion.D / x for x in I], [1, 1, 1]
@@ -262,7 +268,7 @@ class Cell:
                 yield [x - sum(less, acb(0)) for x, *less in zip(changes, *divisions, strict=True)]
 
     def _products(self, S: tuple[int, ...]) -> list[acb_mat]:
-        """Return the coefficients at S of all products f g, and of f' g - f g' along each flow."""
+        """Return three matrices of coefficients at S: of all products f g, and of f' g - f g' along each flow."""
         places = self._places(np.array(S) / 2)
         lefts = list(zip(*(self._terms(place) for place in places), strict=True))
         rights = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])
@@ -273,7 +279,7 @@ class Cell:
         return products
 
     def _places(self, middle: Floats) -> list[Place]:
-        """Return the indices (P, Q) of terms that are not negligible, near `middle` and near `middle` + shift."""
+        """Return indices (P, Q) of the terms that are not negligible, near ``middle`` or near ``middle`` + `away`."""
         near_places = places_near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
         return [(int(P), int(Q)) for P, Q in near_places]
 
@@ -306,9 +312,9 @@ def _check_characteristics(theta: ThetaMotion) -> None:
 
 
 def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
-    """Return at least the whole places n with (n - p, Y (n - p)) below `most` for a p of a parallelogram.
+    """Return integer points n (k, 2), at least those with (n - p, Y (n - p)) < ``most`` for a p in a parallelogram.
 
-    Its corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). They are the places near a net of points of it,
+    Its corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). They are the points near a net of points of it,
     from one of which no other point is farther than half the diagonal of a mesh.
     """
     sides = corners[2] - corners[0], corners[1] - corners[0]
@@ -321,16 +327,16 @@ def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
 
 
 def _beyond(arc: float, narrow: float) -> float:
-    """Return a bound on the sum of exp(-q(n - p)) over whole n of the plane with q >= distance, for any p.
+    """Return a bound on the sum of exp(-q(n - p)) over integer points n with q >= ``arc``, for any p.
 
-    With q(n) >= narrow n^2 it is exp(-9/10 distance) times the sum of exp(-q/10), a square of a sum over a line, which
-    is below its largest term and the integral.
+    q(n) >= ``narrow`` n^2. The bound is exp(-9/10 arc) times the sum of exp(-q/10), a square of a sum over a line,
+    which is below its largest term and the integral.
     """
     return float(np.exp(-0.9 * arc) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
 
 
 def _deviation(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
-    """Return bounds on the distances of M, K and N of the forms from the motion after some times (H, F)."""
+    """Return bounds (3,) on the distances of M, K and N of theta functions from the motion after flow times (H, F)."""
     H, F = map(rational, times.tolist())
     way = theta.zeta([acb(H), acb(F)])
     zeta = [x + y for x, y in zip(way, theta.start, strict=True)]
@@ -353,7 +359,7 @@ def _deviation(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
 
 
 def _sizes(theta: ThetaMotion) -> Floats:
-    """Return bounds on |M|, |K| and |N|: |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment."""
+    """Return bounds (3,) on |M|, |K| and |N|, from |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment."""
     motion = theta.motion
     K, most = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
     M = np.sqrt(float(arb(motion.F).upper()) + most * K * K)
@@ -375,7 +381,7 @@ def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
 
 
 def _exponential(growth: Floats) -> Floats:
-    """Return the exponential of a matrix without negative elements."""
+    """Return the exponential of a matrix (3, 3) with elements >= 0, by Taylor's series and squaring."""
     halvings = max(0, int(np.ceil(np.log2(growth.sum())))) if growth.any() else 0
     term = total = np.eye(3)
     for n in range(1, 30):

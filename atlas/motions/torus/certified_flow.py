@@ -79,7 +79,7 @@ PRODUCTS = (
 
 @dataclass(frozen=True)
 class Arrival:
-    """W, K and q at the end of a way, as balls."""
+    """State after a flow, as balls: W = Omega + K, K, and the quaternion q = (w, x, y, z) of the rotation S."""
 
     W: list[arb]
     K: list[arb]
@@ -106,7 +106,10 @@ class _Way:
         self.error_in_step = 0.0
 
     def step(self) -> None:
-        """Go one step, as long as the series allows."""
+        """Go one step of Taylor's series, as long as its terms and error bounds allow.
+
+        Raises NotCertifiedError beyond `MAX_STEPS`, GrowthError where errors grow too much.
+        """
         self.steps += 1
         if self.steps > MAX_STEPS:
             raise NotCertifiedError(f"not certified: more than {MAX_STEPS} steps of Taylor's series would be needed.")
@@ -136,7 +139,7 @@ class _Way:
         return tuple([_units(h * x, self.bits) for x in row] for row in self.rates)
 
     def _series(self, h: fmpq) -> Series:
-        """Return Taylor coefficients of W, K and q over a step h, in units."""
+        """Return Taylor coefficients of W, K and q over a step h: ten lists of integers in units of 2^-bits."""
         b = self.bits
         V, w_rates, second = self._scaled_rates(h)
         rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
@@ -150,7 +153,10 @@ class _Way:
         return rows[:10]
 
     def _account(self, rows: Series, h: fmpq) -> None:
-        """Take the step's errors into the bounds."""
+        """Add the errors of a step h to the bounds `X`, `w` and `q_error`.
+
+        Raises NotCertifiedError for a step too long, GrowthError for errors that grow too much.
+        """
         W, K, size_V, lipschitz = self._sizes(rows, h)
         if not lipschitz < 2 * MAX_LIPSCHITZ:
             raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
@@ -206,7 +212,7 @@ class _Way:
         return 1.01 * (sqrt(sum(x * x for x in defects)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
 
     def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
-        """Return the derivative of the step's flow of (W, K), and a bound on its error."""
+        """Return the derivative (6, 6) of the step's flow of (W, K), and a bound on its error."""
         floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
         changes = jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
         terms = min(TERMS, len(changes))
@@ -220,14 +226,14 @@ class _Way:
         return X.sum(axis=0), 1.01 * defect * spread + ROUNDING * float(sizes_X.sum())
 
     def arrival(self) -> Arrival:
-        """Return the state as balls."""
+        """Return the current state as an `Arrival`, without radii unless `proven`."""
         error = abs(self.X) @ self.w * 1.01
         errors = [*(error * self.proven).tolist()] + [self.q_error * 1.01 * self.proven] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
         return Arrival(balls[:3], balls[3:6], balls[6:])
 
     def passed(self, fraction: fmpq) -> Arrival:
-        """Return the state at a fraction of the last step as balls, as wide as the errors grow in all of the step."""
+        """Return the state at a fraction of the last step as an `Arrival`, with the error of the whole step."""
         state = [int(fmpz_poly(row)(fraction).floor()) for row in self.rows]
         errors = [1.01 * self.error_in_step + 1] * 6 + [1.01 * self.q_error + 1] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(state, errors, strict=True)]
@@ -235,14 +241,17 @@ class _Way:
 
 
 class Flow:
-    """The flow from a state (W, K) with rational components, of a body with rational moments."""
+    """Flows of H and F/2 from a state (W, K) with rational components, of a body with rational moments."""
 
     def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
         self.moments = list(moments)
         self.start = [*W, *K]
 
     def rates(self, a: fmpq, g: fmpq) -> Rates:
-        """Return V_i/W_i, and the coefficients of W_j W_k and K_j K_k in the rates of W."""
+        """Return coefficients of the flow of a H + g F/2, three lists of three.
+
+        They are V_i/W_i of the angular velocity V, and those of W_j W_k and of K_j K_k in the rate of W_i.
+        """
         I = self.moments
         moment_ratios = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
         return (
@@ -252,13 +261,17 @@ class Flow:
         )
 
     def length(self, a: fmpq, g: fmpq) -> float:
-        """Return the largest rate of a H + g F/2 times the size of (W, K): one to five steps each."""
+        """Return the largest coefficient of the flow of a H + g F/2 times the size of (W, K), dimensionless.
+
+        A unit of this length takes one to five steps.
+        """
         return float(max(abs(x) for row in self.rates(a, g) for x in row)) * float(sum(abs(x) for x in self.start))
 
     def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
-        """Return the state of the flow of a H + g F/2 at time 1, as balls; without radii unless `proven`.
+        """Return the state of the flow of a H + g F/2 at time 1 as an `Arrival`, without radii unless ``proven``.
 
-        Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
+        ``bits`` is the number of binary digits. Raises NotCertifiedError where that would take too many steps, or
+        digits, or the error cannot be bounded.
         """
         if bits > MAX_PRECISION:
             raise NotCertifiedError(
@@ -337,7 +350,7 @@ def jacobian(state: Matrix, V: Matrix, w_rates: Matrix, second: Matrix) -> Matri
 
 
 def _inverse_rows(X: Matrix) -> Matrix:
-    """Return bounds on the norms of the rows of X^-1."""
+    """Return bounds (6,) on the norms of the rows of X^-1. Raises NotCertifiedError for a nearly singular X."""
     try:
         Y = np.linalg.inv(X)
     except np.linalg.LinAlgError as error:
@@ -366,7 +379,7 @@ def _scaled(row: list[int], factor: fmpq) -> list[int]:
 
 
 def _float(x: int, bits: int) -> float:
-    """Return a number of units of 2^-bits in doubles, infinity beyond all of them."""
+    """Return x 2^-bits as a double, inf if it is too large."""
     try:
         return x / (1 << bits) if bits < MIN_FLINT_PRECISION else float(fmpq(x, 1 << bits))
     except OverflowError:
@@ -374,7 +387,7 @@ def _float(x: int, bits: int) -> float:
 
 
 def _size(polynomial: fmpz_poly, bits: int) -> float:
-    """Return the sum of the sizes of the coefficients in units of 2^bits, rounded up."""
+    """Return the sum of magnitudes of the coefficients, in units of 2^bits, rounded up."""
     return float((sum(abs(int(x)) for x in polynomial) >> bits) + 1)
 
 

@@ -56,14 +56,15 @@ def transposed(M: Sequence[Sequence[Any]]) -> list[list[Any]]:
 
 
 def times(M: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Any]:
-    """Return a matrix times a vector."""
+    """Return a matrix times a vector, as a list."""
     return [dot(row, v) for row in M]
 
 
 class PlacedMotion:
-    """The motion of a body from the attitude of a quaternion (x, y, z, w), in the field B' of the laboratory.
+    """Motion of a body from the attitude of a quaternion (x, y, z, w), in the field B' of the laboratory.
 
-    The body is given by its principal moments (3,), or by an inertia tensor, six numbers I11 I22 I33 I12 I13 I23.
+    ``inertia`` are principal moments (3,), or six elements I11 I22 I33 I12 I13 I23 of a tensor. Quantities such as `H`
+    are attributes, see `__getattr__`.
     """
 
     def __init__(self, inertia: Any, field: Any, omega: Any, attitude: Any = (0, 0, 0, 1)) -> None:
@@ -81,7 +82,10 @@ class PlacedMotion:
         self._bodies: dict[int, tuple[AsymmetricMotion, Matrix, fmpq]] = {}
 
     def _body(self, bits: int) -> tuple[AsymmetricMotion, Matrix, fmpq]:
-        """Return a motion along principal axes, these axes as rows, and a bound on the difference of the tensors."""
+        """Return (motion along principal axes, these axes as rows, bound on the difference of the two tensors).
+
+        The motion has rational moments near the eigenvalues, computed with ``bits`` binary digits; cached.
+        """
         if bits not in self._bodies:
             axes: Matrix = identity()
             moments = [self.tensor[i][i] for i in range(3)]
@@ -100,7 +104,7 @@ class PlacedMotion:
         return self._bodies[bits]
 
     def _sizes(self, t: arb) -> tuple[arb, arb, arb, arb]:
-        """Bounds for both bodies until t: least and largest moment, |W| and |K|.
+        """Return bounds for both bodies until time t: least moment, largest moment, |W| and |K|.
 
         Raises NotCertifiedError where the moments differ too much in size.
         """
@@ -118,9 +122,9 @@ class PlacedMotion:
         return arb(I3 / MARGIN), arb(I1 * MARGIN), squared.sqrt() + spin, arb(dot(K, K)).sqrt()
 
     def _deviation(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
-        """Return a motion along principal axes, these axes, and bounds on the differences of Omega and R until t.
+        """Return (motion along principal axes, these axes as rows, ball about 0 of Omega's error, of R's) until time t.
 
-        Raises NotCertifiedError where the bounds grow beyond MAX_BITS bits.
+        Raises NotCertifiedError where the bounds grow beyond `MAX_BITS` bits.
         """
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
@@ -141,13 +145,13 @@ class PlacedMotion:
         return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by * size).upper())
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t) as three rows."""
+        """Return R(t) as three rows of balls."""
         motion, axes, _, error = self._deviation(t)
         R = product(self.attitude, product(transposed(axes), product(motion.rotation(t), axes)))
         return R if self.is_diagonal or rational(t, "the time") == 0 else [[x + error for x in row] for row in R]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the given axes of the body."""
+        """Return Omega(t) along the given axes of the body, three balls in rad/time; exact at t = 0."""
         motion, axes, error, _ = self._deviation(t)
         if rational(t, "the time") == 0:
             return list(self.omega)
@@ -155,9 +159,10 @@ class PlacedMotion:
         return Omega if self.is_diagonal else [x + error for x in Omega]
 
     def __getattr__(self, name: str) -> Any:
-        """Return a quantity by name.
+        """Return a quantity of `OF_STATE` or `OF_MOMENTS` by name.
 
-        Raises DomainError for a quantity of principal moments if the tensor is not diagonal.
+        Of a tensor that is not diagonal only one of `OF_STATE`. Raises DomainError for a quantity of principal moments
+        if the tensor is not diagonal, AttributeError for other names.
         """
         if name in OF_STATE and not self.is_diagonal:
             J = [x for row in self.tensor for x in row]

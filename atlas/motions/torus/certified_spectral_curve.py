@@ -48,16 +48,17 @@ class SpectralCurve:
 
     @property
     def periods(self) -> list[list[arb]]:
-        """(T_H, T_F, turn) of two periods: flowing H for T_H and F/2 for T_F brings M and K back; R is turned about B.
+        """Two lists [T_H, T_F, angle] of balls: times of the flows of H and F/2 that together bring M and K back.
 
-        The turn is that in Larmor's frame. NotCertifiedError where none are proved.
+        R is then rotated about B by the angle, in rad, in Larmor's frame. Raises NotCertifiedError where none are
+        proved.
         """
         periods = self.torus.periods(int(ctx.prec) + 32)
         return [[p.H / self.rate, p.F / (self.rate * self.unit), p.angle] for p in periods]
 
     @property
     def winding_numbers(self) -> list[Any]:
-        """Ratios [f2/f1, f3/f1] of the frequencies."""
+        """Ratios [f2/f1, f3/f1] of the frequencies, as balls. Raises DomainError where no periods are proved."""
         f1, f2, f3 = self.motion.frequencies
         return [f2 / f1, f3 / f1]
 
@@ -79,7 +80,7 @@ class SpectralCurve:
 
     @cached_property
     def theta(self) -> ThetaMotion:
-        """The theta functions of the motion, approximate."""
+        """The `ThetaMotion` of this motion: its numbers are approximate."""
         return ThetaMotion(self.torus.integrals, self.torus.W, self.torus.K, self.torus.lattice)
 
     def record(self, digits: int = 20) -> dict[str, Any]:

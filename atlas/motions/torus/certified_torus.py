@@ -49,7 +49,7 @@ NEWTON_ROUNDS = 4
 
 @dataclass(frozen=True)
 class Period:
-    """Times (T_H, T_F) after which M and K return, and the angle by which S has then turned about the field."""
+    """Times (H, F) of the flows of H and F/2 after which M and K return, and the angle in rad of S about the field."""
 
     H: arb
     F: arb
@@ -62,7 +62,7 @@ class Period:
 
 
 class Torus:
-    """The motions with the integrals of a state (W, K), W = Omega + K, of a body; all is rational."""
+    """The torus of all motions with the same integrals as a state (W, K), W = Omega + K, of a body; all is rational."""
 
     def __init__(self, moments: tuple[fmpq, ...], W: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         self.moments, self.W, self.K = moments, W, K
@@ -73,12 +73,12 @@ class Torus:
 
     @property
     def integrals(self) -> Integrals:
-        """H, F and the Casimirs, exactly."""
+        """The exact `Integrals`: H, F and the Casimirs."""
         Omega = [w - k for w, k in zip(self.W, self.K, strict=True)]
         return Integrals.of_state(self.moments, Omega, self.K)
 
     def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
-        """Return the rates of (W, K) along the flows of H and of F/2."""
+        """Return the rates of (W, K), six balls each, along the flow of H and along that of F/2."""
         I, cycle = self.moments, ((1, 2), (2, 0), (0, 1))
         M = [x * w for x, w in zip(I, W, strict=True)]
         of_H = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
@@ -94,7 +94,10 @@ class Torus:
             return False
 
     def periods(self, bits: int) -> tuple[Period, Period]:
-        """Return two periods to `bits` binary digits; NotCertifiedError where none are found."""
+        """Return two proved periods to ``bits`` binary digits; cached.
+
+        Raises NotCertifiedError where none are proved.
+        """
         bits = min((x for x in tuple(self._stored) if x >= bits), default=-(-bits // 32) * 32)
         if bits not in self._stored:
             failed_bits, reason = self._failure
@@ -112,14 +115,17 @@ class Torus:
 
     @cached_property
     def spin(self) -> int | None:
-        """Axis about which the body spins along the field, but for pushes as small as rounding; None elsewhere."""
+        """Axis (0, 1 or 2) about which the body spins, along the field, up to pushes as small as rounding.
+
+        None elsewhere.
+        """
         sizes = [max(abs(w), abs(k)) for w, k in zip(self.W, self.K, strict=True)]
         axis = sizes.index(max(sizes))
         return axis if all(x <= NEXT * sizes[axis] for i, x in enumerate(sizes) if i != axis) else None
 
     @cached_property
     def pushed(self) -> list[tuple[float, float]] | None:
-        """Times (T_H, T_F) of the two small oscillations next to a stable spin; None elsewhere."""
+        """Periods (T_H, T_F) of the two small oscillations next to a stable spin, approximate; None elsewhere."""
         if self.spin is None:
             return None
         state = np.array([[float(x) if i % 3 == self.spin else 0.0] for i, x in enumerate((*self.W, *self.K))])
@@ -163,7 +169,10 @@ class Torus:
         return self._starts
 
     def _starts_of_proof(self) -> list[tuple[fmpq, fmpq]]:
-        """Return approximate periods. Raises NotCertifiedError where two moments are so equal that one is endless."""
+        """Return two approximate periods (T_H, T_F), rational.
+
+        Raises NotCertifiedError where one is too long for a proof.
+        """
         starts = self._approximate()
         if any(self.flow.length(*start) > 2 * MAX_STEPS for start in starts):
             raise NotCertifiedError("not certified: a period of the motion's torus is too long for a proof.")
@@ -171,7 +180,10 @@ class Torus:
 
     @cached_property
     def lattice(self) -> Lattice:
-        """All periods, approximate. Raises NotCertifiedError where none are found; a failure is remembered."""
+        """The `Lattice` of all periods, approximate.
+
+        Raises NotCertifiedError where none are found, again at each call.
+        """
         if self._no_lattice:
             raise NotCertifiedError(self._no_lattice)
         try:
@@ -181,9 +193,10 @@ class Torus:
             raise
 
     def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
-        """Return a proved period; an inaccurate start is first improved by Newton's method, with doubling bits.
+        """Return a proved `Period` near ``start``, (T_H, T_F), to ``bits`` binary digits.
 
-        Raises NotCertifiedError where the method does not converge.
+        The start is first improved by Newton's method, with doubling bits. Raises NotCertifiedError where that does not
+        converge, or the proof fails.
         """
         r, precision = start, bits if bits <= PERIOD_BITS else FIRST_FLOW_BITS
         while precision < bits:
@@ -194,7 +207,7 @@ class Torus:
         return self._proven(r, bits, self._coordinates())
 
     def _improved(self, r: tuple[fmpq, fmpq], precision: int) -> tuple[tuple[fmpq, fmpq], float]:
-        """Return a period after a step of Newton's method, and the size of the step."""
+        """Return ((T_H, T_F) after a step of Newton's method, size of the step)."""
         with workprec(precision + GUARD_BITS):
             step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, self._coordinates())
             H, F = (x.mid() for x in step)
@@ -206,7 +219,10 @@ class Torus:
         return max(combinations(range(6), 2), key=lambda p: abs(X[p[0]] * Y[p[1]] - X[p[1]] * Y[p[0]]))
 
     def _newton(self, arrival: Arrival, W: Vector, K: Vector, chosen: tuple[int, int]) -> tuple[arb, arb]:
-        """Return the Newton step (times along H and F) from an arrival y to the start x: -(X_H, X_F)^-1 (y - x)."""
+        """Return the Newton step, times along H and F/2, that takes an arrival y back to the start x.
+
+        It solves the equations of the two components ``chosen``: -(X_H, X_F)^-1 (y - x).
+        """
         X, Y = self.fields(W, K)
         i, j = chosen
         state, start = [*arrival.W, *arrival.K], [*self.W, *self.K]
@@ -268,7 +284,10 @@ def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
 
 
 def rotated(q: list[arb], V: list[arb]) -> list[arb]:
-    """Return a unit quaternion after a small turn at a rate in the balls V for a unit of time."""
+    """Return a unit quaternion (w, x, y, z) after a rotation by the angular velocity V for a unit of time.
+
+    V is three balls about 0; the result encloses all of these rotations.
+    """
     most = arb(0, sum((abs(x) for x in V), arb(0)).upper())
     w, *vector = (x + most for x in q)  # wherever it is on the way
     rotated = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]

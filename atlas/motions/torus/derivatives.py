@@ -48,7 +48,10 @@ GROUPS = (0, 1, 2), (3, 4, 5, 6, 7, 8)
 
 
 class TorusVaried:
-    """Derivatives of one motion on a torus in some inputs, given by index in (moments, field, omega), nine in all."""
+    """Derivatives of one motion on a torus in some of nine inputs.
+
+    ``places`` are their indices in (moments, field, omega).
+    """
 
     def __init__(self, exact: Any, kernel: ThetaKernel, places: Sequence[int]) -> None:
         self.kernel = kernel
@@ -66,7 +69,7 @@ class TorusVaried:
 
     @property
     def of_frequencies(self) -> FloatArray:
-        """Derivatives of f1, f2 and f3, (inputs, 3), of f3 that of the least angles."""
+        """Derivatives of f1, f2 and f3 in the inputs, shape (inputs, 3); of f3 that of the least angles."""
         turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
         return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
 
@@ -76,7 +79,11 @@ class TorusVaried:
     def vectors(
         self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, *_: Any
     ) -> list[FloatArray]:
-        """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
+        """Return [v], or [v, R dOmega/dp] if ``slopes``, at times t (m,), shape (m, names, 3), in the laboratory.
+
+        v is the rotation vector with dR/dp = [v]x R; ``names`` (names, inputs) are weights of the inputs, ``turns``
+        (names, 3) are added to v. Raises DomainError where the field is too weak for derivatives in floats.
+        """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             for block, values in zip(out, self._block(t[i : i + BLOCK], slopes), strict=True):
@@ -121,7 +128,7 @@ class TorusVaried:
 
     @staticmethod
     def _waves(orders: FloatArray, x: Array) -> Array:
-        """Return exp(i n x) of some orders, of which most come more than once, (orders, m)."""
+        """Return exp(i n x) for each of ``orders`` n and x (m,), shape (orders, m)."""
         least = int(orders.min())
         powers = np.exp(1j * np.arange(least, int(orders.max()) + 1)[:, None] * x)
         return np.asarray(powers[orders - least])
@@ -159,7 +166,10 @@ class Neighbours:
         ]
 
     def _by_step(self, place: int) -> list[Array]:
-        """Return the four rows of derivatives by a step of one input; in a weak field the step is shorter."""
+        """Return four arrays of derivatives by a difference quotient in one input.
+
+        In a weak field its step is shorter.
+        """
         field = max(map(abs, self.sizes[3:6]))
         weak = min(max(round(-2 * np.log2(field)), 0), WEAK_FIELD_BITS)
         step = STEP_BITS + weak * (place in (3, 4, 5))
@@ -167,7 +177,7 @@ class Neighbours:
         return _slopes(self.exact, self._tables(values_there), step)
 
     def _by_scale(self, place: int, slopes_by_place: Mapping[int, Sequence[Array]]) -> list[Array]:
-        """Return derivatives from those in the other inputs of the group, by Euler's theorem on homogeneous functions.
+        """Return four arrays of derivatives in one input from those in the others of its group, by homogeneity.
 
         If all rates are scaled, K, W and the frequencies grow and the frame shrinks; if all moments are, nothing
         changes.
@@ -202,7 +212,11 @@ class Neighbours:
 
 
 def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
-    """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
+    """Return the `Constants` of the motion with the input number ``place`` larger by 2^-``step``.
+
+    ``here`` is the motion itself, ``rate`` the unit of 1/time. Raises DomainError where the neighbour has no theta
+    functions.
+    """
     values_there = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
     K, omega = values_there[3:6], values_there[6:]
     torus = Torus(tuple(values_there[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
@@ -216,7 +230,7 @@ def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: 
 
 
 def _followed(lattice: Lattice, like: Lattice) -> Lattice:
-    """Return a lattice in the basis that is next to another one's."""
+    """Return a lattice in the basis nearest to that of ``like``. Raises DomainError where none is near."""
     periods = [*lattice.real, *lattice.other_periods]
 
     def reals(rows: Sequence[Sequence[acb]]) -> FloatArray:
@@ -236,7 +250,7 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
 
 
 def _slopes(here: list[list[Any]], row_there: list[list[Any]], step: int) -> list[Array]:
-    """Return the four rows of derivatives by a difference of constants. Raises DomainError for a large change."""
+    """Return four arrays of difference quotients, (there - here) 2^step. Raises DomainError for a large change."""
     slopes: list[Array] = []
     for row_here, second in zip(here, row_there, strict=True):
         change = np.array([complex_of(acb(y - x)) for x, y in zip(row_here, second, strict=True)], dtype=complex)

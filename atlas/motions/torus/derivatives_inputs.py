@@ -34,19 +34,22 @@ class OnTorus(Inputs):
     cached: dict[tuple[str, ...], TorusVaried] = field(default_factory=dict)
 
     def varied(self, names: Sequence[str]) -> TorusVaried:
-        """Return the evaluator of v and R dOmega/dp for some of the inputs, from a cache."""
+        """Return the `TorusVaried` of some of the inputs, cached by ``names``."""
         key = tuple(names)
         if key not in self.cached:
             self.cached[key] = TorusVaried(self.exact, self.kernel, self._places(names))
         return self.cached[key]
 
     def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of a frequency, (len(names),)."""
+        """Return the derivatives of the frequency "f1", "f2" or "f3" in the inputs ``names``, shape (len(names),)."""
         return np.asarray(self.varied(names).of_frequencies[:, int(name[1]) - 1])
 
 
 def of_asymmetric(single: Any) -> Inputs:
-    """Return the inputs of a body with three moments."""
+    """Return the `Inputs` of a body with three moments: `OnTorus`, or without a field those of Euler's top.
+
+    Raises DomainError for a motion in a field without theta functions.
+    """
     exact, kernel = single.exact, single.closed
     if not any(exact.field):
         return of_euler(exact)

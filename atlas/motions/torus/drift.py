@@ -139,7 +139,10 @@ class Torus:
         self.integrals = self._gradients(self.states)[1][:, 0, 0]
 
     def _gradients(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the gradients of the integrals at states, (r, 6, n1, n2), and the integrals, (r, n1, n2)."""
+        """Return (gradients of the r integrals at states x, (r, 6, n1, n2), their values (r, n1, n2)).
+
+        The integrals are H and F, and in a field (M, K) and K^2.
+        """
         (M, K), I = np.split(x, 2), self.I
         rows = [(M / I, I * K), (2 * M, -2 * I.prod() / I * K)]
         rows += [] if self.free else [(K, M), (0 * K, 2 * K)]
@@ -147,7 +150,10 @@ class Torus:
         return gradients, (gradients * x).sum(1) / 2
 
     def _flows(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the gradients of H and F (of a free body H alone), and the rates of the states along the flows."""
+        """Return (gradients of H and F, rates of states x along their flows), each (2, 6, n1, n2).
+
+        H alone for a free body.
+        """
         gradients = self._gradients(x)[0][: 1 if self.free else 2]
         M, K = np.split(x, 2)
         of_M, of_K = np.split(gradients, 2, axis=1)
@@ -155,7 +161,10 @@ class Torus:
         return gradients, np.array(flows)
 
     def _projected(self, y: FloatArray, x: FloatArray, tolerance: float) -> FloatArray:
-        """Return the states moved to the torus of the integrals y."""
+        """Return states x moved, by Newton's method, to the torus of the integrals y, to a relative ``tolerance``.
+
+        Raises LostTorusError where the method does not converge.
+        """
         size = abs(y[0]) * np.array([1.0, 2 * self.I.max(), 2.0, 1.0][: len(y)])
         size[2:] += y[3:] * [self.I.max(), 1.0][: len(y) - 2]
         for _ in range(MAX_NEWTON):
@@ -176,7 +185,10 @@ class Torus:
         raise LostTorusError("no torus")
 
     def _times(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the times along the flows for a unit of each angle, a (angles, flows, n1, n2), and det a."""
+        """Return (times a along the flows per unit of each angle, det a), (angles, flows, n1, n2) and (n1, n2).
+
+        Raises LostTorusError where the flows are parallel.
+        """
         flows = np.moveaxis(self._flows(x)[1], (0, 1), (-1, -2))
         slopes = np.fft.ifft2(1j * _waves(x)[: flows.shape[-1], None] * np.fft.fft2(x)).real
         try:
@@ -224,14 +236,20 @@ class Torus:
         return float(abs(half - whole).max() / abs(whole).max())
 
     def follow(self, y: FloatArray) -> None:
-        """Move the grid to the torus of the integrals y, starting at the last torus, then at the stored one."""
+        """Move the grid to the torus of the integrals y: from the last torus, or, if that fails, from the stored one.
+
+        Raises LostTorusError if both fail.
+        """
         try:
             self._follow(y, self.states)
         except LostTorusError:
             self._follow(y, self.held)
 
     def _follow(self, y: FloatArray, states: FloatArray) -> None:
-        """Move a grid to the torus of the integrals y, and change its nodes until means converge."""
+        """Move the grid ``states`` to the torus of the integrals y, and change its nodes until means converge.
+
+        Raises LostTorusError beyond `MAX_NODES`.
+        """
         x, a = self._evened(y, states)
         while True:
             changes = np.array([self._change_by_half(x, axis) for axis in range(len(a))])
@@ -254,7 +272,10 @@ class Torus:
         return np.asarray((self._gradients(self.x)[0] * push).sum(1).mean((1, 2)))
 
     def _turns(self) -> FloatArray:
-        """Return the angles about the field (of a free body, about M) in both periods, nearest to the previous ones."""
+        """Return the angle in rad of the body about the field in each period, nearest to the previous angles.
+
+        For a free body it is the angle about M, in the one period.
+        """
         (M, K), turns = np.split(self.x, 2), []
         axis, spins = (M if self.free else K), self._flows(self.x)[0][:, :3]
         square = (axis * axis).sum(0)
@@ -268,7 +289,7 @@ class Torus:
         return np.array(turns)
 
     def rates(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the frequencies and the actions, each of shape (3,)."""
+        """Return (frequencies f1, f2, f3, actions), (3,) each, in scaled units, on the torus of the integrals y."""
         M, spins = self.x[:3], self._flows(self.x)[0][:, :3]
         periods = 2 * np.pi * self.a.mean((2, 3))
         line = np.linalg.inv(periods)[0]
@@ -279,7 +300,10 @@ class Torus:
 
 
 def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatArray) -> AsymmetricDrift:
-    """Return the slow change of a body with three moments, see `atlas.drift`; `drag` has the shape (3,)."""
+    """Return the `AsymmetricDrift` at times t, see `atlas.drift`; ``drag`` (3,) in 1/time, ``field`` the growth rate.
+
+    Raises DomainError at a separatrix, and where the motion has no torus to average over.
+    """
     from scipy.integrate import DOP853
 
     torus = Torus(motion)
@@ -343,19 +367,19 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _waves(x: FloatArray) -> FloatArray:
-    """Return the wave numbers along both angles, (2, n1, n2); zero at the Nyquist wave."""
+    """Return the wave numbers (integers) along both angles, (2, n1, n2), with 0 for the Nyquist wave."""
     numbers = [np.fft.fftfreq(n, 1 / n) * (abs(np.fft.fftfreq(n)) < 0.5) for n in x.shape[1:]]
     return np.array(np.meshgrid(*numbers, indexing="ij"))
 
 
 def _smoothed(x: FloatArray) -> FloatArray:
-    """Return a grid without its shortest waves, to which a spectral derivative is blind."""
+    """Return a grid (6, n1, n2) without waves shorter than the fraction `SMOOTH` of its nodes."""
     kept = [abs(np.fft.fftfreq(n)) <= SMOOTH for n in x.shape[1:]]
     return np.fft.ifft2(np.fft.fft2(x) * np.outer(*kept)).real
 
 
 def _doubled(x: FloatArray, axis: int) -> FloatArray:
-    """Return a grid with twice the nodes along an axis."""
+    """Return a grid with twice the nodes along ``axis``, by Fourier interpolation."""
     from scipy.signal import resample
 
     return np.asarray(resample(x, 2 * x.shape[axis], axis=axis))

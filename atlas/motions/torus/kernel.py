@@ -53,7 +53,7 @@ MAX_TERM = 4
 
 
 def in_basis_near(frequencies: list[float], near: list[float]) -> list[float]:
-    """Return f1, f2, f3 of a torus in the basis in which they are nearest to `near`, those of another torus."""
+    """Return [f1, f2, f3] of a torus in the basis in which they are nearest to ``near``, those of another torus."""
     f1, f2, f3 = frequencies
     integers = np.arange(-MAX_TERM, MAX_TERM + 1)
     a, b = (x.ravel() for x in np.meshgrid(integers, integers))
@@ -113,7 +113,7 @@ class SingleAsymmetric:
         return closed, f"{status}; rounding adds {closed.accuracy:.1e} at most"
 
     def _elliptic(self, exact: EllipticMotion) -> tuple[SingleElliptic | None, str]:
-        """Return the closed form by Jacobi's functions, and its proof status, or why it is not used."""
+        """Return (closed form by Jacobi's functions, its proof status), or (None, the reason why none is used)."""
         try:
             if isinstance(exact, EulerTop):
                 single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
@@ -144,7 +144,7 @@ class SingleAsymmetric:
         return self._choice[0]
 
     def approximate_frequencies(self) -> list[float]:
-        """Return f1, f2, f3, not proved, from theta functions; those of certified balls where there are none."""
+        """Return [f1, f2, f3] in rad/time from theta functions, not proved; without these, certified ones, rounded."""
         if not isinstance(self.closed, ThetaKernel):
             return [nearest(f) for f in enclosed(lambda: self.exact.frequencies, BITS)]
         periods, rate = [p.least() for p in self.closed.periods], self.closed.rate
@@ -152,7 +152,7 @@ class SingleAsymmetric:
 
     @property
     def theta(self) -> ThetaKernel:
-        """The closed form by theta functions; AtlasError where there is none."""
+        """The closed form by theta functions. Raises AtlasError where there is none."""
         if not isinstance(self.closed, ThetaKernel):
             raise AtlasError(f"The motion has no theta functions of two variables; it is {self.agreement}")
         return self.closed
@@ -171,15 +171,15 @@ class SingleAsymmetric:
 
     @property
     def agreement(self) -> str:
-        """Proof status of the closed form, or why none is used."""
+        """Proof status of the closed form, or the reason why none is used, as a sentence."""
         return self._choice[1]
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape t.shape + (3, 3); exactly 1 at t = 0."""
         return self._started("rotation", np.eye(3), t, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), shape (..., 3)."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); exact at t = 0."""
         return self._started("column", np.eye(3)[j - 1], t, out, j)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -194,7 +194,7 @@ class SingleAsymmetric:
         return self._started("angular_velocity", floats(self.exact.omega), t, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t), shape (..., 3)."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time; exactly the initial one at t = 0."""
         return self._started("field_in_body", floats(self.exact.field), t, out)
 
     def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *column_number: int) -> FloatArray:
@@ -212,12 +212,12 @@ class SingleAsymmetric:
 
 @lru_cache(maxsize=MOTION_CACHE_SIZE)
 def _single(*row: Any) -> SingleAsymmetric:
-    """Return the evaluator of a motion, cached: a sweep asks for one motion at many times."""
+    """Return the `SingleAsymmetric` of moments, field and omega, nine numbers; cached."""
     return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
 
 
 def forget() -> None:
-    """Forget the motions that are kept."""
+    """Clear the cache of motions."""
     _single.cache_clear()
 
 
@@ -433,12 +433,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return the motion of a body with three different moments, and its principal axes."""
+        """Return (motion, its principal axes as rows (..., 3, 3)); None for a body with two equal moments."""
         axes = start.body.axes
         return None if start.is_symmetric else (cls(start.moments, *start.along(axes)), axes)
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_asymmetric`."""
         from atlas.motions.torus.derivatives_inputs import of_asymmetric
 
         return of_asymmetric(self._single(i))
@@ -552,7 +552,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
     def _fill_grid(self, single: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
-        """Fill the matrices of one motion on a grid, at exact times."""
+        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step; exactly 1 at t = 0."""
         (single.closed or single.certified).fill_grid(start, step, out)
         if step and (start / step).is_integer() and 0 <= -start / step < len(out):
             out[round(-start / step)] = np.eye(3)

@@ -29,7 +29,7 @@ MAX_STEPPED_PHASE, STEP_PHASE = 1000.0, 0.05
 
 
 class Certified:
-    """Matrices and vectors of one motion from balls, each rounded once."""
+    """Evaluator of one motion in doubles: certified balls, each rounded once; ``size`` is its largest rate."""
 
     def __init__(self, exact: AsymmetricMotion, size: float) -> None:
         self.exact, self.size = exact, size
@@ -39,7 +39,7 @@ class Certified:
         return self._filled(self.exact.rotation, t, (3, 3), 1.0, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), shape (..., 3)."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,), each entry proved and rounded once."""
         return self._filled(lambda t: self.exact.column(j, t), t, (3,), 1.0, out)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -59,7 +59,7 @@ class Certified:
         return out
 
     def _followed(self, times: FloatArray) -> FloatArray:
-        """Return quaternions (m, 4) at times (m,) by Runge and Kutta's steps from t = 0, good to some digits."""
+        """Return quaternions (m, 4) at times (m,) by Runge-Kutta steps from t = 0: only their signs are used."""
         inertia, K, Omega = map(floats, (self.exact.inertia, self.exact.field, self.exact.omega))
         quaternions = np.empty((times.size, 4))
         for side in (times >= 0, times < 0):
@@ -72,11 +72,11 @@ class Certified:
         return quaternions
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t), shape (..., 3)."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time, proved and rounded once."""
         return self._filled(self.exact.angular_velocity, t, (3,), self.size, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t), shape (..., 3)."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time, proved and rounded once."""
         return self._filled(self.exact.field_in_body, t, (3,), self.size, out)
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
@@ -87,7 +87,10 @@ class Certified:
     def _filled(
         self, function: Callable[[Any], Any], t: Any, shape: tuple[int, ...], size: float, out: FloatArray | None
     ) -> FloatArray:
-        """Return the values of a function at times of any shape."""
+        """Return function(t) at times of any shape as an array t.shape + ``shape``.
+
+        Radii are below 2^-52 ``size`` or so. Raises AtlasError for times whose phases exceed MAX_PHASE.
+        """
         times = real(t, "The time")
         if times.size and not np.abs(times).max() * self.size <= MAX_PHASE:
             raise AtlasError(
@@ -99,7 +102,7 @@ class Certified:
         return out
 
     def _fill(self, function: Callable[[Any], Any], times: list[fmpq], size: float, rows: FloatArray) -> None:
-        """Write the values of a function at n times into rows (n, ...), in the order of time, which shares the work."""
+        """Write function(t) at n times, rationals, into ``rows`` (n, ...); in ascending order the work is shared."""
         ascending = sorted(range(len(times)), key=times.__getitem__)
         for first in range(0, len(times), STATE_CACHE_SIZE):
             block = ascending[first : first + STATE_CACHE_SIZE]
@@ -111,7 +114,7 @@ class Certified:
 
 
 def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
-    """Return K, Omega and the quaternion, (10,), a step later."""
+    """Return (K, Omega, quaternion), shape (10,), after a Runge-Kutta step h of the equations of motion."""
 
     def rate(y: FloatArray) -> FloatArray:
         K, Omega, q = y[:3], y[3:6], y[6:]
@@ -125,7 +128,7 @@ def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
 
 
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
-    """Return the floats nearest to balls, computed at rising precision until each radius is small beside `size`."""
+    """Return the numbers in function() as an array (n,), at a precision where each radius is <= MAX_RADIUS ``size``."""
     precision = FIRST_BITS
     while True:
         try:

@@ -15,7 +15,10 @@ from atlas.motions.torus.theta import ThetaKernel
 
 
 def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:
-    """Return the turns of a motion on a torus."""
+    """Return the `Wheels` of a motion on a torus, with two phases.
+
+    L and C are the constant rotations of `Motion._sides`.
+    """
     f = np.array([float(x.mid()) for x in enclosed(lambda: exact.frequencies, BITS)])
     n = L @ kernel.axis
 
@@ -29,7 +32,10 @@ def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: Flo
 
 
 def _actions(exact: Any, kernel: ThetaKernel, J: FloatArray) -> list[float]:
-    """Return the actions of the two phases of a torus: along the flows of H and F/2, and back about the field."""
+    """Return the actions of the two phases of a torus, in inertia/time, as means over the torus.
+
+    Each is the work along the flows of H and F/2 for a period, and back about the field.
+    """
     actions_of_cycles, unit = [], nearest(exact.inertia[0] / exact.on_torus.moments[0])
     for i, period in enumerate(kernel.periods):
         T_H, T_F, angle = (float(x.mid()) for x in (period.H, period.F, period.angle))

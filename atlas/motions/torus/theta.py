@@ -65,8 +65,8 @@ SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
 class Constants:
     """Constants of a motion to some forty digits: `forms` of N, D, K and W, `ways` (3, 2), `frequencies`, `frame`.
 
-    Half the phases go by `ways` to the arguments of the forms and the angle by which N turns; `frame` are e_x, e_y and
-    B'/b^2, of which R consists with the real and the imaginary part of N, and with K.
+    `ways` times half the phases gives the two arguments of the forms and the angle by which N turns; `frequencies` are
+    f1, f2, f3 in rad/time. `frame` are e_x, e_y and B'/b^2: R is the sum of their products with Re N, Im N and K.
     """
 
     def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq) -> None:
@@ -155,19 +155,19 @@ class ThetaKernel:
         return error if error <= MAX_PROVEN_ERROR else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled."""
         return evaluate(real(t, "The time"), (3, 3), out, lambda _: self._attitude(self.entries))
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), shape (..., 3)."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,)."""
         return evaluate(real(t, "The time"), (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t), shape (..., 3)."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time."""
         return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) = W - K, shape (..., 3)."""
+        """Return Omega(t) = W - K along the body's axes, shape t.shape + (3,), in rad/time."""
         weights = np.concatenate([-np.eye(3), np.eye(3)])
         return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 10), weights))
 
@@ -182,9 +182,9 @@ class ThetaKernel:
             fill(t, rows[i : i + BLOCK], low)
 
     def on_torus(self, phases: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return S, Omega and K at phases (2, m) of the torus, R(t) = R_B(f3 t) S(f1 t, f2 t).
+        """Return (S (m, 3, 3), Omega (m, 3), K (m, 3)) at phases (2, m) in rad, R(t) = R_B(f3 t) S(f1 t, f2 t).
 
-        Of all f3, which differ by multiples of f1 and f2, it is the one with the least angles.
+        f3 is defined up to multiples of f1 and f2; it is the one whose periods have the least angles.
         """
         half = np.concatenate([(phases + np.pi) % (2 * np.pi) - np.pi, np.zeros((1, phases.shape[1]))]) / 2
         for x, period in zip(half[:2], self.periods, strict=True):
@@ -197,7 +197,10 @@ class ThetaKernel:
         return R.reshape(-1, 3, 3), W - K, K
 
     def _attitude(self, weights: FloatArray) -> Callable[..., None]:
-        """Return the function that fills rows with combinations of Re N, Im N and K of the motion."""
+        """Return a function fill(t, rows, low) that writes [Re N, Im N, K] @ ``weights`` into rows (m, n).
+
+        ``low`` are low words of the times t (m,), or None.
+        """
 
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, SUM_BLOCK):
@@ -207,7 +210,7 @@ class ThetaKernel:
         return fill
 
     def _fill(self, half: FloatArray, low_word: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
-        """Fill rows with combinations of Re N, Im N and K at half phases: two words, (3, m)."""
+        """Write [Re N, Im N, K] @ ``weights`` into ``rows`` (m, n) at half phases in two words, (3, m) each, in rad."""
         (*x, angle), (*less, low_angle) = self._places(half, low_word)
         sums = self.sums.at(np.array(x), np.array(less), slice(0, 7))
         inverse = _inverse(sums[3])
@@ -232,7 +235,7 @@ class ThetaKernel:
             rows[i : i + SUM_BLOCK] *= (signs(turns) ** steps).prod(axis=0)[:, None]
 
     def _quaternions(self, half: FloatArray, low_word: FloatArray) -> FloatArray:
-        """Return one quaternion of each R at half phases, (m, 4)."""
+        """Return a quaternion (x, y, z, w) of each R at half phases, (m, 4), with either sign."""
         R = np.empty((half.shape[1], 9))
         self._fill(half, low_word, self.entries, R)
         return of_matrix(R.reshape(-1, 3, 3))
@@ -265,7 +268,10 @@ class ThetaKernel:
         return table, np.array([*steps, True], dtype=int)[:, None]
 
     def _vectors(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
-        """Return the function that fills rows with combinations of K, or of K and W."""
+        """Return a function fill(t, rows) that writes [K, W][:k] @ ``weights`` into rows (m, 3).
+
+        ``forms`` is the slice of the sums: the denominator, K, and W if needed.
+        """
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, SUM_BLOCK):
@@ -277,7 +283,7 @@ class ThetaKernel:
         return fill
 
     def _places(self, half: FloatArray, low_word: FloatArray) -> tuple[Array, Array]:
-        """Return the arguments of the sums, and the angle by which N turns, at half phases: two words, (3, m)."""
+        """Return (arguments of the sums and the angle of N, (3, m), their low words) at half phases in two words."""
         upper = half[:2] + CUT
         upper -= CUT
         x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
@@ -289,35 +295,41 @@ class ThetaKernel:
         return _sum(x, low)
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
-        """Return half the phases less whole turns, in radians, their rounding errors, and the number of turns."""
+        """Return half the phases less whole turns, their rounding errors, and the turns + `rounder`.
+
+        (3, m) each, in rad.
+        """
         return self.phases.reduced(t, room(3, t.size), low)[:3]
 
 
 def _joined(q: FloatArray) -> FloatArray:
-    """Return quaternions (n, ..., 4) with signs such that successive rows are less than a half turn apart."""
+    """Return quaternions (n, ..., 4), some negated so that each is less than a half turn from the row before."""
     signs = np.sign((q[1:] * q[:-1]).sum(-1, keepdims=True))
     return np.concatenate([q[:1], q[1:] * np.cumprod(signs, axis=0)])
 
 
 def _sum(x: Array, y: Array) -> tuple[Array, Array]:
-    """Return a sum and its rounding error, by Knuth's algorithm."""
+    """Return (x + y rounded, its rounding error), by Knuth's algorithm."""
     s = x + y
     rounded = s - x
     return s, (x - (s - rounded)) + (y - rounded)
 
 
 def _inverse(D: Array) -> Array:
-    """Return 1/D, by operations whose errors are counted."""
+    """Return 1/D of complex numbers, by the operations whose rounding errors `Rounding` counts."""
     return D.conj() / (D.real * D.real + D.imag * D.imag)
 
 
 def _real(x: Array, y: Array) -> FloatArray:
-    """Return the real part of a product."""
+    """Return the real part of the product x y of complex arrays."""
     return x.real * y.real - x.imag * y.imag
 
 
 def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
-    """Return the closed form of a motion with rates of some size; NotCertifiedError says why there is none."""
+    """Return the `ThetaKernel` of a motion on a torus whose largest rate is ``size``.
+
+    Raises NotCertifiedError, with the reason, where theta functions are missing or rounding would be too large.
+    """
     motion = exact.on_torus
     if motion is None:
         raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")

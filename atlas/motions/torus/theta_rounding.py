@@ -79,9 +79,9 @@ class Rounding:
     size: float
 
     def accuracy(self, enough: float = 0.0) -> float:
-        """Return a first-order bound on errors of R, and of K and Omega over the largest rate, at all phases.
+        """Return a first-order bound on rounding errors of R, and of K and Omega over the largest rate, at all phases.
 
-        The bound is refined only until it is below `enough`.
+        It is refined only until it is below ``enough``; inf where powers would overflow.
         """
         half = np.pi * HALF_TURN / CELLS_PER_PHASE
         line = np.linspace(half - np.pi * HALF_TURN, np.pi * HALF_TURN - half, CELLS_PER_PHASE)
@@ -102,7 +102,10 @@ class Rounding:
         return largest * 2.0**-53
 
     def error_bounds(self, cells: FloatArray, half: float) -> FloatArray:
-        """Return bounds on errors in cells of phases about some (2, m), in units of 2^-53."""
+        """Return bounds (m,) on errors, in units of 2^-53, in squares of half phases about ``cells`` (2, m).
+
+        ``half`` is half the side of a square, in rad.
+        """
         P, Q = self._places(np.zeros(2))
         table = abs(self.sums.table[D])
         P_waves, Q_waves = (np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.to_v @ cells).imag, strict=True))
@@ -121,7 +124,10 @@ class Rounding:
         return [self.sums.P - p[0], self.sums.Q - p[1]]
 
     def _error_bounds(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
-        """Return error bounds for the cells, one each, with the theta terms near p, where these are largest."""
+        """Return error bounds (m,) for ``cells`` (2, m), with the exponents of theta terms counted from p.
+
+        There the terms are largest.
+        """
         P, Q = self._places(p)
         count = np.array([P[:, None] + 0 * Q, 0 * P[:, None] + Q])
         ways = sum(abs(np.einsum("k,kpq->pq", way, count)) for way in self.to_v.T)
@@ -151,7 +157,7 @@ class Rounding:
         return np.where(least > 0, errors, np.inf)
 
     def _of_quotients(self, error: FloatArray, shifts: FloatArray, y: FloatArray) -> FloatArray:
-        """Return error bounds from errors of forms over |D|, shifts by errors of exponentials, and quotients y."""
+        """Return error bounds (m,) from errors of forms over |D|, shifts by errors of exponentials, and quotients y."""
         summed_errors = error + shifts[: len(error)]
         attitude = np.hypot(summed_errors[:3], summed_errors[4:7] / self.b).max(axis=0) + error[D]
         turn_factor = EXPONENTIAL + PHASE * (1 + abs(self.turning).sum()) + INVERSE + 2 * PRODUCT + COMBINED
@@ -162,5 +168,5 @@ class Rounding:
 
 
 def _summed(rows: Any, P_waves: Any, Q_waves: Any) -> Any:
-    """Return sums (f, m) of rows (f, P, Q) times first (P, m) and second (Q, m)."""
+    """Return sums (f, m) of rows (f, P, Q) times P_waves (P, m) and Q_waves (Q, m), over P and Q."""
     return np.einsum("fpm,pm->fm", rows @ Q_waves, P_waves)

@@ -193,7 +193,7 @@ def hidden_model() -> Model:
 
 
 def free_body_model() -> Model:
-    """Model any motion of the free symmetrical body: third axis a, angular velocity omega, in the laboratory."""
+    """Return the model of any motion of a free symmetrical body: axis a, momentum m, angular velocity omega."""
     a, m = vector("a"), vector("m")
     I3 = sympy.Symbol("I3", positive=True)
     omega = m / I2 + (1 / I3 - 1 / I2) * a.dot(m) * a

@@ -237,7 +237,7 @@ def later_model() -> list[Model]:
 
 
 def rolling_model() -> list[Model]:
-    """Model (100) as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
+    """Return two models of (100) as corrected: a point at distance a from the middle of a circle that rolls."""
     cases = []
     for model in signed_model("trochoid"):
         mu_ = model.letters["mu"]

@@ -173,7 +173,7 @@ def escape_model() -> list[Model]:
 
 
 def pushed_model() -> Model:
-    """Model x = tan(theta/2)^2 for the state Omega = (s1, 0, omega3), K = (0, 0, b), its rate by theorem-top."""
+    """Return the model of x = tan(theta/2)^2 and its rate, for the state Omega = (s1, 0, omega3), K = (0, 0, b)."""
     x, s1 = sympy.symbols("x s1", real=True)
     place = (1 - x) / (1 + x)
     state = {general.p: M3, general.A: A, general.g: s1**2 + A, nu: place}
