@@ -26,18 +26,24 @@ class DoubleTurn:
 
     @property
     def _direction(self) -> Sequence[fmpq]:
-        """A vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
+        """A vector along the axis of precession, (77): B', the angular momentum, or e3 if these are zero.
+
+        Of any length.
+        """
         axis_vector = self._turning[0]
         return axis_vector if any(axis_vector) else AXES[2]
 
     @property
     def k(self) -> Real:
-        """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
+        """Frequency of precession in rad/time: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
         return self._turning[1]
 
     @property
     def phi(self) -> fmpq:
-        """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
+        """Frequency of proper rotation in rad/time: omega3 - B3 omega2/B2, (72).
+
+        Of the free body (1-I) omega3, (87).
+        """
         return self._turning[2]
 
     @property
@@ -47,20 +53,20 @@ class DoubleTurn:
 
     @property
     def spin_rate(self) -> fmpq:
-        """Rate of the body's turn about its axis, phi."""
+        """Rate of the body's rotation about its axis, phi, in rad/time."""
         return self.phi
 
     @property
     def period(self) -> arb:
-        """Time 2 pi/|k| of one precession; infinite without one."""
+        """Time 2 pi/|k| of one precession, a ball; infinite for k = 0."""
         return 2 * arb.pi() / abs(self.k) if self.k != 0 else arb("inf")
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t), (84), as rows."""
+        """Return R(t), (84), as three rows of balls."""
         return turns(rational(t, "the time"), (self._direction, self.k), (AXES[2], self.phi))
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame, (73): it turns about the third axis with frequency phi."""
+        """Return Omega(t) along the body's axes, (73), three balls in rad/time; it rotates about e3 by phi t."""
         s, c = sin_cos(self.phi * rational(t, "the time"))
         return turned_back(self.omega, c, s)
 
@@ -86,18 +92,18 @@ class ElementaryMotion(DoubleTurn):
 
     @property
     def axis(self) -> tuple[Real, Real]:
-        """Components 2 and 3 of the unit vector of the precession axis."""
+        """Components (n2, n3) of the unit vector of the precession axis."""
         x, y = direction(self._direction[1:])
         return x, y
 
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
-        """A vector along the axis, k and phi."""
+        """Tuple (vector along the axis, k, phi); the vector, of any length, is (0, x, y)."""
         axis_vector, k, phi = elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
         return (fmpq(0), *axis_vector), k, phi
 
     def quaternion(self, t: Any) -> list[Real]:
-        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (85)."""
+        """Return a unit quaternion (w, x, y, z) of R(t), four balls, the product of those of both rotations, (85)."""
         t = rational(t, "the time")
         n2, n3 = self.axis
         s, c = sin_cos(self.k * t / 2)
@@ -109,16 +115,16 @@ class ElementaryMotion(DoubleTurn):
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), (84)."""
+        """Return the third column of R(t), (84), three balls."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', (32), (62), (60): the field turns about the third axis with frequency phi."""
+        """Return K(t) = R^T B', (32), (62), (60), three balls in 1/time: it rotates about e3 with frequency phi."""
         s, c = sin_cos(self.phi * rational(t, "the time"))
         return turned_back((fmpq(0), self.B2, self.B3), c, s)
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t)/I2 in the laboratory frame, (88): it precesses about the axis with frequency k.
+        """Return m(t)/I2 in the laboratory, (88), three balls in rad/time; it precesses about the axis by k t.
 
         Its parts along the axis and across it are rational but for one square root, and zero exactly where they are.
         """
@@ -135,7 +141,7 @@ class ElementaryMotion(DoubleTurn):
 
     @property
     def invariants(self) -> dict[str, fmpq]:
-        """The constants E' of (36), K^2 of (37), c3 of (40), c5 of (41) and (m, B')/I2 of (88)."""
+        """The constants E' of (36), K^2 of (37), c3 of (40), c5 of (41) and (m, B')/I2 of (88), exact, by name."""
         state = self.I, (fmpq(0), self.omega2, self.omega3), (fmpq(0), self.B2, self.B3)
         return dict(zip(NAMES, (*integrals(*state), along_field(*state)), strict=True))
 
@@ -150,7 +156,7 @@ class FreeMotion(DoubleTurn):
 
     @property
     def mode(self) -> str:
-        """Axis that the momentum goes round, see `EulerTop.mode`."""
+        """Axis around which the momentum goes: "long axis" (I < 1), "short axis" (I > 1), "ball" or "at rest"."""
         if not any(self.omega) or self.I == 1:
             return "ball" if any(self.omega) else "at rest"
         return "long axis" if self.I < 1 else "short axis"

@@ -22,7 +22,7 @@ class BallMotion:
 
     @property
     def gamma(self) -> Real:
-        """The frequency of the turn about k_hat, (29)."""
+        """The frequency gamma of the rotation about k_hat, (29), in rad/time."""
         gamma: Real = ball.turning(self.inertia, self.larmor, self.m2, self.m3)[1]
         return gamma
 
@@ -45,7 +45,7 @@ class BallMotion:
         return turns(t, (last_row, -self.larmor), ((fmpq(0), *axis_vector), -gamma))
 
     def quaternion(self, t: Any) -> list[Real]:
-        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (28)."""
+        """Return a unit quaternion (w, x, y, z) of R(t), four balls, the product of those of both rotations, (28)."""
         t = rational(t, "the time")
         k2, k3 = self.k_hat
         S, C = sin_cos(-self.larmor * t / 2)
@@ -53,12 +53,15 @@ class BallMotion:
         return [c * C - k3 * s * S, -k2 * s * S, k2 * s * C, c * S + k3 * s * C]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t) in the laboratory frame, (26)."""
+        """Return m(t) in the laboratory, (26), three balls in inertia/time."""
         S, C = sin_cos(self.larmor * rational(t, "the time"))
         return [self.m2 * S, self.m2 * C, self.m3]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = R^T m/I0 in the body, below (25): the turn by gamma t about k_hat, of m(0)/I0."""
+        """Return Omega(t) = R^T m/I0 along the body's axes, below (25), three balls in rad/time.
+
+        It is m(0)/I0 rotated by gamma t about k_hat.
+        """
         size = self.gamma * self.inertia  # the root of m2^2 + (alpha I0 + m3)^2
         if size == 0:
             return [fmpq(0), self.m2 / self.inertia, self.m3 / self.inertia]

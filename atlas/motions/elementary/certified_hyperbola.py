@@ -16,12 +16,15 @@ class Hyperbola(BodyInField):
 
     @property
     def pole(self) -> fmpq:
-        """The value -B2 of omega2 that (71) leaves out."""
+        """The value -B2 of omega2, in rad/time, at which (71) has no omega3."""
         return -self.B2
 
     @property
     def asymptotes(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
-        """Unit directions (omega2, omega3) of the asymptotes through -B': the pole's, and that of I^-1 B'."""
+        """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes: that of the pole, and of I^-1 B'.
+
+        Raises DomainError where the curve has none.
+        """
         check_asymptotes(self.B2, self.B3)
         size = root((self.I * self.B2) ** 2 + self.B3**2)
         return (fmpq(0), fmpq(1)), (self.I * self.B2 / size, self.B3 / size)
@@ -43,7 +46,7 @@ class Hyperbola(BodyInField):
         return omega3
 
     def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
-        """Return k = omega2/B2hat of (84) and phi of (72)."""
+        """Return (k = omega2/B2hat of (84), phi of (72)) in rad/time at omega2. Raises DomainError at the pole."""
         w2 = self._off_the_pole(omega2)
         k, phi = hyperbola.frequencies(*self._constants, w2)
         return k, phi
@@ -54,9 +57,10 @@ class Hyperbola(BodyInField):
         return square
 
     def stable(self, omega2: Any) -> bool:
-        """Return whether the motion at omega2 is stable against nutation, theorem-band, theorem-band-ends.
+        """Whether the motion at omega2 is stable against nutation, theorem-band, theorem-band-ends.
 
         At the ends of the band, where -p'(omega3) = 0, it is not; for B3 = 0 it is, theorem-equatorial-stability.
+        Raises DomainError at the pole.
         """
         squared = self.stability(omega2)
         return bool(squared > 0 or (squared == 0 and self.B3 == 0))

@@ -40,7 +40,7 @@ class Closed(DoubleRotation):
 
 
 def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:
-    """Return k, omega2 = k B2hat, omega3 by (71), and the axis: rational but for b, at the precision of the moment.
+    """Return [k, omega2 = k B2hat, omega3 by (71), n2, n3] as balls at the current precision; n is along B.
 
     With L = (1-I) B3 and x = I r b, I L (L - x) omega3 = -B3 (2L - x)(I L + (1-I) x).
     """
@@ -93,7 +93,7 @@ class ClosedMotion(ElementaryMotion):
         return float(finite(self._closed.period, "The period"))
 
     def _dynamics(self) -> Any:
-        """Return moments, coupling and potential, as of the elementary motion that starts at the nearest double."""
+        """Return (moments, coupling, linear, quadratic) of the elementary motion at the nearest double omega2."""
         return super()._inputs_of(0).dynamics
 
     def _inputs_of(self, _: int) -> Any:

@@ -24,7 +24,7 @@ from atlas.motions.nutation.derivatives_inputs import NUTATION, Inputs, of_gener
 
 @dataclass(frozen=True)
 class AxisAndRates:
-    """A motion R_n(k t) R_z(phi t), n along a vector."""
+    """A motion R_n(k t) R_z(phi t) of exact numbers; n is along the vector `along`, of two or three components."""
 
     along: Any
     k: Any
@@ -33,7 +33,7 @@ class AxisAndRates:
     """Axes of the body, that of the tilt last."""
 
     def tilt(self) -> tuple[Any, ...]:
-        """Return cosine and sine of half the tilt of the axis, and of its azimuth."""
+        """Return (cos, sin of half the tilt of n, cos, sin of its azimuth), see `tilt_of`."""
         axis = self._axes[0]
         return tilt_of(axis, length(*axis))
 
@@ -43,12 +43,12 @@ class AxisAndRates:
         return steady(self.tilt(), self.k, self.phi, arb("inf"))
 
     def rotation(self, t: fmpq) -> Matrix:
-        """Return R(t) as three rows."""
+        """Return R(t) as three rows of balls."""
         axis, last_column = self._axes
         return turns(t, (axis, self.k), (last_column, self.phi))
 
     def angular_velocity(self, t: fmpq) -> list[Any]:
-        """Return Omega(t) in the body."""
+        """Return Omega(t) along the body's axes, three balls in rad/time."""
         s, c = sin_cos(self.phi * t)
         n1, n2, n3 = direction(self._axes[0])
         return turned_back((self.k * n1, self.k * n2, self.k * n3 + self.phi), c, s)
@@ -104,7 +104,10 @@ def among_all(
 
 
 def of_elementary(motion: Any, i: int) -> Inputs:
-    """Return the inputs of an elementary motion of an array."""
+    """Return the `Inputs` of the i-th elementary motion: ratio, B2, B3, omega2, and omega3 where it is free.
+
+    A placed motion has those of a general motion.
+    """
     if motion.is_placed:
         return among_all(motion, i, TURNS_AMONG_ALL)
     row, case = motion._row(i), motion._single(i).case  # noqa: SLF001  of the same folder
@@ -121,7 +124,7 @@ def of_elementary(motion: Any, i: int) -> Inputs:
 
 
 def of_free(motion: Any, i: int) -> Inputs:
-    """Return the inputs of a free body of an array."""
+    """Return the `Inputs` of the i-th free body: ratio and omega. A placed motion has those of a general motion."""
     if motion.is_placed:
         spin = TURNS_AMONG_ALL["spin_rate"]
         return among_all(motion, i, TURNS_AMONG_ALL | {"period": lambda x: 2 * arb.pi() / abs(spin(x))})

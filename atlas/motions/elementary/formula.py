@@ -12,7 +12,7 @@ from atlas.motions.elementary.formula_hyperbola import ordinate, precession, pro
 def constants(
     case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
 ) -> tuple[Number, tuple[Number, Number], Number, Number]:
-    """Return omega3, a vector (x, y) along the axis, k and phi; in the first FREE_CASES cases omega3 is the input."""
+    """Return (omega3, (x, y) along the axis, k, phi); in the first FREE_CASES cases omega3 is the input."""
     if case == "free body":
         axis_vector = omega2, I3 * omega3 / I2
         return omega3, axis_vector, length(*axis_vector), (I2 - I3) * omega3 / I2
@@ -26,13 +26,13 @@ def constants(
 
 
 def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
-    """Return the tuple omega3, k, phi, I omega3 with I = I3/I2."""
+    """Return (omega3, k, phi, I omega3), I = I3/I2; ``inputs`` are I2, I3, B2, B3, omega2, omega3."""
     omega3, _, k, phi = constants(case, *inputs)
     return omega3, k, phi, inputs[1] * omega3 / inputs[0]
 
 
 def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, Number]:
-    """Return a vector along the axis, k and phi."""
+    """Return ((x, y) along the axis, k, phi); ``inputs`` are I2, I3, B2, B3, omega2, omega3."""
     return constants(case, *inputs)[1:]
 
 
@@ -50,7 +50,7 @@ def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> 
 
 
 def free(I2: Number, I3: Number, *omega: Number) -> tuple[Vector, Number, Number]:
-    """Return m/I2, k and phi of a free body."""
+    """Return (m/I2, three components, k, phi) of a free body."""
     w1, w2, w3 = omega
     momentum = w1, w2, I3 * w3 / I2
     return momentum, length(*momentum), (I2 - I3) * w3 / I2

@@ -4,11 +4,11 @@ from atlas.arithmetic.numbers import Number, length
 
 
 def turning(I0: Number, alpha: Number, m2: Number, m3: Number) -> tuple[tuple[Number, Number], Number, Number]:
-    """Return a vector along k_hat, gamma and alpha, (29)."""
+    """Return ((x, y) along k_hat, of any length, gamma, alpha) of (29); k_hat has these as components 2 and 3."""
     total3 = m3 + alpha * I0
     return (-m2, -total3), length(m2, total3) / I0, alpha
 
 
 def rates(I0: Number, m2: Number, m3: Number) -> tuple[Number, Number]:
-    """Return the components m/I0 of the initial angular velocity."""
+    """Return (omega2, omega3) = (m2, m3)/I0, the initial angular velocity in rad/time."""
     return m2 / I0, m3 / I0

@@ -27,7 +27,7 @@ def precession(B2: Number, B3: Number, omega2: Number) -> Number:
 
 
 def frequencies(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> tuple[Number, Number]:
-    """Return k, the frequency of precession (79), and phi, of proper rotation (72)."""
+    """Return (k, frequency of precession (79), phi, of proper rotation (72)) for B2 != 0 and omega2 != -B2."""
     return precession(B2, B3, omega2), proper(I2, I3, B2, B3, omega2)
 
 
@@ -39,7 +39,7 @@ def closing(I2: Number, I3: Number, B2: Number, B3: Number, r: Number) -> Number
 
 
 def stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return the square of the frequency of small nutations, theorem-stability."""
+    """Return the square of the frequency of small nutations, theorem-stability, in 1/time^2; negative if unstable."""
     X = omega2 + B2
     X2, less = X * X, (I2 - I3) * B2 * B2 / I2
     slope = B3 * (X2 + less) / (B2 * X)
@@ -47,7 +47,7 @@ def stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) ->
 
 
 def least_stability(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
-    """Return the least squared frequency of nutation, as a product in which only exact terms cancel."""
+    """Return the infimum over omega2 of `stability`, in 1/time^2, as a product in which only exact terms cancel."""
     h, b, across_part, less = abs(B3), length(B2, B3), B2 * B2, (I2 - I3) / I2
     once, thrice, square = b + h, b + h + h + h, B3 * B3
     eight = square + square

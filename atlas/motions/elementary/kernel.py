@@ -40,7 +40,7 @@ from atlas.motions.start import Start, across
 
 
 class Elementary(DoubleRotation):
-    """One elementary motion: its case, omega3, and the exact axis and frequencies."""
+    """Evaluator of one elementary motion; it has `case`, `omega3`, and the exact axis and frequencies."""
 
     def __init__(self, I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any, omega3: Any) -> None:
         inputs = exact(I2, I3, B2, B3, omega2, 0.0 if omega3 is None else omega3)
@@ -131,7 +131,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
                 self._refuse((self._codes >= FREE_CASES) & (np.asarray(given_omega3) != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
-        """Raise the error of the first row that `rows` marks: no motion starts there."""
+        """Raise the DomainError of the first motion that ``rows``, a mask, marks."""
         for i in np.flatnonzero(rows)[:1]:
             self._single(i)
 
@@ -194,7 +194,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @cached_property
     def _scalars(self) -> tuple[FloatOrArray, ...] | FloatArray:
-        """Values of omega3, k, phi, and of I omega3, the third component of the momentum."""
+        """(omega3, k, phi, I omega3), in rad/time, each rounded once: four floats, or an array (4, *shape)."""
         if not self.shape:
             k, phi = self._single().frequencies
             return self._single().omega3, nearest(k), nearest(phi), self._single().vector("m")[2]
@@ -397,7 +397,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
 
 class Free(DoubleRotation):
-    """One free body."""
+    """Evaluator of one free body."""
 
     def __init__(self, I2: Any, I3: Any, *omega: Any) -> None:
         self.vectors = {"Omega": tuple(floats(exact(*omega)).tolist())}

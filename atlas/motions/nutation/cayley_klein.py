@@ -25,9 +25,9 @@ QUATERNION = (0, 1, 3, 2)
 
 
 class Evaluation:
-    """alpha and beta at up to `size` times at once, with the memory that this takes.
+    """Cayley-Klein parameters alpha and beta at up to ``size`` times at once, with their workspace.
 
-    If `signed`, their common factor is positive; else it may be of either sign, which drops out of the matrix.
+    If ``signed``, their common real factor is positive and continuous in time; otherwise it may be negative.
     """
 
     def __init__(self, parameters: CayleyKlein, size: int, *, signed: bool = False) -> None:
@@ -98,7 +98,7 @@ class Evaluation:
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Fill the rows with trigonometric functions; return half the sum and difference of the phases, (2, m)."""
+        """Fill the rows with trigonometric functions; return half the phases' sum and difference, (2, m), in rad."""
         swing = self.parameters.swing
         if swing and swing.is_large:
             u, e = self._reduced(t, low)
@@ -115,13 +115,19 @@ class Evaluation:
         return np.asarray(u)
 
     def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        """Return half the phases less whole turns and their rounding errors, two arrays; note the number of turns."""
+        """Return (half the phases less whole turns in rad, their rounding errors), (n, m) each.
+
+        The number of turns is noted in `odd`.
+        """
         half, errors, half_turns, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
         self._keep(half_turns)
         return half, errors
 
     def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return half the phases less whole turns, rounded to one double; note the number of turns."""
+        """Return half the phases less whole turns in rad, (n, m), each rounded to one double.
+
+        The number of turns is noted in `odd`.
+        """
         turns = np.empty((len(self.parameters.frequencies), t.size)) if self.signed else None
         half = self.parameters.phases.halves_of(t, self.work, low, turns)
         self._keep(turns)
@@ -133,7 +139,7 @@ class Evaluation:
             self.odd = half_turns.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
 
     def products_at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
-        """Return the ten products at times t + low, (10, m)."""
+        """Return the ten products `PAIRS` of the normalised quaternion components at times t + low, shape (10, m)."""
         return self.products.of_pair(self.components(t, low))
 
 
@@ -155,13 +161,16 @@ def products_of_one(parameters: CayleyKlein, t: float) -> list[float]:
 
 
 class Products:
-    """Workspace for up to `size` quadruples (alpha, beta): normalised, and their ten products `PAIRS`."""
+    """Workspace for up to ``size`` quadruples (Re alpha, Re beta, Im alpha, Im beta) and their ten products `PAIRS`."""
 
     def __init__(self, size: int) -> None:
         self.unit, self.square, self.out = np.empty((4, size)), np.empty(size), np.empty((10, size))
 
     def of_pair(self, q: FloatArray) -> FloatArray:
-        """Return the products of q (4, m), shape (10, m)."""
+        """Return the ten products of the components of q (4, m), q divided by its length, shape (10, m).
+
+        The array is overwritten by the next call.
+        """
         m = q.shape[1]
         unit, square, out = self.unit[:, :m], self.square[:m], self.out[:, :m]
         np.multiply(q, q, out=unit)
@@ -176,7 +185,7 @@ class Products:
 
 
 def _entries() -> FloatArray:
-    """Return the weights (10, 3, 3) of the products in the entries of R(alpha, beta)."""
+    """Return the weights (10, 3, 3) with which the ten products sum to the entries of R."""
     w, x, y, z = QUATERNION
     table = np.zeros((4, 4, 3, 3))
     for i, j, (row, column), c in (
@@ -197,5 +206,5 @@ ENTRIES = _entries()
 
 
 def entries(before: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
+    """Return the weights (10, 9) with which the ten products sum to the entries of before R(alpha, beta) right."""
     return (before @ ENTRIES @ right).reshape(10, 9)

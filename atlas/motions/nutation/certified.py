@@ -39,7 +39,7 @@ class Nutating:
 
     @property
     def sphere(self) -> Sphere:
-        """The sphere of the field at the precision of the moment."""
+        """The `Sphere` of the field at the current working precision."""
         raise NotImplementedError
 
     @property
@@ -48,12 +48,12 @@ class Nutating:
         raise NotImplementedError
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return the rates k about the field and phi about the body's axis where theta is constant."""
+        """Return (k about the field, phi about the body's axis) in rad/time where theta is constant."""
         raise NotImplementedError
 
     @property
     def is_plane(self) -> bool:
-        """Whether the axis swings in a plane that turns about the field at the rate `precession`."""
+        """Whether the axis swings in a plane that rotates about the field at the rate `precession`."""
         return False
 
     @property
@@ -72,7 +72,10 @@ class Nutating:
         return False
 
     def _separatrix(self, poles: str) -> str | None:
-        """Return the name of the separatrix, "between {poles}" where both turning points are double roots, or None."""
+        """Return the name of the separatrix: "separatrix", with " between ``poles``" or ", triple root" if so.
+
+        Else None.
+        """
         roots = self.quartic.roots()
         ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))
         suffix = {(2, 2): f" between {poles}", (1, 3): ", triple root", (1, 2): ""}.get((ends[0], ends[1]))
@@ -80,17 +83,17 @@ class Nutating:
 
     @property
     def turning_axis(self) -> Sequence[fmpq]:
-        """Vector along the axis of precession, in the body at t = 0."""
+        """Vector along the axis of precession, in the body at t = 0, three components of any length."""
         return self.field
 
     @property
     def b(self) -> Real:
-        """Length of the field, or of the direction."""
+        """Length of `field`, exact where it is rational."""
         return length(*self.field)
 
     @by_precision
     def solution(self) -> Solution:
-        """The constants of alpha and beta, from which R follows, at the precision of the moment."""
+        """The `Solution`, constants of alpha and beta, from which R follows, at the current working precision."""
         return self._solved()
 
     def _solved(self) -> Solution:
@@ -100,38 +103,59 @@ class Nutating:
 
     @property
     def _half(self) -> arb:
-        """Half the period of a small nutation where theta is constant; infinite where the steady motion is unstable."""
+        """Half the period of a small nutation, as a ball, where theta is constant.
+
+        Infinite if that motion is unstable.
+        """
         square = -arb(self.quartic.curvature) / 2
         return arb.pi() / square.sqrt() if square > 0 else arb("inf")
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
+        """Return (cos, sin) of theta(0)/2, then (cos, sin) of chi(0), the angle of spin.
+
+        theta is the angle from the field to the axis.
+        """
         return self.sphere.tilt
 
     @property
     def period(self) -> arb:
-        """Period of nutation T; where theta is constant, of a small nutation, infinite if it is unstable."""
+        """Period of nutation T in time, as a ball; where theta is constant, that of a small nutation.
+
+        It is infinite on a separatrix and for an unstable steady motion.
+        """
         return self.solution.period
 
     @property
     def precession_per_period(self) -> arb:
-        """Angle by which the body precesses about B in one period, the integral of psi'."""
+        """Angle in rad by which the body precesses about B in one period, the integral of psi'.
+
+        Raises DomainError without a period.
+        """
         return self._angles()[0]
 
     @property
     def spin_per_period(self) -> arb:
-        """Angle by which the body turns about its axis in one period, the integral of chi'."""
+        """Angle in rad by which the body rotates about its axis in one period, the integral of chi'.
+
+        Raises DomainError without a period.
+        """
         with workprec(ctx.prec + self.cancelled):
             return self._angles()[1]
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession in rad/time: `precession_per_period` over `period`."""
+        """Mean rate of precession in rad/time: `precession_per_period` over `period`.
+
+        Raises DomainError without a period.
+        """
         return self.precession_per_period / self.period
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of rotation about the body's axis in rad/time: `spin_per_period` over `period`."""
+        """Mean rate of rotation about the body's axis in rad/time: `spin_per_period` over `period`.
+
+        Raises DomainError without a period.
+        """
         return self.spin_per_period / self.period
 
     @property
@@ -144,7 +168,7 @@ class Nutating:
 
     @property
     def modulus(self) -> arb:
-        """Modulus k of the elliptic functions."""
+        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
         return self._moduli()[0]
 
     @property
@@ -153,7 +177,7 @@ class Nutating:
         return self._moduli()[1]
 
     def _periods(self) -> tuple[arb, arb]:
-        """Return half the real and half the imaginary period.
+        """Return (half the real period, half the imaginary period) as balls.
 
         Raises DomainError if both are infinite, except where a steady motion is unstable.
         """
@@ -194,7 +218,7 @@ class Nutating:
         return precession, T * solution.spin + difference_of_angles + further
 
     def quaternion(self, t: Any) -> list[arb]:
-        """Return a unit quaternion of R(t), scalar first: the product of two where theta is constant."""
+        """Return a unit quaternion (w, x, y, z) of R(t), of either sign, four balls."""
         if self.is_steady and self.kind != "at rest":
             (k, phi), last = self.steady_rates(), AXES[self.places[2]]
             (s, c), (S, C) = (sin_cos(rate * rational(t, "the time") / 2) for rate in (k, phi))
@@ -229,7 +253,7 @@ class Nutating:
         return self._swung(t, a, b) if self.is_plane else matrix(self.from_frame(a, b))
 
     def _swung(self, t: fmpq, a: acb, b: acb) -> Matrix:
-        """Return R(t) of a swing in a plane of Larmor's frame, about n across that."""
+        """Return R(t), three rows, of a swing in a plane of Larmor's frame, about the vector n across that plane."""
         # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
         phase = acb(0, -self.precession * t / 2).exp()
         w, x, y, _ = self.from_frame(a * phase, b * phase)
@@ -246,15 +270,15 @@ class Nutating:
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t)."""
+        """Return the third column of R(t), the body's axis in the laboratory, three balls."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', (32)."""
+        """Return K(t) = R^T B', (32), along the body's axes, three balls."""
         return [dot(column, self.field) for column in zip(*self.rotation(t), strict=True)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame."""
+        """Return Omega(t) along the body's axes, three balls in rad/time; exact at t = 0."""
         t = rational(t, "the time")
         if t == 0:
             return list(self.omega)
@@ -264,6 +288,6 @@ class Nutating:
         return turned_back(self.omega, c, s)
 
     def turning_rate(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
+        """Return Omega(t) along the body's axes, three balls, from the quaternion's logarithmic derivative."""
         a, b, da, db = self.solution.parameters(t)
         return turning_rate(self.from_frame(a, b), self.from_frame(da, db))

@@ -52,7 +52,11 @@ class Lattice:
 
     @property
     def twist(self) -> arb:
-        """Phase by time s and by distance y that the turned lattice asks for: -2 g with g = -N pi/(4 T/2 T'/2)."""
+        """Rate of the phase by s and by the distance y of a zero, in the lattice with its periods exchanged.
+
+        It is N pi/(2 half imaginary), N = 2 for an oblique lattice, else 1; 0 except in a hyperbolic form with a finite
+        period.
+        """
         if self.form != "hyperbolic" or infinite(self.half):
             return arb(0)
         return arb.pi() * (2 if self.oblique else 1) / (2 * self.half * self.imaginary)
@@ -79,11 +83,11 @@ class Sum:
     shifted: bool = False
 
     def frequency(self, n: int) -> int:
-        """Return k of a term."""
+        """Return the integer k of term n: 2n if `doubled`, else 2n + 1."""
         return 2 * n if self.doubled else 2 * n + 1
 
     def at(self, s: arb) -> tuple[acb, acb]:
-        """Return the sum and its derivative by s."""
+        """Return (sum, its derivative by s) at time s, as complex balls that contain the remainder."""
         x, form = self.lattice.rate * s, self.lattice.form
         if form == "linear":
             return self.even[0] + self.odd[0] * x, self.odd[0] * self.lattice.rate
@@ -153,7 +157,7 @@ def constant(lattice: Lattice) -> Sum:
 
 
 def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb]:
-    """Return sine and cosine, or sinh and cosh, of the sum of two angles."""
+    """Return (sine, cosine) of the sum of two angles if ``circular``, otherwise (sinh, cosh) of the sum."""
     return S * c + C * s, C * c - S * s if circular else C * c + S * s
 
 
@@ -178,9 +182,10 @@ def _trigonometric_weights(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, ac
 
 
 def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], *, doubled: bool = False) -> Sum:
-    """Add terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if doubled, until the rest is below the precision of the moment.
+    """Return the `Sum` of terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if ``doubled``, times ``weights``.
 
-    The weights of a term are at most 2 exp(k depth).
+    Terms are added until the remainder is below the working precision. A term's weights are at most 2 exp(k ``depth``).
+    At too low a precision the sum is NaN.
     """
     nome, growth = lattice.nome, depth + lattice.reach + int(lattice.form == "hyperbolic")
     size, odd, even, n = abs(nome), list[acb](), list[acb](), 0
@@ -206,7 +211,7 @@ def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], 
 
 
 def _widened(value: acb, radius: arb) -> acb:
-    """Return a ball widened by a bound."""
+    """Return a complex ball with ``radius`` added to both of its radii."""
     if radius.is_zero():
         return value
     return value + acb(arb(0, radius.upper()), arb(0, radius.upper()))
@@ -233,7 +238,7 @@ class Parameter:
         return self.own_rate + self.frame
 
     def at(self, t: Any, s: arb) -> tuple[acb, acb]:
-        """Return the parameter and its derivative by time, at time t, s after the turning point in its period."""
+        """Return (the parameter, its derivative by time) at time t; s is the time since the turning point."""
         value, slope = self.sum.at(s)
         phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
         return phase * value, phase * (slope + acb(0, self.rate + self.twist) * value)
@@ -257,13 +262,13 @@ class Solution:
 
     @property
     def period(self) -> arb:
-        """Period of nutation, infinite on a separatrix."""
+        """Period of nutation in time, a ball; infinite on a separatrix."""
         return 2 * self.lattice.half
 
     def parameters(self, t: Any, *, turning: bool = True) -> tuple[acb, acb, acb, acb]:
-        """Return alpha and beta up to a common factor, and their derivatives by time.
+        """Return (alpha, beta, dalpha/dt, dbeta/dt) at time t up to one common factor, complex balls.
 
-        If not `turning`, these lack the rate at which `swing` turns the body about its own axis.
+        Unless ``turning``, the derivatives lack the rate at which `swing` rotates the body about its own axis.
         """
         t = rational(t, "the time")
         return self._parameters(t, self.in_cell(arb(t) + self.origin), turning=turning)
@@ -289,28 +294,34 @@ class Solution:
         return bool((a * c.conjugate() + b * d.conjugate()).real < 0)
 
     def in_cell(self, s: arb) -> arb:
-        """Return the time s since the turning point less whole periods; NaN where their number is not known."""
+        """Return the time s since the turning point less whole periods.
+
+        NaN if the precision leaves their number open.
+        """
         periods = self._whole_periods(s)
         if periods == 0:
             return s
         return arb("nan") if periods is None else s - self.period * periods
 
     def _whole_periods(self, s: arb) -> fmpz | None:
-        """Return the number of whole periods between s and its cell, None if the radius of s leaves two."""
+        """Return the number of whole periods between s and its cell; None if the radius of s leaves two.
+
+        It is 0 in forms whose functions are periodic, and without a period.
+        """
         if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
             return fmpz(0)
         return ((s / self.period).mid() + 0.5).floor().unique_fmpz()
 
     def is_flipped(self, t: Any) -> bool:
-        """Whether alpha and beta lack a sign at time t, for the whole periods that are left out."""
+        """Whether `parameters` at time t have the opposite sign of the continuous alpha and beta."""
         periods = self._whole_periods(arb(t) + self.origin)
         return periods is not None and int(periods) % 2 == 1 and self.alternates
 
 
 def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
-    """Return the constants of a motion whose axis keeps its tilt: two turns at the rates k and phi.
+    """Return the `Solution` of a motion with constant ``tilt``: two rotations at the rates k and phi, in rad/time.
 
-    `half` is half the period of an infinitesimal nutation.
+    ``half`` is half the period of an infinitesimal nutation.
     """
     c, s, *_ = tilt
     lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
@@ -322,7 +333,7 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
 
 
 def quaternion(R: Sequence[Sequence[Any]], doubles: Sequence[float]) -> list[arb]:
-    """Return the unit quaternion (x, y, z, w) of a rotation matrix whose sign is that of nearby `doubles`."""
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix, four balls, with the sign of nearby ``doubles``."""
     i = max(range(4), key=lambda i: abs(doubles[i]))
     row = quaternion_products([[arb(x) for x in row] for row in R])[i]
     size = (-2 if doubles[i] < 0 else 2) * row[i].sqrt()
@@ -341,7 +352,7 @@ def turning_rate(q: Sequence[Number], slope: Sequence[Number]) -> list[Number]:
 
 
 def matrix(q: Sequence[Number]) -> list[list[Number]]:
-    """Return the rotation matrix of a quaternion that need not be normalised."""
+    """Return the rotation matrix, three rows, of a quaternion (w, x, y, z) of any length."""
     w, x, y, z = q
     n = w * w + x * x + y * y + z * z
     return [

@@ -38,20 +38,20 @@ class TurningPoint:
         self.quarter_slope = slope.real
 
     def w(self, place: int) -> acb:
-        """Return the value of w = Q'(e)/(4 (u - e)) at another root."""
+        """Return w = Q'(e)/(4 (u - e)) at the root number ``place``; 0 for a root at infinity."""
         return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
 
     def real_time(self, u: arb) -> arb:
-        """Return the time from e to u, between the turning points."""
+        """Return the time in which u goes from e to ``u``, a value between the turning points, as a ball."""
         return acb.elliptic_rf(*(self._above(u, i) for i in self.other_roots)).real
 
     def imaginary_time(self, u: arb) -> arb:
-        """Return y > 0 where u(i y) = u, for u beyond the interval."""
+        """Return y > 0 with u(i y) = ``u``, for a value beyond the interval of motion."""
         return acb.elliptic_rf(*(-self._above(u, i) for i in self.other_roots)).real
 
     @cached_property
     def imaginary_time_to_infinity(self) -> arb:
-        """The y > 0 where u(i y) is infinite."""
+        """The y > 0 at which u(i y) is infinite, as a ball."""
         return acb.elliptic_rf(*(self.w(i) for i in self.other_roots)).real
 
     def real_time_to_infinity(self) -> arb:
@@ -60,7 +60,7 @@ class TurningPoint:
 
     @cached_property
     def lattice(self) -> Lattice:
-        """The lattice of Omega3, decided by the multiple roots there are."""
+        """The `Lattice` of Omega3; its form is decided by the multiple roots, otherwise by the smaller nome."""
         opposite = self.quartic.low + self.quartic.high - self.place
         multiple = self.roots[opposite].multiplicity
         if multiple == 3:
@@ -84,7 +84,7 @@ class TurningPoint:
         return _balanced(half, imaginary, oblique=True)
 
     def _above(self, u: arb, place: int) -> acb:
-        """Return wp(u) - wp(r) for another root r, formed without cancellation."""
+        """Return wp(u) - wp(r) for the root r number ``place``, formed without cancellation."""
         if self.roots[place].is_infinite:
             return acb(self.quarter_slope / (u - self.u))
         r = self.roots[place].value
@@ -92,7 +92,7 @@ class TurningPoint:
 
 
 class Nutation:
-    """Makes the constants of a motion whose Omega3 is not constant, at the precision of the moment."""
+    """Makes the `Solution` of a motion whose Omega3 is not constant, at the current working precision."""
 
     def __init__(self, quartic: Quartic, sphere: Sphere) -> None:
         self.quartic, self.sphere = quartic, sphere
@@ -101,7 +101,7 @@ class Nutation:
         self.turnings = dict[int, TurningPoint]()
 
     def solution(self) -> Solution:
-        """Return all constants."""
+        """Return the `Solution`: all constants of alpha and beta."""
         if all(root.multiplicity == 2 for root in self.roots):
             return self._heteroclinic()
         self.start = self._start()
@@ -113,7 +113,7 @@ class Nutation:
         return Solution(self.lattice, origin, alpha, beta, self.sphere.precession, self.sphere.spin)
 
     def turning(self, place: int) -> TurningPoint:
-        """Return a simple real root as a turning point."""
+        """Return the `TurningPoint` of the simple real root number ``place``; cached."""
         if place not in self.turnings:
             self.turnings[place] = TurningPoint(self.quartic, self.roots, place)
         return self.turnings[place]
@@ -145,7 +145,7 @@ class Nutation:
         return time if (sense > 0) == (self.start.place == q.low) else -time
 
     def _parameter(self, pole: int, origin: arb, initial: acb) -> Parameter:
-        """Return alpha (pole -1) or beta (pole 1)."""
+        """Return the `Parameter` alpha (``pole`` -1) or beta (1); ``initial`` is its value at t = 0."""
         sphere, function, y, turn = self.sphere, *self._function(pole)
         twist = self.lattice.twist * y
         rate = arb(0)
@@ -186,7 +186,7 @@ class Nutation:
         return function, y, -sense if function.shifted else sense
 
     def _through_infinity(self, name: int) -> bool:
-        """Whether u reaches the pole, along imaginary time from the first turning point, through infinity."""
+        """Whether u(i y) reaches the pole, from the first turning point on, only beyond an infinity of u."""
         if self.quartic.bend >= 0:
             return False
         if len(self.real) <= 2:
@@ -215,7 +215,7 @@ class Nutation:
 
 
 def _balanced(half: arb, imaginary: arb, *, oblique: bool) -> Lattice:
-    """Return the lattice in the form whose nome is the smaller."""
+    """Return the `Lattice` of these half periods in the form, trigonometric or hyperbolic, with the smaller nome."""
     form = "trigonometric" if half.mid() <= imaginary.mid() else "hyperbolic"
     rate = arb.pi() / (2 * (half if form == "trigonometric" else imaginary))
     return Lattice(form, half, imaginary, oblique, rate)

@@ -64,9 +64,9 @@ class Variation:
 
 
 def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
-    """Return the constants of a pair (alpha, beta) whose axis has some tilt at t = 0; `places` are the body's axes.
+    """Return the `Constants` of a pair (alpha, beta) with this ``tilt`` at t = 0; ``places`` order the body's axes.
 
-    DomainError on a separatrix.
+    Raises DomainError on a separatrix.
     """
     lattice, pair, swing = solution.lattice, (solution.alpha, solution.beta), solution.swing
     steady = lattice.rate.is_zero()
@@ -130,7 +130,10 @@ def variations(
 
 
 def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
-    """Return the derivatives of constants in the input at a place, also next to a border, by central differences."""
+    """Return the `Variation` of constants in the input number ``place``, also next to a border, by differences.
+
+    Raises TooNearError where no step is small enough.
+    """
     small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
     lost_bits = max(0, int(small.q).bit_length() - int(small.p).bit_length())
     bits = STEP_BITS + lost_bits
@@ -183,7 +186,7 @@ def _differences(
 
 
 class Groups:
-    """The constants of motions of one form as rows of equal lengths: terms that are left out are zero."""
+    """Constants of motions of one form as rows of equal length; missing terms of sums are zeros."""
 
     def __init__(self, motions: Sequence[Constants]) -> None:
         tables = [x.tables for x in motions]
@@ -203,7 +206,10 @@ class Groups:
         return {name: [next(entries) for _ in range(n)] for name, n in self.lengths.items()}
 
     def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
-        """Return whether derivatives agree over two successive steps, relative to the largest of their group."""
+        """Whether derivatives agree over two successive steps, relative to the largest of their group.
+
+        ``ups`` and ``downs`` are the changes over the steps on both sides of ``middle``.
+        """
         size, up, down = (sizes_of(x) for x in (middle, ups, downs))
         bend = sizes_of(_combined((ups, downs), (1, -1)))
         largest, complete = self._largest(np.maximum(up, down)), self._largest(size)
@@ -213,7 +219,7 @@ class Groups:
         )
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
-        """Return whether all radii are at most MAX_RADIUS times the largest value of the group."""
+        """Whether all radii of ``mean`` and ``slopes`` are at most MAX_RADIUS times the group's largest value."""
         size, radius = self._largest(sizes_of(mean)), radii_of(mean)
         for row, scale in slopes:
             unit = float(arb(scale).mid())
@@ -225,14 +231,14 @@ class Groups:
         return True
 
     def _largest(self, sizes: FloatArray) -> FloatArray:
-        """Return the largest size of the group in the place of each size, shape of `sizes`."""
+        """Return for each entry the largest of ``sizes`` in its group, an array of the same shape."""
         largest = np.zeros(len(self.lengths))
         np.maximum.at(largest, self.places, sizes)
         return np.asarray(largest[self.places])
 
 
 def _combined(rows: Sequence[Row], weights: Sequence[Any]) -> Row:
-    """Return a linear combination of rows."""
+    """Return the linear combination of rows with these weights, a list."""
     pairs = [(x, w) for x, w in zip(rows, weights, strict=True) if w != 0]
     if [w for _, w in pairs] == [1, -1]:
         return [x - y for x, y in zip(pairs[0][0], pairs[1][0], strict=True)]
@@ -247,12 +253,12 @@ def _scaled(row: Row, factor: arb) -> Row:
 
 
 def sizes_of(row: Row) -> FloatArray:
-    """Return the sizes of numbers as floats."""
+    """Return the magnitudes of the balls in a row as a float array."""
     return np.array([float(abs(x).mid()) for x in row])
 
 
 def radii_of(row: Row) -> FloatArray:
-    """Return the radii of balls; nan for a ball that is not finite and gives no bound."""
+    """Return the radii of the balls in a row as a float array; NaN for a ball that is not finite."""
     return np.array(
         [
             float(x.real.rad() + x.imag.rad() if isinstance(x, acb) else x.rad()) if x.is_finite() else np.nan

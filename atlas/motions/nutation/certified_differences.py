@@ -39,14 +39,17 @@ class Differences:
         self._make_neighbours(STEP_BITS + 20)
 
     def _make_neighbours(self, bits: int) -> None:
-        """Make the motions that differ from this one by 2^-bits of the scale in one input, for each input."""
+        """Set `here` and `neighbours`: for each input, motions that differ by 2^-``bits`` of its scale."""
         self.bits = bits
         with workprec(8 * bits):
             self.here = self.make(*self.values)
             self.neighbours = [self._neighbours(i, self.scales[i] / fmpq(2) ** bits) for i in self.places]
 
     def _neighbours(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
-        """Return motions with the weights whose sums are the derivative in an input, and that input's change over h."""
+        """Return triples (motion, weight of the derivative, weight of its change over h) for the input ``place``.
+
+        Raises DomainError where no motions beside this one exist.
+        """
         for steps, weights in SIDES:
             try:
                 moved = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]
@@ -57,7 +60,10 @@ class Differences:
         raise DomainError("No motions beside this one are known.")
 
     def at(self, t: float) -> tuple[FloatArray, ...]:
-        """Return v and R dOmega/dp at a time, (inputs, 3) each, R e3 and its slope. DomainError if unknown."""
+        """Return (v, R dOmega/dp, R e3, its slope) at a time: (inputs, 3) twice, then (3,) twice; dR/dp = [v]x R.
+
+        Raises DomainError where they are not known well enough.
+        """
         time = rational(t)
         for _ in range(MAX_TRIES):
             with workprec(8 * self.bits):
@@ -74,7 +80,7 @@ class Differences:
         raise DomainError("The motion is too near to a case of its own for derivatives.")
 
     def _state(self, motion: Any, t: fmpq) -> Row:
-        """Return the entries of R, by rows, and Omega."""
+        """Return the nine entries of R, by rows, then the three of Omega, as balls."""
         return [*chain.from_iterable(motion.rotation(t)), *motion.angular_velocity(t)]
 
     def _derivative(

@@ -62,7 +62,10 @@ class EllipticMotion(Nutating):
         self.kind = self._kind()
 
     def _order(self) -> tuple[int, int, int]:
-        """Return a cyclic order of the axes, the nutating one last; for a single component of K, that axis last."""
+        """Return a cyclic order of the axes' indices, the nutating axis last.
+
+        If K has a single component, its axis is the last.
+        """
         e, K = self._e, self.field
         low, middle, high = sorted(range(3), key=lambda i: e[i])
         if sum(x != 0 for x in K) == 1:
@@ -94,7 +97,7 @@ class EllipticMotion(Nutating):
 
     @property
     def splitting(self) -> fmpq:
-        """C/D^2, the squared frequency of small departures, theorem-splitting: negative for an unstable motion."""
+        """C/D^2, the squared frequency of small departures in 1/time^2, theorem-splitting: negative if unstable."""
         square: fmpq = splitting(self.inertia, self.field, self.z)
         return square
 
@@ -110,7 +113,7 @@ class EllipticMotion(Nutating):
         return "undecided" if C == 0 and stays else "unstable"
 
     def _change(self) -> fmpq:
-        """Return the squared frequency of a small change in the family of a K that is constant."""
+        """Return the squared frequency of a small change, within the family, of a K that is constant."""
         first, second, nutating = self.places
         e = self._e
         return (e[first] - e[nutating]) * (e[second] - e[nutating]) * self.square * self.quartic.N
@@ -122,7 +125,7 @@ class EllipticMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the body turns by nothing about the axis of the pair in a period: wherever that nutates."""
+        """Whether the body's mean spin about the nutating axis is exactly zero: so for every motion with nutation."""
         return not self.is_steady
 
     @property
@@ -132,24 +135,24 @@ class EllipticMotion(Nutating):
 
     @property
     def E(self) -> tuple[Real, Real, Real]:
-        """The tensor E_i = -v/(z I_i + D), along the principal axes: Omega = (E - 1) K."""
+        """The three E_i = -v/(z I_i + D), dimensionless: Omega_i = (E_i - 1) K_i along the principal axes."""
         v = self.v
         return -v * self._e[0], -v * self._e[1], -v * self._e[2]
 
     @property
     def omega(self) -> list[Real]:  # type: ignore[override]  # a root of the inputs
-        """Angular velocity at t = 0 along the principal axes."""
+        """Angular velocity at t = 0 along the principal axes, three numbers in rad/time."""
         return self.rate_of(self.field)
 
     @property
     def invariants(self) -> list[Real]:
-        """H, F, (M, K), K^2 and the kinetic energy, theorem-clebsch."""
+        """List [H, F, (M, K), K^2, kinetic energy] of theorem-clebsch."""
         J = [self.inertia[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
         H, F, MK, K2, energy = clebsch(*J, *self.omega, *self.field)
         return [H / 2, F, MK, K2, energy / 2]
 
     def rate_of(self, K: Any) -> list[Real]:
-        """Return Omega_i = (E_i - frame) K_i along the principal axes."""
+        """Return Omega_i = (E_i - `frame`) K_i along the principal axes for a field K in the body."""
         return [(E - self.frame) * x for E, x in zip(self.E, K, strict=True)]
 
     @property
@@ -159,7 +162,7 @@ class EllipticMotion(Nutating):
 
     @by_precision
     def sphere(self) -> Sphere:
-        """The sphere of K, at the precision of the moment, its last axis a."""
+        """The `Sphere` of K at the current working precision; its last axis is the nutating one."""
         K, b = self._permuted(self.field), self.b
         torque, zero = arb(root(self.square)) * self.quartic.torque, fmpq(0)
         start, length = (K, b) if self.quartic.N else ((zero, zero, fmpq(1)), fmpq(1))
@@ -176,7 +179,7 @@ class EllipticMotion(Nutating):
         )
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return the rates k about the field and phi about the axis a of a motion that is two turns."""
+        """Return (k about the field, phi about the nutating axis) in rad/time of a motion that is two rotations."""
         left, _, nutating = self.places
         if self.kind != "elementary":  # K is constant, along an axis or where E is a number
             return self.precession, fmpq(0)
@@ -196,7 +199,7 @@ class EllipticMotion(Nutating):
 
     @property
     def circled(self) -> int:
-        """Index of the axis that K circles: largest or least E; for two equal E, the third axis."""
+        """Index of the axis around which K goes: that of the largest or least E, of two equal E the third."""
         e, (left, right, nutating) = self._e, self.places
         if len(set(e)) == 2:
             return next(i for i in range(3) if e.count(e[i]) == 1)
@@ -209,11 +212,11 @@ class EllipticMotion(Nutating):
 
     @property
     def turn_per_period(self) -> arb:
-        """Angle in rad by which the body has turned about B after one period, precession and spin together."""
+        """Angle in rad by which the body has rotated about B after one period: K is then along the same body axes."""
         return super()._angles()[0]
 
     def _angles(self) -> tuple[arb, arb]:
-        """Return the angles of precession and of spin in one period of the axis that K circles.
+        """Return the angles in rad of (precession, spin) in one period, of the axis around which K goes.
 
         Alpha and beta belong to another axis, which makes one turn more or less about B in a period. Where K is
         constant, the angles are the limits for a motion next to it.
@@ -229,12 +232,18 @@ class EllipticMotion(Nutating):
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession about B, in rad/time, of the axis that K circles, or that is along a constant K."""
+        """Mean rate of precession about B, in rad/time, of the axis around which K goes.
+
+        Raises DomainError on a separatrix.
+        """
         return self._mean_rates()[0]
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate, in rad/time, of rotation about the axis that K circles: 2 pi/period, or 0."""
+        """Mean rate, in rad/time, of rotation about the axis around which K goes.
+
+        Raises DomainError on a separatrix.
+        """
         return self._mean_rates()[1]
 
     def _mean_rates(self) -> tuple[Real, Real]:
@@ -258,11 +267,11 @@ class EllipticMotion(Nutating):
         return (arb(1), arb("inf")) if self.is_steady else super()._periods()
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = (E - 1) K(t) in the body's frame."""
+        """Return Omega(t) = (E - 1) K(t) along the body's axes, three balls in rad/time."""
         return self.rate_of(self.field_in_body(t))
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m = R II Omega in the laboratory frame."""
+        """Return m = R II Omega in the laboratory, three balls in inertia/time."""
         m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
         return [dot(row, m) for row in self.rotation(t)]
 
@@ -272,7 +281,7 @@ class EllipticMotion(Nutating):
         return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
 
     def _permuted(self, vector: Any) -> Any:
-        """Return components in the order of the axes."""
+        """Return the components of a vector in the order `places`, the nutating axis last."""
         return tuple(vector[i] for i in self.places)
 
 
@@ -299,7 +308,10 @@ class EulerTop(EllipticMotion):
 
     @property
     def mode(self) -> str:
-        """Axis that the momentum goes round: "long axis", of the least moment, or "short axis", of the largest."""
+        """Axis around which the momentum goes: "long axis" (least moment) or "short axis" (largest moment).
+
+        Otherwise it is "separatrix", "ball" or "at rest".
+        """
         if self._rests or len(set(self.inertia)) == 1:
             return "at rest" if self._rests else "ball"
         if self.is_middle:
@@ -308,7 +320,7 @@ class EulerTop(EllipticMotion):
 
 
 def check_moments(moments: tuple[fmpq, ...]) -> None:
-    """Raise DomainError for three numbers that are no moments of a body."""
+    """Raise DomainError unless three moments are positive and the largest is at most the sum of the others."""
     listed = ", ".join(str(nearest(I)) for I in moments)
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {listed}: all three are positive.")
@@ -320,7 +332,7 @@ def check_moments(moments: tuple[fmpq, ...]) -> None:
 
 
 def square_of_v(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
-    """Return v^2 = prod(z + D/I_i); DomainError where it is not positive."""
+    """Return v^2 = prod(z + D/I_i). Raises DomainError where it is not positive."""
     D = moments[0] * moments[1] * moments[2]
     zeros = sorted(-D / I for I in moments)
     if not (z > zeros[2] or zeros[0] < z < zeros[1]):

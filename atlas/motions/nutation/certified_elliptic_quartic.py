@@ -18,9 +18,9 @@ from atlas.motions.nutation.certified_quartic import Quartic, Root, Vector, rati
 
 
 class EllipticQuartic(Quartic):
-    """Quartic Q(u) of an elliptic motion; e and K have their components in the order (b, c, a), a the nutating axis.
+    """Quartic Q(u), u = -K_a, of an elliptic motion; ``e`` and ``K`` have the order (b, c, a), a the nutating axis.
 
-    `sign` is the sign of v.
+    ``square`` is v^2, ``sign`` the sign of v.
     """
 
     def __init__(self, e: Vector, K: Vector, square: fmpq, sign: int) -> None:

@@ -84,7 +84,7 @@ class GeneralMotion(Nutating):
 
     @by_precision
     def velocity(self) -> Solution:
-        """The constants of the pair from which Omega follows, see `atlas.motions.nutation.certified_spheres`."""
+        """The `Solution` of the pair from which Omega follows, see `atlas.motions.nutation.certified_spheres`."""
         sphere = self._velocity_sphere
         if self.is_steady:
             return steady(sphere.tilt, fmpq(0), self._steady_turn(), self._half)
@@ -92,7 +92,7 @@ class GeneralMotion(Nutating):
 
     @by_precision
     def sphere(self) -> Sphere:
-        """The sphere of K, or of a free body's momentum, at the precision of the moment."""
+        """The `Sphere` of K, of a free body of its momentum, at the current working precision."""
         return sphere_of_field(self.quartic, self.turning_axis)
 
     @by_precision
@@ -110,12 +110,15 @@ class GeneralMotion(Nutating):
         return momentum if any(w != 0 for w in self.omega) else (fmpq(0), fmpq(0), fmpq(1))
 
     def velocity_sizes(self) -> tuple[Real, Real, Real, Real]:
-        """Return cos and sin of the azimuth of Omega(0), and the largest Omega across and along the axis."""
+        """Return (cos, sin of the azimuth of Omega(0), largest |Omega| across the axis, largest along it)."""
         sphere = self._velocity_sphere
         return sphere.tilt[2], sphere.tilt[3], sphere.length, abs(sphere.poles[1])
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return the rates k about the field and phi about the body's axis where Omega3 is constant."""
+        """Return (k about the field, phi about the body's axis) in rad/time where Omega3 is constant.
+
+        For a free body k is about the momentum.
+        """
         q, (w1, w2, w3) = self.quartic, self.omega
         if self.kind == "free body":
             return root(w1**2 + w2**2 + (self.I * w3) ** 2), (1 - self.I) * w3
@@ -125,7 +128,7 @@ class GeneralMotion(Nutating):
         return rate * self.b, w3 - self.field[2] * rate
 
     def _steady_turn(self) -> fmpq:
-        """Return the rate at which (Omega1, Omega2) turns in the body where Omega3 is constant."""
+        """Return the rate in rad/time at which (Omega1, Omega2) rotates in the body where Omega3 is constant."""
         q, (w1, w2, w3) = self.quartic, self.omega
         equatorial = w1**2 + w2**2
         return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.transverse_product / equatorial if equatorial != 0 else 0)
@@ -166,7 +169,7 @@ class GeneralMotion(Nutating):
 
     @property
     def roots(self) -> list[acb]:
-        """Roots of Q, each as often as it counts: the real ones ascending, then the complex pair; none for B = 0."""
+        """Roots of Q, repeated by multiplicity: the real ones ascending, then the complex pair; [] for B = 0."""
         if self.quartic.K2 == 0:
             return []
         finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
@@ -174,7 +177,7 @@ class GeneralMotion(Nutating):
 
     @property
     def turning_points(self) -> tuple[Real, Real]:
-        """Least and largest Omega3; on a separatrix one end is approached and never reached."""
+        """(Least, largest) Omega3 in rad/time; on a separatrix one end is approached and never reached."""
         q = self.quartic
         if self.is_steady or q.is_constant:
             return q.u.value, q.u.value
@@ -188,7 +191,7 @@ class GeneralMotion(Nutating):
 
     @property
     def precession(self) -> Real:
-        """Rate of Larmor's frame about the field."""
+        """Rate -|B'| of Larmor's frame about the field, in rad/time."""
         return -self.b
 
     @property
@@ -198,7 +201,7 @@ class GeneralMotion(Nutating):
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory frame."""
+        """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory, three balls in rad/time."""
         w1, w2, w3 = self.angular_velocity(t) if any(self.field) else self.omega
         m = [w1, w2, self.I * w3]
         return [dot(row, m) for row in self.rotation(t)] if any(self.field) else m
@@ -221,16 +224,16 @@ class Symmetric:
         self._back = [places.index(i) for i in range(3)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows, along the axes in their given order."""
+        """Return R(t) as three rows of balls, along the body's axes in their given order."""
         R = self.exact.rotation(t)
         return [[R[i][j] for j in self._back] for i in self._back]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body."""
+        """Return Omega(t) along the body's axes in their given order, three balls in rad/time."""
         Omega = self.exact.angular_velocity(t)
         return [Omega[i] for i in self._back]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B'."""
+        """Return K(t) = R^T B' along the body's axes in their given order, three balls in 1/time."""
         K = self.exact.field_in_body(t)
         return [K[i] for i in self._back]

@@ -76,12 +76,15 @@ class Quartic:
 
     @property
     def leading(self) -> Real:
-        """The leading coefficient of Q that is not zero."""
+        """The leading coefficient of Q, the last one that is not zero."""
         return self.polynomial[-1].value
 
     @property
     def bend(self) -> int:
-        """Sign of the coefficient of u^4, which decides whether u is infinite at real or at imaginary times."""
+        """Sign of the coefficient of u^4, 0 for a cubic.
+
+        It is 1 if u becomes infinite at real times, -1 if at imaginary ones.
+        """
         return self.polynomial[4].sign if len(self.polynomial) == 5 else 0
 
     @property
@@ -96,12 +99,12 @@ class Quartic:
 
     @property
     def curvature(self) -> Real:
-        """Q''(u) at t = 0."""
+        """Q''(u) at t = 0, a rational or a ball."""
         return evaluated(derivative(derivative(self.polynomial)), self.u).value
 
     @property
     def is_constant(self) -> bool:
-        """Whether u = cos theta, the variable of the quartic, is constant in time."""
+        """Whether u, the variable of the quartic, is constant in time."""
         return self.rate.is_zero and self.slope.is_zero
 
     def sign_beside(self, pole: int) -> int:
@@ -110,7 +113,7 @@ class Quartic:
         return torque.sign
 
     def roots(self) -> list[Root]:
-        """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair.
+        """Return the distinct roots as `Root`, at the current working precision: the real ones ascending, then a pair.
 
         Roots that have gone to infinity, where the leading coefficient is zero, come last.
         """
@@ -126,7 +129,7 @@ class Quartic:
         return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:
-        """Return the roots of the quartic, each isolated in a ball."""
+        """Return the distinct roots as `Root`, each in a ball of its own, in the order of `roots`."""
         isolated = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
         real = [root for root in isolated if root.is_real]
         real.sort(key=lambda root: root.value.real.mid())
@@ -152,17 +155,17 @@ class Quartic:
 
     @property
     def low(self) -> int:
-        """Place of the lower end."""
+        """Index, among the real roots ascending, of the lower end of u's range."""
         return self._interval[0]
 
     @property
     def high(self) -> int:
-        """Place of the upper end."""
+        """Index, among the real roots ascending, of the upper end of u's range."""
         return self._interval[1]
 
 
 def rational_polynomial(coefficients: Iterable[fmpq]) -> Polynomial:
-    """Return a polynomial with rational coefficients, the constant one first."""
+    """Return a polynomial, a tuple of `Surd` with the constant first, from rational coefficients."""
     return trimmed([Surd.rational(c) for c in coefficients])
 
 

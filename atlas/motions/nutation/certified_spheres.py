@@ -28,10 +28,11 @@ POLES = (-1, 1)
 
 @dataclass(frozen=True)
 class Sphere:
-    """Poles -1 (of alpha) and 1 (of beta): values of Omega3, torques, their exact signs, rates f of the frame.
+    """Sphere on which a vector moves in the body, with its poles -1 (of alpha) and 1 (of beta) as keys.
 
-    `start` is the vector at t = 0, of that `length`. `slopes` are the derivatives of alpha and beta at t = 0, for the
-    one that is zero there. The frame has the rates `precession` and `spin`.
+    `poles` are values of Omega3 there, `torques` numerators of the phase rates, `signs` their exact signs, `frames`
+    rates of the frame. `start` is the vector at t = 0, of this `length`. `slopes` are the derivatives of alpha and beta
+    at t = 0, for the one that is zero there. The frame has the rates `precession` and `spin`, in rad/time.
     """
 
     start: tuple[Real, Real, Real]
@@ -46,14 +47,14 @@ class Sphere:
 
     @cached_property
     def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Tilt of the vector at t = 0, see `tilt_of`."""
+        """Tilt of the vector at t = 0, four numbers, see `tilt_of`."""
         return tilt_of(self.start, self.length)
 
 
 def tilt_of(vector: Sequence[Real], length: Real) -> tuple[Real, Real, Real, Real]:
-    """Return cosine and sine of half the polar angle of a vector, and of its azimuth from the second axis to the first.
+    """Return (cos, sin of half the polar angle, cos, sin of the azimuth) of a vector of this ``length``.
 
-    `length` is that of the vector.
+    The azimuth runs from the second axis to the first; it is 0 for a vector along the third axis.
     """
     x, y, z = vector
     if x == 0 and y == 0:
@@ -83,7 +84,7 @@ def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
 
 
 def sphere_of_velocity(q: Quartic) -> Sphere:
-    """Return the sphere of Omega."""
+    """Return the `Sphere` of (Omega2, Omega1, -sqrt(I) Omega3), whose length is constant."""
     (w1, w2, w3), (K1, K2, _) = q.Omega, q.K
     square = q.E / q.I
     end, short = arb(root(square)), root(q.I)

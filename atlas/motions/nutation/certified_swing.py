@@ -30,7 +30,10 @@ ROUGH_BITS = 80
 
 @dataclass(frozen=True)
 class Swing:
-    """kappa times the integral of nu: rates by t and by s, and 2 at(x)/sqrt(|A|), x sqrt(|A|) = odd/even."""
+    """kappa times the integral of nu, a linear part and 2 at(x)/sqrt(|A|), x sqrt(|A|) = odd/even.
+
+    `rate` and `twist` are its slopes by t and by s; at is artanh for A > 0, arctan for A < 0.
+    """
 
     lattice: Lattice
     kappa: arb
@@ -50,7 +53,7 @@ class Swing:
 
     @property
     def steepest(self) -> arb:
-        """Largest change of half of the part of `at` that is not linear in time, per radian of the phase rate s."""
+        """Largest slope of half the oscillating part of `at` by the phase rate s, a bound, dimensionless."""
         return abs(self.kappa) * self.width / (2 * self.lattice.rate)
 
     @property
@@ -71,7 +74,7 @@ class Swing:
         return rough if rough.rel_accuracy_bits() > ROUGH_BITS // 4 else largest_oscillation()
 
     def oscillation(self, s: arb) -> arb:
-        """Return the part that is no multiple of time."""
+        """Return the part of the integral of nu that is no multiple of time, at time s in the period, a ball."""
         return turn_of(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
 
 
@@ -91,7 +94,7 @@ class Crossing:
     """Size of the rate of the integral long before and after."""
 
     def at(self, _: arb, s: arb) -> arb:
-        """Return kappa times an integral of nu."""
+        """Return kappa times an integral of nu at time s from the equator; the first argument is not used."""
         x = self.slope * abs(s)
         return self.kappa * self.sense * (x + (1 + (-2 * x).exp()).log()) / self.slope
 
@@ -107,7 +110,7 @@ def turn_of(odd: arb, even: arb, A: arb) -> arb:
 
 
 def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
-    """Return the constants of the integral of nu for a motion of that quartic, but for the `crossing` of n and -n."""
+    """Return the `Swing` of a motion of this quartic, except on the separatrix between n and -n; see `crossing`."""
     lattice, A = nutation.lattice, arb(quartic.A)
     sense = 1 if nutation.start.place == quartic.low else -1
     depth = arb(0)
@@ -132,25 +135,28 @@ def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
 
 
 def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
-    """Return the constants for the motion between n and -n that passes the equator at the time -origin."""
+    """Return the `Crossing` of the motion between n and -n that passes the equator at time -``origin``."""
     return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
 
 
 def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
-    """Return O, times a factor, and E for poles at s = x + i imaginary, `depth` being rate x."""
+    """Return the sums (O times ``factor``, E) for poles at s = x + i imaginary; ``depth`` is rate x."""
     if lattice.form == "trigonometric":
         return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())
     return _beside_imaginary(lattice, depth, factor, lambda k: (depth * k).sinh_cosh())
 
 
 def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
-    """Return O, less the derivative of E over rate times a factor, and E for a double pole at s = i imaginary."""
+    """Return the sums (O times ``factor``, E) for a double pole at s = i imaginary.
+
+    O is the slope of E, negated, over rate.
+    """
     sign = 1 if lattice.form == "trigonometric" else -1
     return _beside_imaginary(lattice, STEEP, sign * factor, lambda k: (arb(k), arb(1)))
 
 
 def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
-    """Return O, times a factor, and E for poles at s = i y."""
+    """Return the sums (O times ``factor``, E) for poles at s = i y."""
     if lattice.form == "trigonometric":
         function = _inclined(lattice, y)
         odd, even = [x.real for x in function.odd], [x.real for x in function.even]
@@ -163,7 +169,7 @@ def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
 
 
 def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum, Sum]:
-    """Return two sums: the odd terms times a factor, and the even terms."""
+    """Return two sums in the form of ``like``: one with odd terms times ``factor``, one with the even terms."""
     none = (acb(0),) * len(odd)
     return (
         replace(like, odd=tuple(acb(x * factor) for x in odd), even=none, bound=abs(factor) * like.bound),
@@ -174,9 +180,9 @@ def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum
 def _beside_imaginary(
     lattice: Lattice, depth: arb, factor: arb, weights: Callable[[int], tuple[arb, arb]]
 ) -> tuple[Sum, Sum]:
-    """Return the sums O, times a factor, and E for a zero near i imaginary.
+    """Return the sums (O times ``factor``, E) for a zero near s = i imaginary.
 
-    `weights(k)` gives the weights of S(k rate s) and of C(k rate s), at most exp(k depth).
+    `weights(k)` gives the weights of S(k rate s) and of C(k rate s), at most exp(k ``depth``).
     """
     doubled = lattice.form == "trigonometric"
 

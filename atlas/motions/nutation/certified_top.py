@@ -73,7 +73,7 @@ class TopMotion(Nutating):
 
     @property
     def precession(self) -> Real:
-        """Rate of that frame about n."""
+        """Rate -k2 about n, in rad/time, of the frame to which rates of alpha and beta refer."""
         return -self.coupling[0]
 
     @property
@@ -100,7 +100,7 @@ class TopMotion(Nutating):
 
     @by_precision
     def sphere(self) -> Sphere:
-        """The sphere of b, the direction n in the body, at the precision of the moment."""
+        """The `Sphere` of b, the direction n in the body, at the current working precision."""
         q, (w1, w2, _), k2 = self.quartic, self.omega, self.coupling[0]
         M3, p = arb(q.M3.value), arb(q.p.value)
         spin = (q.M3 / self.I - q.M3).value
@@ -118,7 +118,7 @@ class TopMotion(Nutating):
 
     @property
     def invariants(self) -> list[Real]:
-        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction."""
+        """List [h, M3, p] of constants over I2: energy, momentum along the axis, and (M, n) along the direction."""
         q, (k2, k3), (a0, A0), (w1, w2, w3) = self.quartic, self.coupling, self.potential, self.omega
         energy, M3, p = constants(self.I, k2, k3, q.transverse, q.nu, a0, A0, w1, w2, w3)
         return [(energy / 2).value, M3.value, p.value]
@@ -133,7 +133,7 @@ class TopMotion(Nutating):
         return replace(solution, swing=swing(nutation, self.quartic))
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return the rates k about n and phi about the body's axis where theta is constant."""
+        """Return (k about n, phi about the body's axis) in rad/time where theta is constant."""
         q, (_, w2, w3) = self.quartic, self.omega
         if q.transverse.is_zero:
             return fmpq(0), w3
@@ -148,7 +148,7 @@ class TopMotion(Nutating):
 
     @property
     def turning_points(self) -> tuple[Real, Real]:
-        """Least and largest nu = cos theta; on a separatrix one end is approached and never reached."""
+        """(Least, largest) nu = cos theta; on a separatrix one end is approached and never reached."""
         q = self.quartic
         if self.is_steady:
             return q.nu.value, q.nu.value
@@ -167,7 +167,10 @@ class TopMotion(Nutating):
 
     @property
     def sleeping_bands(self) -> dict[str, tuple[Real, Real] | None]:
-        """Unstable intervals of omega3, or None, of the sleeping top: along n "upright", against n "hanging"."""
+        """Interval (low, high) of omega3 where a sleeping top is unstable, or None.
+
+        "upright" along n, "hanging" against it.
+        """
         q, k3 = self.quartic, self.coupling[1]
         return {
             name: top_steady.sleeping_band(self.I, q.kappa, k3, (q.linear, q.A), side)
@@ -175,18 +178,18 @@ class TopMotion(Nutating):
         }
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame."""
+        """Return Omega(t) along the body's axes, three balls in rad/time; Omega3 is exactly constant for k3 = 0."""
         transverse, second, third = super().angular_velocity(t)
         # without k3 there is no torque about the axis that is not one of n
         return [transverse, second, third if self.coupling[1] else self.omega[2]]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return b(t) = R^T n, the direction n in the body."""
+        """Return b(t) = R^T n, the unit direction n along the body's axes, three balls."""
         size = length(*self.direction)
         return [x / size for x in super().field_in_body(t)]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return I Omega + k b, over I2, in the laboratory frame: R(t) M."""
+        """Return the canonical momentum (I Omega + k b)/I2 in the laboratory, three balls."""
         (w1, w2, w3), b, (k2, k3) = self.angular_velocity(t), self.field_in_body(t), self.coupling
         M = w1 + k2 * b[0], w2 + k2 * b[1], self.I * w3 + k3 * b[2]
         return [dot(row, M) for row in self.rotation(t)]

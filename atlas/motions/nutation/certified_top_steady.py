@@ -24,7 +24,10 @@ class SteadyPrecession(NamedTuple):
 
 
 def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession]:
-    """Return the steady precessions with nu and M3 of a quartic, at most two, by ascending w; `precession` is k2."""
+    """Return the steady precessions with nu and M3 of a quartic, at most two, by ascending w; ``precession`` is k2.
+
+    It is [] where there is none. Raises DomainError where every rate is one.
+    """
     if q.transverse.is_zero:
         return []
     nu, M3, push = q.nu, q.M3, q.a + q.nu * q.A
@@ -64,7 +67,7 @@ def _any_rate(push: Surd) -> list[SteadyPrecession]:
 
 
 def sign_of_sum(x: Surd, y: Surd, d: Surd) -> int:
-    """Return the sign of x + y sqrt(d), d not negative."""
+    """Return the sign, -1, 0 or 1, of x + y sqrt(d), d >= 0."""
     sign_of_first, second = x.sign, y.sign * d.sign
     if sign_of_first * second >= 0:
         return sign_of_first or second
@@ -72,7 +75,7 @@ def sign_of_sum(x: Surd, y: Surd, d: Surd) -> int:
 
 
 def _value(x: Surd, y: Surd, d: Surd) -> Real:
-    """Return x + y sqrt(d)."""
+    """Return x + y sqrt(d) as a rational or a ball, without cancellation."""
     if (y * y * d).is_zero:
         return x.value
     if sign_of_sum(x, y, d) == 0:
@@ -83,7 +86,7 @@ def _value(x: Surd, y: Surd, d: Surd) -> Real:
 
 
 def stable(q: TopQuartic) -> bool:
-    """Return whether a motion with constant theta is stable against nutation."""
+    """Whether a motion with constant theta is stable against nutation, decided exactly."""
     second = derivative(derivative(q.polynomial))
     sign = evaluated(second, -q.nu).sign
     if sign:

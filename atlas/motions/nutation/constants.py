@@ -40,10 +40,11 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 
 
 class CayleyKlein:
-    """Constants of alpha and beta of one motion, computed at rising precision until each is accurate, then rounded.
+    """Constants of alpha and beta of one motion as doubles, from balls at a precision where each is accurate.
 
-    `values` (4, rows) are the weights of Re alpha, Re beta, Im alpha, Im beta; with `slopes` eight more rows are the
-    weights of the derivatives by time, without the swing of a top.
+    `values` (4, rows) are the weights of Re alpha, Re beta, Im alpha, Im beta; with ``slopes`` eight rows, the last
+    four for the derivatives by time, without the swing of a top. Raises DomainError where `MAX_BITS` digits do not
+    suffice.
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
@@ -52,14 +53,14 @@ class CayleyKlein:
             self.precision = _doubled(self.precision)
 
     def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return the arrays of `Evaluation.components` from balls, where the turn of a top is too long for words."""
+        """Return the arrays of `Evaluation.components` from balls, for tops whose swing is too fast for two words."""
         self.phases.check(t)
         lacks = np.zeros(t.size) if low is None else np.broadcast_to(low, t.shape)
         times = [rational(x) + rational(y) for x, y in zip(t.tolist(), lacks.tolist(), strict=True)]
         return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
 
     def _in_balls(self, t: fmpq) -> list[float]:
-        """Return Re alpha, Re beta, Im alpha, Im beta at a time; if `sloping`, those of the derivatives follow."""
+        """Return Re alpha, Re beta, Im alpha, Im beta at a time, normalised; with slopes eight floats."""
         precision = self.precision
         while True:
             with workprec(precision):
@@ -76,7 +77,7 @@ class CayleyKlein:
             precision = _doubled(precision)
 
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
-        """Compute and store the constants at one precision; return whether the precision suffices."""
+        """Compute and store the constants at ``precision`` bits; return whether these suffice."""
         with workprec(precision):
             constants = solution()
             lattice, pair = constants.lattice, (constants.alpha, constants.beta)
@@ -118,15 +119,15 @@ class CayleyKlein:
             return self.periodic and self._solution().alternates
 
     def _are_lost(self, values: list[list[acb]]) -> bool:
-        """Return whether alpha or beta is nonzero but too small for a float beside the other."""
+        """Whether alpha or beta is nonzero but too small for a float beside the other."""
         pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
         return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
 
     def _phases(self) -> Phases:
-        """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
+        """Return the `Phases` of the motion; with hyperbolic functions, the period's own is reduced by half turns.
 
-        It multiplies the phase in the period by a large slope, as does the turn of a top in a slow nutation: so this is
-        reduced as if it were long, without any loss.
+        Their argument has a large slope, as has the swing of a top in a slow nutation: so that phase is reduced as if
+        it were long, without any loss.
         """
         hyperbolic = self.periodic and isinstance(self.functions, Hyperbolic)
         rounder = np.array([EVEN, EVEN, ROUNDER])[:, None] if hyperbolic else EVEN
@@ -147,7 +148,7 @@ def _doubled(precision: int) -> int:
 
 
 def _swing(exact: Any) -> Any:
-    """Return the rotation about the axis by the integral of nu, None for none."""
+    """Return the evaluator in doubles of an exact `Swing` or `Crossing`, None for None."""
     if exact is None:
         return None
     return Crossing(exact) if isinstance(exact, ExactCrossing) else Swing(exact)
@@ -161,7 +162,11 @@ def _crossed(solution: Solution) -> list[arb] | None:
 
 
 def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
-    """Return the frequencies, in turns per unit of time, and the phase in the period at t = 0, in turns."""
+    """Return (frequencies in turns per unit of time, phase of the period at t = 0 in turns).
+
+    The frequencies are of the sum and the difference of the phases of alpha and beta, and, if ``periodic``, of the
+    period.
+    """
     pair, swing = (solution.alpha, solution.beta), solution.swing
     rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
     if swing:
@@ -176,7 +181,7 @@ def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
 
 
 def _reducible(turns: list[arb], origin: arb) -> bool:
-    """Return whether frequencies and origin are accurate enough for the reduction of phases."""
+    """Whether frequencies and origin are finite and accurate enough for the reduction of phases."""
     if not all(x.is_finite() for x in turns):
         return False
     scale = max(abs(x) for x in turns)
@@ -186,7 +191,10 @@ def _reducible(turns: list[arb], origin: arb) -> bool:
 
 
 def _weights(solution: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
-    """Return the weights of the functions of time in alpha and beta and, with `slopes`, in their derivatives."""
+    """Return tables (2, rows) of weights of the functions of time in alpha and beta, and for ``slopes`` a second one.
+
+    The second table is for their derivatives by time.
+    """
     swing, start = solution.swing, acb(1)
     if swing:
         start = acb(0, -swing.at(arb(0), solution.origin) / 2).exp()
@@ -207,13 +215,13 @@ def _radius(x: arb) -> float:
 
 
 def _is_known(x: acb, largest: arb) -> bool:
-    """Whether a weight is known to itself, or too small to matter."""
+    """Whether a weight is accurate relative to itself, or too small beside the ``largest`` to matter."""
     radius = max(_radius(x.real), _radius(x.imag))
     return radius <= WEIGHT_RADIUS * float(abs(x).mid()) or radius <= WEIGHT_RADIUS**2 * float(largest)
 
 
 def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:
-    """Return real parts of alpha's and beta's weights, then imaginary parts, (4, rows), over the largest."""
+    """Return Re alpha, Re beta, Im alpha, Im beta of the weights over the ``largest``, (4, rows)."""
     rows = [[x / largest for x in row] for row in pair]
     return np.array(
         [[float(x.real.mid()) for x in row] for row in rows] + [[float(x.imag.mid()) for x in row] for row in rows]

@@ -69,7 +69,10 @@ class Weighted:
         self.cancels = pair.hyperbolic or not (sizes < LARGE_TERM).all()
 
     def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
-        """Return v at times (m,), (3, N, m), dv/dt if asked for; and the sizes of v's terms, (N, m), 0 if all small."""
+        """Return ([v] or [v, dv/dt] if ``slopes``, sizes of v's terms) at times t (m,).
+
+        v is (3, N, m); sizes are (N, m), or 0.0 if no terms cancel.
+        """
         pair = self.pair
         turn, s, count = pair.places(t)
         f, levels = self._functions(s), range(1 + slopes)
@@ -110,7 +113,10 @@ class Weighted:
     def _directions(
         self, a: Array, b: Array, square: FloatArray, angle: FloatArray
     ) -> tuple[list[FloatArray], list[FloatArray], FloatArray]:
-        """Return the vectors of `_ways` and the body's axis in the laboratory, with slopes as a and b have, and nu."""
+        """Return (vectors of `_ways`, body's axis in the laboratory, nu (m,)).
+
+        The first two with slopes as a and b have.
+        """
         phase = np.empty(angle.size, complex)
         phase.real, phase.imag = np.cos(angle), np.sin(angle)
         u, w = ([2 / square * x] for x in (a[0], b[0]))
@@ -139,7 +145,7 @@ class Weighted:
 
     @staticmethod
     def _sum(ways: Sequence[FloatArray], factors: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
-        """Return the terms of v, or of dv/dt, from rows of derivatives, shape (3, rows, m)."""
+        """Return the terms of v (``level`` 0) or of dv/dt (1) from ``rows`` of the derivatives, shape (3, rows, m)."""
         pairs = [(ways[i], factors[level - i][:, rows]) for i in range(level + 1)]
         terms = [(way[:, j, None], derivative[j]) for way, derivative in pairs for j in range(4)]
         total = np.multiply(*terms[0])
@@ -152,7 +158,7 @@ class Weighted:
         self, t: FloatArray, s: FloatArray, count: FloatArray, by_s: Sequence[FloatArray], axis: Sequence[FloatArray],
         level: int,
     ) -> FloatArray:  # fmt: skip
-        """Return the functions of time that the columns weigh, or their slopes, shape (3, 8, m)."""
+        """Return the functions of time that the columns weigh (``level`` 0), or their slopes (1), shape (3, 8, m)."""
         (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
         basis = np.empty((3, 8, t.size))
         basis[:, 0], basis[:, 1], basis[:, 2], basis[:, 3], basis[:, 4] = s * v, count * v, t * e, e, s * e
@@ -165,9 +171,9 @@ class Weighted:
 
 
 class Varied:
-    """Derivatives of one motion in several inputs; inputs with equal constants share one evaluation.
+    """Derivatives of one motion in several inputs; inputs with equal constants are evaluated together.
 
-    Where the constants have no derivatives, or terms cancel, differences of the motion in balls take their place.
+    Where the constants have no derivatives, or terms cancel, differences of the motion in balls replace them.
     """
 
     def __init__(self, variations: Sequence[Variation], differences: Callable[[], Differences]) -> None:
@@ -180,7 +186,7 @@ class Varied:
         return self._make()
 
     def weighted(self, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
-        """Return the evaluators of v for combinations of inputs, see `Weighted`; v is the sum of all."""
+        """Return the `Weighted` evaluators of combinations of inputs, one for each group; v is the sum of all."""
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
             share = 0 if weighted else 1
@@ -192,7 +198,10 @@ class Varied:
         spins: FloatArray,
         combinations: list[Weighted],
     ) -> list[FloatArray]:  # fmt: skip
-        """Return v of combinations of inputs at times (m,), (m, N, 3), and dv/dt if asked for."""
+        """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
+
+        Raises DomainError at a time where the motion is too near a special case.
+        """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             block = slice(i, i + BLOCK)

@@ -45,12 +45,15 @@ class Inputs:
 
     @property
     def rate(self) -> float:
-        """Size of the rates."""
+        """Scale of the rates, the first scale of an angular velocity, a field or a Larmor frequency, in 1/time."""
         sizes = zip(self.names, self.scales, strict=True)
         return next(float(floats([size])[0]) for name, size in sizes if name.startswith(("omega", "K", "larmor")))
 
     def varied(self, names: Sequence[str]) -> Any:
-        """Return the evaluator of v and dv/dt for some of the inputs."""
+        """Return the `Varied` evaluator of derivatives in the inputs ``names``.
+
+        Next to a special case it uses differences alone.
+        """
         places = self._places(names)
         differences = partial(Differences, self.twin, self.values, places, self.scales)
         try:
@@ -59,7 +62,7 @@ class Inputs:
             return Varied([], differences)
 
     def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of a scalar, (len(names),)."""
+        """Return the derivatives of a scalar in the inputs ``names``, shape (len(names),)."""
 
         def make(*x: fmpq) -> Constants:
             return Constants((), {name: [arb(self.scalars[name](self.twin(*x)))]})
@@ -76,12 +79,12 @@ class Inputs:
 
 
 def size_of(*rates: fmpq) -> fmpq:
-    """Return the largest, 1 if all are zero."""
+    """Return the largest magnitude of the rates, 1 if all are zero."""
     return max((abs(x) for x in rates), default=fmpq(0)) or fmpq(1)
 
 
 def of_general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
-    """Return the inputs of a body in a field: the ratio, and field and angular velocity in the body at t = 0."""
+    """Return the `Inputs` of a body in a field: I, and K and omega in the body at t = 0."""
     size, J = size_of(*K, *omega), np.array([1.0, 1.0, *floats([I])])
     return Inputs(
         ("ratio", "K1", "K2", "K3", "omega1", "omega2", "omega3"), (I, *K, *omega), (I, *[size] * 6),
@@ -91,12 +94,12 @@ def of_general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
 
 
 def units(names: Sequence[str]) -> dict[str, FloatArray]:
-    """Return unit vectors by name."""
+    """Return unit vectors (3,) by name, in order; two names get the last two axes."""
     return dict(zip(names, np.eye(3)[3 - len(names) :], strict=True))
 
 
 def of_top(row: Sequence[Any]) -> Inputs:
-    """Return the inputs of a top."""
+    """Return the `Inputs` of a top from its row I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic."""
     values, row = tuple(map(rational, row)), [nearest(rational(x)) for x in row]
     I2, I3, k2, k3, n2, n3, w1, w2, w3 = values[:9]
     pull, push = (rational(float(np.sqrt(abs(x / row[0])))) for x in row[9:])
@@ -113,7 +116,7 @@ def of_top(row: Sequence[Any]) -> Inputs:
 
 
 def of_elliptic(exact: EllipticMotion) -> Inputs:
-    """Return the inputs of an elliptic motion."""
+    """Return the `Inputs` of an elliptic motion: moments, K at t = 0, and z."""
     size, (I1, I2, I3), J = size_of(*exact.field), exact.inertia, floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "K1", "K2", "K3", "z"), (*exact.inertia, *exact.field, exact.z),

@@ -86,7 +86,7 @@ class VariedPair:
         self.frequencies.append(frequencies[:count])
 
     def _place(self, tilt: FloatArray, tilts: FloatArray, order: FloatArray) -> None:
-        """Keep the axes of the frame of the field, and their rotation vectors for each input."""
+        """Set the axes of the frame of the field in the body, and their rotation vectors for each input."""
         (c, sine, C, S), (dc, ds, dC, dS) = tilt, tilts
         cos, sin = c * c - sine * sine, 2 * c * sine
         self.chi, lean = C * dS - S * dC, -2 * (c * ds - sine * dc)
@@ -94,7 +94,7 @@ class VariedPair:
         self.turning = np.stack([C * lean, -S * lean, -self.chi], -1) @ order.T
 
     def places(self, t: FloatArray) -> tuple[Array, FloatArray, FloatArray]:
-        """Return lambda t, s, and the count of whole cells."""
+        """Return (phase of the frame in rad, time s since the turning point, count of whole cells), (m,) each."""
         half, errors, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
         turn = 2 * (half + errors)
         if self.steady:
@@ -148,7 +148,7 @@ class Swing:
         self.columns[:, 6] = -self.change(np.eye(len(As)), start, zero)[:, 0]
 
     def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
-        """Return the derivatives of the angle in combinations of inputs, without their secular terms, (N, m)."""
+        """Return derivatives of the swing's angle, without terms linear in t, in N combinations of inputs, (N, m)."""
         values, bys, functions = [], [], []
         for i, weights in enumerate(self.sums):
             doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
@@ -197,7 +197,7 @@ class Swing:
 
 
 def _double(row: Sequence[Any]) -> Array:
-    """Return balls as complex doubles."""
+    """Return the midpoints of balls as a complex array."""
     return np.array([complex(acb(x).mid()) for x in row], dtype=complex)
 
 

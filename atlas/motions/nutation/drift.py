@@ -102,7 +102,11 @@ class Drift:
 
 
 def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatArray) -> Drift:
-    """Return the slow change of a symmetric body, see `atlas.drift`; `rates` are those of field and potential."""
+    """Return the `Drift` of a symmetric body at ``times``, see `atlas.drift`.
+
+    ``rates`` are the growth rates of field and potential (field, linear, quadratic), ``drag`` one rate, or two or
+    three.
+    """
     from scipy.integrate import solve_ivp
 
     body, state, nu = _start(motion)
@@ -148,7 +152,7 @@ def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatA
 
 
 def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
-    """Return the drag across and along the body's axis."""
+    """Return the drag (across the axis, along it) in 1/time. Raises AtlasError for two rates across the axis."""
     order = _order(motion) if drag.shape == (3,) else [0, 0, 1]
     rates = np.broadcast_to(drag, (3,) if drag.shape == (3,) else (2,))[order]
     if rates[0] != rates[1]:
@@ -240,9 +244,10 @@ class Averages:
 
 
 def _turning_points(Q: FloatArray, guess: float, deficit: float) -> tuple[float, float]:
-    """Return the roots of Q in [-1, 1] that enclose the `guess` of nu or are nearest; equal for a steady motion.
+    """Return the roots (low, high) of Q in [-1, 1] that enclose ``guess``, or are nearest; equal for a steady motion.
 
-    Raises DomainError where the maxima of Q in (-1, 1) are negative by more than `deficit` of its largest coefficient.
+    Raises DomainError where the maxima of Q in (-1, 1) are negative by more than ``deficit`` of its largest
+    coefficient.
     """
     roots = np.roots(Q)
     inside = np.sort(roots.real[(abs(roots.imag) < MIN_WIDTH) & (abs(roots.real) < 1 + MIN_WIDTH)].clip(-1.0, 1.0))

@@ -12,7 +12,7 @@ def _rates(motion: Any) -> Any:
 
 
 def _stability(motion: Any) -> str:
-    """Return "stable" or "unstable"."""
+    """Return "stable", "unstable", or "not steady" for a motion in which theta varies."""
     return {True: "stable", False: "unstable", None: "not steady"}[motion.stable]
 
 

@@ -23,7 +23,7 @@ def splitting(moments: Vector, K: Vector, z: Number) -> Number:
 
 
 def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
-    """Return C/D^2 of any K with sum K_i^2 = square and sum K_i^2/(z + D/I_i) = s."""
+    """Return C/D^2 for any K with sum K_i^2 = ``square`` and sum K_i^2/(z + D/I_i) = s, in 1/time^2."""
     D = moments[0] * moments[1] * moments[2]
     x, y, w = places(moments, z)
     P, lower_sum, second = x * y * w, x * y + y * w + w * x, 2 * (x + y + w)

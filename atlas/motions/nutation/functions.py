@@ -30,21 +30,24 @@ SECH_SCALE = 2.0**500
 
 
 class Steady:
-    """Basis of a steady motion: the single function 1."""
+    """Basis of a steady motion: the single function 1.
+
+    The classes of this module have the number of functions `count`, `weights` of a sum in these, and `fill`.
+    """
 
     def __init__(self, _found: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 1
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weight of each row in a sum."""
+        """Return the weights of the functions in a sum, a list of `count`."""
         return [sum_.even[0]]
 
     def of_one(self, *_phase: float) -> list[float]:
-        """Return the rows at one time."""
+        """Return the functions at one time, a list of `count`."""
         return [1.0]
 
     def fill(self, rows: FloatArray, _t: FloatArray) -> None:
-        """Fill the rows at times t."""
+        """Write the function 1 into ``rows`` (1, N)."""
         rows[0] = 1.0
 
 
@@ -57,7 +60,7 @@ class Trigonometric:
         self.count = 2 * self.terms + self.constant
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weight of each row in a sum."""
+        """Return the weights of the functions in a sum, a list of `count`."""
         if sum_.doubled:
             return [acb(0)] * (2 * self.terms) + [sum_.even[0]]
         pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
@@ -87,7 +90,10 @@ class Trigonometric:
             np.multiply(pairs[n - 1], factor, out=pairs[n])
 
     def of_one(self, half: float) -> list[float]:
-        """Return the rows at one time, up to a common factor, from half the phase."""
+        """Return the functions at one time up to a common factor, a list of `count`.
+
+        ``half`` is half the phase in rad.
+        """
         v = 2 * half if self.constant else half
         sine, cosine = sin(v), cos(v)
         rows, factor = [sine, cosine], 4 * cosine * cosine - 2
@@ -101,7 +107,7 @@ class Trigonometric:
         return 4 if self.constant else 2
 
     def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return cos 2v and sin 2v from the arguments of `fill`."""
+        """Return (cos 2v, sin 2v) from the argument u of `fill`."""
         if self.constant:
             u = 2 * u / (1.0 - u * u)
         square = u * u
@@ -135,7 +141,7 @@ class Hyperbolic:
         self.count = 2 * self.powers * (1 + self.sech)
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weight of each row in a sum."""
+        """Return the weights of the functions in a sum, a list of `count`."""
         none = [acb(0)] * (2 * self.powers)
         polynomial = (self._polynomials(sum_) + none)[: 2 * self.powers]
         if not self.sech:
@@ -195,14 +201,14 @@ class Hyperbolic:
 
 
 class Linear:
-    """x and 1, over the larger of |x| and 1; x is the time since the turning point."""
+    """The functions x and 1, both divided by the larger of |x| and 1; x is the time since the turning point."""
 
     def __init__(self, solution: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 2
         self.line = Line(solution.lattice.rate, solution.lattice.rate * solution.origin, saturates=False)
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weight of each row in a sum."""
+        """Return the weights of the functions in a sum, two numbers."""
         return [sum_.odd[0], sum_.even[0]]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
@@ -230,7 +236,7 @@ class Line:
         self.longest = (2 * MAX_EXPONENT + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
     def at(self, t: FloatArray, low: FloatArray | float) -> tuple[FloatArray, FloatArray]:
-        """Return x at time t + low, and its rounding error."""
+        """Return (x, its rounding error) at times t + low."""
         upper = t * SPLITTER
         upper -= upper - t
         lower = t - upper
@@ -260,7 +266,7 @@ ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
 
 
 def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
-    """Return the weights of S F^j and C F^j, alternating, from the weights of S(k x) and C(k x) for rising k."""
+    """Return the weights of S F^j and C F^j, alternating for rising j, from those of S(k x) and C(k x) for rising k."""
     total = list[acb]()
     for n, weights_of_k in enumerate(weights):
         total += [acb(0), acb(0)]
@@ -272,7 +278,10 @@ def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
 
 @cache
 def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
-    """Return the powers of F in a polynomial of the n-th pair, with their coefficients."""
+    """Return pairs (j, coefficient of F^j) of the polynomial that makes the n-th function from the first one.
+
+    The functions are S for ``place`` 0, C for 1.
+    """
     before, polynomial = (pair[place] for pair in (ONE_EVEN if doubled else ONE_ODD))
     for _ in range(n):
         before, polynomial = polynomial, F * polynomial - before

@@ -70,7 +70,7 @@ class Grid:
 
 
 def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
-    """Return the times start + i step as doubles, and their low words or None; first and last i are the extremes.
+    """Return (times start + i step as doubles, their low words or None) for ``index``, whose ends are its extremes.
 
     A low word is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times few and the start
     not far outside the grid, start and step are instead split at the last digit of a double twice as large as any time.
@@ -105,7 +105,7 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
 
 
 def fill_each(grid: Grid, out: FloatArray, start_index: int = 0) -> None:
-    """Fill the matrices time by time, i = first, first + 1, ..."""
+    """Fill ``out`` with the grid's matrices time by time, from index ``start_index`` on."""
     rows = out.reshape(len(out), 9)
 
     def fill(low: int, high: int) -> None:
@@ -119,7 +119,7 @@ def fill_each(grid: Grid, out: FloatArray, start_index: int = 0) -> None:
 
 @cache
 def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the NODES nodes in 0 ... length - 1, and matrices from values there to all values and to two coefficients.
+    """Return (`NODES` nodes in 0 ... length - 1, matrix from values there to all values, matrix to two coefficients).
 
     The nodes are Chebyshev's, with the ends, rounded to integers; the coefficients are the last two of his series.
     """
@@ -145,7 +145,7 @@ class Windows:
         self.values = np.empty((NODES * size, 9))
 
     def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
-        """Return values (j - i, NODES, 9) at the nodes of windows i ... j - 1, and whether polynomials suffice."""
+        """Return (matrices (j - i, NODES, 9) at the nodes of windows i ... j - 1, whether polynomials suffice)."""
         index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
         values = self.values[: index.size]
         self.grid.fill(self.evaluation, index.reshape(-1), values)
@@ -154,7 +154,7 @@ class Windows:
 
 
 def window(grid: Grid, count: int) -> int:
-    """Return the number of times that one polynomial may serve, estimated from the first windows; zero if too few."""
+    """Return the number of times that one polynomial may serve, judged by the first windows; 0 if too few."""
     angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.pair.frequencies)
     for length in LENGTHS:
         size = min(count // length, MAX_WINDOWS_TRIED)

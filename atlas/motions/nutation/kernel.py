@@ -43,7 +43,7 @@ class NutatingMotion(Motion[Nutation]):
 
     @cached_property
     def _blocks(self) -> Blocks:
-        """All motions in arrays, by blocks."""
+        """The motions in arrays, as `Blocks`."""
         return self._blocks_of(self._inputs, self.shape)
 
     @cached_property
@@ -53,7 +53,7 @@ class NutatingMotion(Motion[Nutation]):
 
     @cached_property
     def _rows(self) -> Rows:
-        """All motions in arrays, for a few times each."""
+        """The motions as `Rows`, for a few times each."""
         return Rows(self._blocks, self._motions_of)
 
     @kept
@@ -188,13 +188,19 @@ class NutatingMotion(Motion[Nutation]):
         return values
 
     def _scalar(self, name: str) -> FloatOrArray:
-        """Return a number for each motion, in an array NaN for a motion that has none."""
+        """Return a scalar as a float, or as an array with NaN for motions that have none.
+
+        Raises DomainError for a single motion that has none.
+        """
         return self._of_all(name, lambda exact: scalar(exact, name, strict=not self.shape))
 
     def _of_all(
         self, name: str, value: Callable[[Any], Value], as_values: Callable[[Any], Any] = np.asarray
     ) -> Value | NDArray[Any]:
-        """Return one value for each motion: a scalar or an array; uncertain entries come from balls."""
+        """Return value(exact) for each motion: itself, or an array (*shape, ...).
+
+        Values that arrays give with certainty are taken from `_scalars`, the others from the certified motions.
+        """
         if 0 < prod(self.shape) < self._min_array_motions or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
         values, is_certain = self._scalars[name]
@@ -210,14 +216,17 @@ class NutatingMotion(Motion[Nutation]):
         return of_nutation(self, self._single().exact)
 
     def _fill_grid(self, single: Nutation, start: float, step: float, out: FloatArray) -> None:
-        """Fill the matrices of one motion on a grid."""
+        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step."""
         from atlas.motions.nutation.grid import fill_grid
 
         fill_grid(single, start, step, out)
 
 
 def scalar(exact: Any, name: str, *, strict: bool) -> float:
-    """Return a number of a motion in balls, rounded once; without one NaN, or DomainError if `strict`."""
+    """Return the number ``name`` of a certified motion, rounded once; inf if it is infinite.
+
+    A motion without it gives NaN, or, if ``strict``, raises DomainError, as does a number too large for a float.
+    """
     try:
         ball = enclosed(lambda: arb(getattr(exact, name)), BITS)
     except DomainError:
@@ -251,6 +260,6 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
 
 def padded(roots: list[Any]) -> Any:
-    """Return an array of four complex roots, the missing ones infinite."""
+    """Return four complex roots, an array (4,), missing ones as inf."""
     finite_roots = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
     return np.array(finite_roots + [complex("inf")] * (4 - len(finite_roots)))

@@ -24,7 +24,7 @@ CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
 
 
 def balls(*row: float) -> Balls:
-    """Return one motion as balls: I1, I2, I3, B1, B2, B3, z, branch."""
+    """Return the certified motion of I1, I2, I3, B1, B2, B3, z, branch. Raises DomainError for inputs of no motion."""
     with workprec(FIRST_BITS):
         return Balls(row[:3], row[3:6], *row[6:])
 
@@ -168,7 +168,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return cls(start.moments, tuple(start.along(axes)[0]), **parameters), axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_elliptic`."""
         from atlas.motions.nutation.derivatives_inputs import of_elliptic
 
         return of_elliptic(self._single(i).exact)

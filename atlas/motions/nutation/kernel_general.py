@@ -25,7 +25,7 @@ CONSTANTS = (*NAMES[:4], "(M,B')")
 
 
 def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
-    """Return the motion with R(0) = 1 from the field and the angular velocity in the body, six exact numbers."""
+    """Return the `SingleGeneral` of moments, field and angular velocity in the body at t = 0, eight exact numbers."""
     with workprec(FIRST_BITS):
         return SingleGeneral(Balls.at_state(Moments(I2, I3), state[3:], state[:3]))
 
@@ -154,20 +154,23 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
     @kept
     def _constants(self) -> Any:
-        """Return E', K^2, c3, c5 and (M, B')/I2 of the inputs."""
+        """E', K^2, c3, c5 and (M, B')/I2 of the inputs, a list of five floats or arrays, each rounded once."""
         if not self.shape:
             return [nearest(x) for x in self._single().exact.invariants.values()]
         I2, I3, *state = self._inputs
         return over(constants, I2, I3, *state[3:], *state[:3], unit=slice(2, None), degree=(2, 2, 1, 2, 2))
 
     def _momentum(self, Omega: FloatArray) -> FloatArray:
-        """Return (Omega1, Omega2, I Omega3)."""
+        """Return (Omega1, Omega2, I Omega3) for angular velocities (..., 3)."""
         I = shape_factors(self.ratio)[0]
         return np.asarray(Omega * np.stack(np.broadcast_arrays(1.0, 1.0, I), -1))
 
 
 def field_components(field: Any) -> list[Any]:
-    """Return the components [B2, B3] of a field, or [B1, B2, B3] if three are given; of a `Field`, three if B1 != 0."""
+    """Return the components [B2, B3] of a field, or [B1, B2, B3] if three are given or a `Field` has B1 != 0.
+
+    They are arrays, or `Given`. Raises AtlasError for another number of components.
+    """
     try:
         three = field.prime[0] != 0 if hasattr(field, "prime") else len(getattr(field, "values", field)) == len("123")
     except TypeError:

@@ -32,20 +32,26 @@ from atlas.surfaces.kernel import TopQuadric
 
 
 def balls(*row: float) -> Balls:
-    """Return one motion as balls: I2, I3, k2, k3, n2, n3, the three components of omega, linear, quadratic."""
+    """Return the certified motion of I2, I3, k2, k3, n2, n3, three components of omega, linear, quadratic."""
     with workprec(FIRST_BITS):
         return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
 
 
 def _constants(*row: float) -> list[float]:
-    """Return twice the energy, M3 and p of I2, I3, k2, k3, n2, n3, linear, quadratic and omega, each rounded once."""
+    """Return [2 h, M3, p], h the energy over I2, each rounded once.
+
+    The row is I2, I3, k2, k3, n2, n3, linear, quadratic and omega.
+    """
     with workprec():
         h, M3, p = map(nearest, balls(*row[:6], *row[8:], *row[6:8]).invariants)
     return [2 * h, M3, p]
 
 
 def _in_plane(*numbers: Number) -> tuple[Number, ...]:
-    """Return n2, n3, omega, and cosine and sine, after the turn about e3 that makes n1 zero."""
+    """Return n2, n3, omega, and (cos, sin) of the rotation about e3 that makes n1 zero: seven numbers.
+
+    The ``numbers`` are n1, n2, n3, three components of omega, and 1.
+    """
     n1, n2, n3, w1, w2, w3, unity = numbers
     size = length(n1, n2)
     unit = select(size, size, unity)
@@ -323,7 +329,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @property
     def _twin(self) -> Balls:
-        """One top in balls. Raises AtlasError for an array."""
+        """The certified motion of one top. Raises AtlasError for an array."""
         if self.shape:
             raise AtlasError("This is asked of one top: give its parameters as numbers, not as arrays.")
         return self._single().exact
@@ -335,7 +341,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @staticmethod
     def _body_of(inertia: Any) -> Body:
-        """Return the body of a top with the moments (I2, I3)."""
+        """Return the `Body` with the moments (I2, I2, I3) along the axes of the class."""
         I2, I3 = components(inertia, ("I2", "I3"), "The inertia", INERTIA)
         return of_moments((I2, I2, I3), np.eye(3))
 
@@ -410,7 +416,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         return {"h": finite(plain(h), "h"), "M3": plain(M[..., 2]), "p": plain((M * b).sum(-1))}
 
     def _momentum(self, t: Any) -> FloatArray:
-        """Return M/I2 in the body."""
+        """Return the canonical momentum M/I2 along the axes of the class at times t, shape (..., 3), in rad/time."""
         (I2, I3), (k2, k3) = self.inertia, self.coupling
         return np.asarray(
             self._along_class(self.angular_velocity(t)) * np.stack(np.broadcast_arrays(1.0, 1.0, I3 / I2), -1)

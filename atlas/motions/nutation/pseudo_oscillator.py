@@ -33,7 +33,7 @@ class PseudoOscillator:
 
     @cached_property
     def integrals(self) -> Integrals:
-        """The integrals E', K^2, c3, c5 of (36) to (41)."""
+        """The `Integrals` E', K^2, c3, c5 of (36) to (41) of the initial data."""
         K = np.stack(np.broadcast_arrays(0.0, self.B2, self.B3), axis=-1)
         return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
 
@@ -55,7 +55,10 @@ class PseudoOscillator:
         return values
 
     def acceleration(self, u: Any) -> Any:
-        """Acceleration p(u) of Omega3, by (49): through omega3 - u, so that nothing cancels near the start."""
+        """Return p(u) of (49), the acceleration of Omega3 = u, in 1/time^3; it does not cancel near the start.
+
+        Raises DomainError if it is too large for a float.
+        """
         I, _, two_less = shape_factors(self.ratio)
         u, d, P, D, L = self._from_start(u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -70,10 +73,10 @@ class PseudoOscillator:
             return finite(plain(a1 + u * (2 * a2 + 3 * a3 * u)), "The derivative p'(u)")
 
     def quartic(self, u: Any) -> Any:
-        """First integral Q(u) = (du/dt)^2, negative where the motion cannot be; at the start (omega1 B2)^2.
+        """Return Q(u) = (du/dt)^2, in 1/time^4; negative where the motion cannot be, (omega1 B2)^2 at the start.
 
         Q = D L - P^2 with D = Omega1^2 + Omega2^2, L = K1^2 + K2^2, P = Omega1 K1 + Omega2 K2 as functions of u, with
-        the terms that cancel at d = omega3 - u = 0 taken out.
+        the terms that cancel at d = omega3 - u = 0 taken out. Raises DomainError if it is too large for a float.
         """
         I, _, two_less = shape_factors(self.ratio)
         u, d, _, _, L = self._from_start(u)
@@ -85,7 +88,7 @@ class PseudoOscillator:
             return finite(plain((self.omega1 * self.B2) ** 2 + d * constant_term), "The first integral Q(u)")
 
     def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
-        """Return u, d = omega3 - u, and the factors P, D, L of (49), see `quartic`."""
+        """Return (u, d = omega3 - u, P, D, L), the factors of (49) as arrays; see `quartic`."""
         I, _, two_less = shape_factors(self.ratio)
         u = self._met(u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -96,7 +99,7 @@ class PseudoOscillator:
         return u, d, P, D, L
 
     def _met(self, u: Any) -> FloatArray:
-        """Return u as an array that broadcasts with the parameters."""
+        """Return u as a float array. Raises AtlasError unless it broadcasts with the parameters."""
         array = real(u, "u")
         common_shape(self.shape, array.shape)
         return array

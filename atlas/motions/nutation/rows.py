@@ -32,9 +32,9 @@ MAX_RATE_TERMS = 16.0
 
 
 class Third(NamedTuple):
-    """The third component of Omega at t = 0, and its change, see `Change`; `start` are cos and sin of 2 y0.
+    """Omega3 of m motions: `value` is the initial one; `size` and `weights` are those of `Change`.
 
-    `reach` bounds the change, whose error is some u of that.
+    `start` are cos and sin of 2 y0; `reach` (m,) bounds |Omega3 - omega3|, whose error is some 2^-53 of that.
     """
 
     value: FloatArray
@@ -66,7 +66,7 @@ class Rows:
 
     @cached_property
     def field(self) -> tuple[Any, ...]:
-        """Constants of the axis and of the field of all motions."""
+        """Tuple of the `Constants` of axis and field of all motions, and of what else their class evaluates."""
         return self._constants(self._motions.constants)
 
     @cached_property
@@ -82,7 +82,7 @@ class Rows:
             )
 
     def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
-        """Return the motions of the given indices, paired with the times t of the same shape."""
+        """Return the motions of these indices paired with times t, as `MotionsAtTimes`."""
         return self._motions(self, index, t)
 
 
@@ -95,11 +95,11 @@ class MotionsAtTimes:
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the tuple of constants to be evaluated, of a `Block`; here those of the axis and the field alone."""
+        """Return the tuple of constants of a `Block` to be evaluated: here its `Constants` alone."""
         return (block.constants,)
 
     def rotation(self, _: FloatArray, out: FloatArray) -> None:
-        """Write R into (m, 3, 3)."""
+        """Write R of each motion at its time into ``out`` (m, 3, 3); the first argument, the times, is not used."""
         pair = self._pair(*self._rows.field)
         for j in range(3):
             pair.column(j + 1, out[:, :, j])
@@ -124,7 +124,7 @@ class MotionsAtTimes:
         pair.turn_back(out)
 
     def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
-        """Write K into (m, 3)."""
+        """Write K along the body's axes into ``out`` (m, 3)."""
         pair = self._pair(*self._rows.field)
         pair.vector(out)
         pair.turn_back(out)
@@ -139,7 +139,7 @@ class MotionsAtTimes:
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > MAX_OMEGA3_CHANGE * largest(out)))
 
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
-        """Return alpha and beta at the times; the indices of motions that need the scalar path become `extreme`."""
+        """Return the `CayleyKleinAtTimes` of the selected motions; `extreme` becomes the indices not covered by it."""
         selected = self._selected(swings) if swings and swings.twisted[self._index].any() else None
         pair = CayleyKleinAtTimes(self._selected(constants), self._times, selected)
         self.extreme = pair.extreme
@@ -155,7 +155,7 @@ class TopsAtTimes(MotionsAtTimes):
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the constants of the axis, of n in the body, and of the rotation by the integral of nu."""
+        """Return the tuple (`Constants`, `Swings`) of a block of tops; the latter is that of the integral of nu."""
         return block.constants, block.swings
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
@@ -231,14 +231,17 @@ class CayleyKleinAtTimes:
         return bool(self.constants.plane[1].any())
 
     def turn_back(self, out: FloatArray) -> None:
-        """Turn vectors (m, ..., 3), or quaternions, in place to the axes in which the field was given."""
+        """Rotate vectors (m, ..., 3) or quaternions in place to the axes in which the field was given."""
         if self.turns:
             x, y = out[..., 0].copy(), out[..., 1]
             cos, sin = (z.reshape(-1, *[1] * (x.ndim - 1)) for z in self.constants.plane)
             out[..., 0], out[..., 1] = cos * x + sin * y, cos * y - sin * x
 
     def vector(self, out: FloatArray, offset: int = 0) -> None:
-        """Write the vector into (m, 3), its first two components from the `offset` on."""
+        """Write the vector that moves on the sphere into ``out`` (m, 3).
+
+        With ``offset`` 1 its first two components change places.
+        """
         (cos, sin), (equatorial, axial) = self.constants.azimuth, self.constants.sizes
         x, y, z = (self._entry(2, j) for j in range(3))
         out[:, offset], out[:, 1 - offset], out[:, 2] = (
@@ -248,7 +251,7 @@ class CayleyKleinAtTimes:
         )
 
     def third(self, third: Third) -> FloatArray:
-        """Return the third component of the angular velocity, (m,)."""
+        """Return Omega3 of each motion at its time, (m,), in rad/time."""
         count, (cos, sin), (c, s) = self.constants.terms.max(initial=1), self.turn, third.start
         product = third.size / self.square
         for start in ((cos, sin), (cos * c - sin * s, sin * c + cos * s)):
@@ -257,7 +260,7 @@ class CayleyKleinAtTimes:
         return np.asarray(third.value + product)
 
     def _entry(self, i: int, j: int) -> FloatArray:
-        """Return the entry (i, j), shape (m,), of the matrix of (alpha, beta)."""
+        """Return the entry (i, j) of the rotation matrix of (alpha, beta), shape (m,)."""
         w, *v = self.pair[0].real, self.pair[1].real, self.pair[1].imag, self.pair[0].imag
         if i == j:
             k, n = (i + 1) % 3, (i + 2) % 3
@@ -267,9 +270,9 @@ class CayleyKleinAtTimes:
 
 
 def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
-    """Return cosines and sines of phases, frequencies in half turns and two words (2, n, m), at times (m,).
+    """Return (cosines (n, m), sines (n, m), (half the last phase, its rounding error)) of phases at times t (m,).
 
-    Half the last phase, less whole quarter turns, comes after them, with its rounding error.
+    Frequencies are ``words`` (2, n, m) in half turns; half the last phase, in rad, is reduced by quarter turns.
     """
     half, errors, sign, _ = Phases.of_words(words).angles(t, room(*words.shape[1:]))
     cos, sin = np.cos(2 * half), np.sin(2 * half)
@@ -277,7 +280,10 @@ def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
 
 
 def velocity(pair: CayleyKleinAtTimes, out: FloatArray) -> FloatArray:
-    """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
+    """Write the angular velocity of a pair along the body's axes, e1 across n, into ``out`` (m, 3).
+
+    Return a bound (m,) on the size of its terms, in rad/time.
+    """
     c, rates = pair.constants, pair.constants.rates
     with np.errstate(all="ignore"):
         circles = [*islice(multiples(*pair.circle), c.terms.max(initial=1))]

@@ -32,12 +32,14 @@ WEIGHT_RADIUS = 2.0**-57
 
 
 class Constants(NamedTuple):
-    """Constants of the pairs of motions in a row, the last axis of each.
+    """Constants of the Cayley-Klein pairs of m motions, the last axis over motions.
 
-    `words` (2, 3, m) are the frequencies l of alpha and beta and M in half turns, in two words, `frequency_error` (3,
-    m) bounds on their errors; `rates` (3, m) are the frequencies in radians. `even` and `odd` (MAX_TERMS, 2, m), of
-    which `terms` matter, `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|.
-    `tilt` (2, m) are cos and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
+    `words` (2, 3, m) are the frequencies l of alpha and beta, and M, in half turns, in two words; `frequency_error` (3,
+    m) bounds their errors; `rates` (3, m) are the frequencies in radians. `even` and `odd` (MAX_TERMS, 2, m), of which
+    `terms` matter, are weights, `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| +
+    |beta|. `tilt` (2, m) are cos and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`;
+    `plane` (2, m) are cos and sin of a rotation about e3, see `Roots`. `is_certain` marks the motions for which all
+    this is accurate.
     """
 
     words: FloatArray
@@ -58,7 +60,7 @@ class Constants(NamedTuple):
 
 @dataclass(frozen=True)
 class Block:
-    """A block of motions: the slice `rows`, their roots, and scaling exponents.
+    """A block of m motions: the slice `rows` of all, their `roots`, and scaling `exponents`.
 
     Frequencies are divided by 2^`exponents`; `is_similar` marks the motions whose inputs have similar sizes.
     """
@@ -75,24 +77,27 @@ class Block:
 
     @cached_property
     def pair(self) -> SpherePair:
-        """Pair of the axis and of the field."""
+        """The `SpherePair` alpha, beta of the axis and of the field."""
         return SpherePair(self.means, sphere_of_field(self.roots))
 
     @cached_property
     def swing(self) -> SwingSums | None:
-        """Rotation about the axis by the integral of nu; None where kappa is zero in all rows."""
+        """The `SwingSums` of the rotation of tops by the integral of nu; None where kappa is zero in all rows."""
         r = self.roots
         return swing_sums(self.means, r.n3, r.A) if r.top and r.top.twisted.any() else None
 
     @cached_property
     def swing_rate(self) -> DoubleDouble | None:
-        """Mean rate that the integral of nu adds to the turn of tops about their axis; None for bodies in a field."""
+        """Mean rate, in 1/time, that the integral of nu adds to the spin of tops; None for bodies in a field."""
         top = self.roots.top
         return chosen(top.twisted, top.kappa * self.swing.rate, top.kappa) if top and self.swing else top and top.kappa
 
     @property
     def swings(self) -> Swings | None:
-        """Evaluator of that rotation of tops at times."""
+        """The `Swings` of tops, evaluator at times of the rotation by the integral of nu.
+
+        None for bodies in a field.
+        """
         top = self.roots.top
         return top and Swings.of_block(self.swing, self.means, self.roots, top, self.exponents)
 
@@ -144,7 +149,7 @@ class Block:
 
 
 def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
-    """Return frequencies in half turns as words (2, ...) times 2^exponents, and bounds on their errors."""
+    """Return (words (2, ...) of frequencies in half turns, bounds on their errors), both times 2^``exponents``."""
     turns = rates * PER_RADIAN
     return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 
@@ -189,7 +194,7 @@ class TopBlocks(Blocks):
     """Tops I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic, which broadcast to a shape, by blocks."""
 
     def each(self) -> Iterator[Block]:
-        """Yield the blocks of tops, scaled by powers of two."""
+        """Yield a `Block` of tops after another, inputs divided by powers of two."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
             batch = [part(x, slice(start, start + BLOCK)) for x in columns]
@@ -228,7 +233,7 @@ def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
 
 
 def _exponent(x: FloatArray, plain: Any) -> Any:
-    """Return the power of two to divide by."""
+    """Return the exponents of x as by `numpy.frexp`, 0 where ``plain``."""
     return np.where(plain, 0, np.frexp(x)[1])
 
 

@@ -75,7 +75,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def is_excluded(self) -> Any:
-        """Mask of the rows whose motion is not elliptic."""
+        """Mask of the rows that are not certainly elliptic motions."""
         return ~self.elliptic
 
     @property
@@ -112,7 +112,7 @@ class Pencil:
 
     @staticmethod
     def pick(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
-        """Return the component of `numbers` along an axis."""
+        """Return the component of three ``numbers`` along ``axis``, an index or an array of indices."""
         K_b, K_c, third = numbers
         return chosen(axis == 0, K_b, chosen(axis == 1, K_c, third))
 
@@ -122,7 +122,7 @@ class Pencil:
         return self.z * (pick(i, self.I) - pick(j, self.I)) * pick(i, self.e) * pick(j, self.e)
 
     def share(self, third: Any, outer: Any, axis: Any) -> DoubleDouble:
-        """Return (e_third - e_other)/(e_third - e_axis) K_other^2, by moments."""
+        """Return (e_third - e_outer)/(e_third - e_axis) K_outer^2, computed from moments without cancellation."""
         pick, I, x = self.pick, self.I, self.x
         size = pick(outer, self.K)
         up = (pick(third, I) - pick(outer, I)) * pick(axis, I) * pick(axis, x)
@@ -161,7 +161,7 @@ class Pencil:
 
 
 def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
-    """Return the turning points and the constants of the sphere of K from I1, I2, I3, B1, B2, B3, z, branch."""
+    """Return the `EllipticRoots` of I1, I2, I3, B1, B2, B3, z, branch."""
     pencil = Pencil(*inputs)
     pick, I, K, e, v = pencil.pick, pencil.I, pencil.K, pencil.e, pencil.v
     axis, middle, outer = pencil.nutation_axis
@@ -220,13 +220,13 @@ def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
 
 @dataclass(frozen=True)
 class EllipticBlock(Block):
-    """Elliptic motions of a block."""
+    """A block of elliptic motions; `roots` are `EllipticRoots`."""
 
     roots: EllipticRoots  # type: ignore[assignment]  # both are TurningPoints
 
     @cached_property
     def pair(self) -> SpherePair:
-        """Pair of the axis a, on the sphere of K."""
+        """The `SpherePair` alpha, beta of the nutating axis, on the sphere of K."""
         r = self.roots
         length, half = r.b.hi, r.precession.scaled(-1)
         return SpherePair(
@@ -260,7 +260,7 @@ class EllipticScalars(Scalars):
 
 
 def _scalars(block: Block) -> dict[str, Rounded]:
-    """Return kind, period, moduli, nome, the angles of a period, v and Omega(0) of a block."""
+    """Return scalars of a block by name: kind, period, moduli, nome, angles in a period, v and omega, as `Rounded`."""
     with np.errstate(all="ignore"):
         r, angles = cast("EllipticRoots", block.roots), block.pair.angles
         mean = angles[0] + angles[1] + r.precession.scaled(1)
@@ -297,7 +297,7 @@ class EllipticAtTimes(MotionsAtTimes):
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the constants of the pair of a block, and its axes."""
+        """Return the tuple (`Constants`, `Axes`) of a block."""
         r = block.roots
         rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
         return block.constants, Axes(r.frame, np.array(rates))
@@ -308,7 +308,7 @@ class EllipticAtTimes(MotionsAtTimes):
 
     @property
     def _frames(self) -> FloatArray:
-        """The axes of the pair in the body, (m, 3, 3)."""
+        """The axes of the pair in the body, as columns, (m, 3, 3)."""
         return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
@@ -334,6 +334,6 @@ class EllipticAtTimes(MotionsAtTimes):
         out[:] = np.matvec(self._frames, out)
 
     def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
-        """Write Omega = (E - 1) K into (m, 3)."""
+        """Write Omega = (E - 1) K along the body's axes into ``out`` (m, 3)."""
         self.field_in_body(t, out)
         out *= self._rows.field[1].rates[:, self._index].T

@@ -43,7 +43,7 @@ class Level:
 
 
 class Means:
-    """Arithmetic-geometric means from the roots of motions: rate M = pi/T, moduli, nome, and start."""
+    """Arithmetic-geometric means of m motions from their turning points: rate M = pi/T, moduli, nome, start."""
 
     def __init__(self, roots: TurningPoints) -> None:
         self.roots = roots
@@ -81,7 +81,7 @@ class Means:
         return levels
 
     def level(self, n: int) -> Level:
-        """Return the level after n steps, the last one for n beyond it."""
+        """Return the `Level` after n steps, or the last one."""
         return self.levels[min(n, len(self.levels) - 1)]
 
     @cached_property
@@ -111,7 +111,7 @@ class Means:
 
     @cached_property
     def start(self) -> Circle:
-        """Cosine and sine of M t0, t0 the time at the start since Omega3 was `low`: cot(2 M t0) = (c - a g/c)/2."""
+        """(cos, sin) of M t0, t0 the time at t = 0 since Omega3 was `low`: cot(2 M t0) = (c - a g/c)/2."""
         r = self.roots
         square, below = r.ends[0].scaled(-2) * r.high, -r.low
         scaled = self.N * below
@@ -134,19 +134,19 @@ class Means:
 
 
 def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
-    """Return cosine and sine of the angle of a point."""
+    """Return (cos, sin) of the polar angle of the point (x, y)."""
     size = (x * x + y * y).sqrt()
     return x / size, y / size
 
 
 def _sum_of_angles(angle: Circle, increment: Circle) -> Circle:
-    """Return cosine and sine of the sum of two angles."""
+    """Return (cos, sin) of the sum of two angles."""
     (a, b), (c, d) = angle, increment
     return a * c - b * d, a * d + b * c
 
 
 def _half(angle: Circle) -> Circle:
-    """Return cosine and sine of half an angle below pi, the sine with its sign."""
+    """Return (cos, sin) of half an angle between -pi and pi."""
     cos, sin = angle
     larger = ((abs(cos) + ONE).scaled(-1)).sqrt()
     smaller = sin / larger.scaled(1)

@@ -69,7 +69,7 @@ class SpherePair:
 
     @cached_property
     def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
-        """p^2, and after the first step p and p - a, (2, m)."""
+        """(p^2, p after the first step, p - a after it), each (2, m): starts of the means for the third kind."""
         m, k = self.means, self.sphere
         r, top = m.roots, m.levels[0]
         square = stacked(r.ends[0], r.ends[1]).scaled(-2) * abs(k.near_distance) / k.far_distance
@@ -83,7 +83,7 @@ class SpherePair:
 
     @cached_property
     def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """The sum of Gauss's complete integrals of the third kind, and exp of the depths of zeros, (2, m)."""
+        """(Sum of Gauss's complete integrals of the third kind, exp of the depths of zeros), each (2, m)."""
         m, (square, p, d) = self.means, self._starts
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
         top = m.levels[0]
@@ -94,7 +94,7 @@ class SpherePair:
 
     @cached_property
     def zeros(self) -> Zeros:
-        """Zeros of alpha and beta."""
+        """The `Zeros` of alpha and beta, (2, m)."""
         inside, k = self._starts[0].hi > self.means.N.hi, self.sphere
         # where the vector starts at a pole, that of beta belongs to `low` and that of alpha to `high`
         is_at_low = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
@@ -172,14 +172,14 @@ class SpherePair:
         return Change(chosen(abs(at_low.hi) > abs(at_high.hi), below, above), weights)
 
     def _length(self, sums: DoubleDouble) -> DoubleDouble:
-        """Return |alpha|^2 + |beta|^2 for given values of the two theta sums."""
+        """Return |alpha|^2 + |beta|^2, (m,), for given values of the two theta sums (2, m)."""
         x, y = self.sums.start
         sum_of_two = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
         return sum_of_two[0] + sum_of_two[1]
 
     @cached_property
     def factors(self) -> tuple[Any, FloatArray]:
-        """Factors of the sums, shape (2, m), complex, and their relative error."""
+        """(Complex factors F of the two sums, bounds on their relative errors), each (2, m)."""
         k, (x, y) = self.sphere, self.sums.start
         size = x * x + y * y
         error = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
@@ -188,7 +188,7 @@ class SpherePair:
 
     @property
     def _by_slopes(self) -> Any:
-        """Factors of alpha and beta where these are zero at the start, from their derivatives there."""
+        """Factors (2, m) of alpha and beta that vanish at the start, from their derivatives there."""
         cos, sin = (x.hi for x in self.means.start)
         terms = zip(range(1, 2 * MAX_TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
         slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
@@ -196,7 +196,7 @@ class SpherePair:
 
 
 def multiples(cos: Any, sin: Any) -> Iterator[tuple[Any, Any]]:
-    """Yield cosines and sines of an angle times 1, 3, 5 ..., in doubles or in two words."""
+    """Yield (cos, sin) of 1, 3, 5 ... times an angle, of the type of the arguments."""
     cosine = cos * cos - sin * sin
     twice, before, circle = cosine + cosine, (cos, -sin), (cos, sin)
     while True:
@@ -207,7 +207,7 @@ def multiples(cos: Any, sin: Any) -> Iterator[tuple[Any, Any]]:
 def _steps(
     levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
 ) -> tuple[DoubleDouble, DoubleDouble]:
-    """Return the sum after Q and the factor of the depth of the steps from p = a + d on, x = (a - g)/d."""
+    """Return (sum of the terms after Q, factor of exp of the depth), (2, m) each, of steps from p = a + d on."""
     m, after = levels[0], levels[1]
     denominator, above, increment = p * p + m.product, p + m.a, x + ONE
     Q = (Q * (d * above + m.a * m.difference) / denominator).scaled(-1)

@@ -56,12 +56,12 @@ class TurningPoints:
 
     @cached_property
     def width(self) -> DoubleDouble:
-        """Distance of the turning points."""
+        """Distance high - low of the turning points, (m,)."""
         return self.high - self.low
 
     @cached_property
     def discriminant(self) -> DoubleDouble:
-        """A quarter of the discriminant of the other factor: positive for four real roots."""
+        """A quarter of the discriminant of the other factor f of Q, (m,): positive for four real roots."""
         f0, f1, f2 = self.f
         return f1.scaled(-1) * f1.scaled(-1) - f0 * f2
 
@@ -74,7 +74,10 @@ class TurningPoints:
 
     @cached_property
     def other_roots(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
-        """Roots x, y of the other factor and 0 if they are real; else their real part twice, and the imaginary part."""
+        """Roots (x, y, 0) of the other factor if they are real, else (real part, real part, imaginary part).
+
+        (m,) each.
+        """
         f0, f1, f2 = self.f
         half, real = -f1.scaled(-1), self.discriminant.hi > 0
         root = abs(self.discriminant).sqrt()
@@ -162,7 +165,7 @@ def roots_of(
     top: Top | None = None,
     plane: FloatArray | None = None,
 ) -> Roots:
-    """Return the turning points and the rest of bodies in a field n = (B2, B3), or of tops in the direction n.
+    """Return the `Roots` of bodies in a field n = (B2, B3), or of tops in the direction n.
 
     In v = n3 - b nu, Omega3 - omega3 for a body in a field,
 
@@ -215,7 +218,10 @@ def from_start(
 def in_plane(
     n1: DoubleDouble, n2: DoubleDouble, n3: DoubleDouble, *omega: DoubleDouble
 ) -> tuple[tuple[DoubleDouble, DoubleDouble], Sequence[DoubleDouble], FloatArray | None]:
-    """Return a vector n and omega after the turn about e3 that brings n to n1 = 0, and cosine and sine of that."""
+    """Return ((n2, n3), omega, plane): both vectors rotated about e3 so that n1 = 0; ``plane`` is (cos, sin), (2, m).
+
+    The plane is None, and the vectors are unchanged, if n1 is zero in all rows.
+    """
     turns = n1.hi != 0
     if not turns.any():
         return (n2, n3), omega, None
@@ -235,12 +241,12 @@ def poles_of(k_along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> Do
 
 
 def plus(x: Number | None, y: Number) -> Number:
-    """Return a sum whose first term may not be there."""
+    """Return x + y; y if x is None."""
     return y if x is None else x + y
 
 
 def roots_of_tops(*inputs: DoubleDouble) -> Roots:
-    """Return the same from I2, I3, k2, k3, n2, n3, the three of omega, linear and quadratic."""
+    """Return the `Roots` of tops from I2, I3, k2, k3, n2, n3, three components of omega, linear and quadratic."""
     I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = inputs
     twisted = (k3 * I2 - k2 * I3).hi != 0
     I, less, k, turn = I3 / I2, (I2 - I3) / I2, k2 / I2, k3 / I3
@@ -293,10 +299,10 @@ ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0, 1.0])[:, None]
 
 
 def _first_root(q: FloatArray, reach: FloatArray, starts_flat: Any) -> FloatArray:
-    """Return the first root above 0, (m,), of polynomials q (5, m) that are positive before it, in doubles.
+    """Return the first root above 0, at most ``reach``, of polynomials q (5, m) positive before it, in doubles, (m,).
 
-    Where `starts_flat`, 0 is a root, and the result if q is negative beyond. No step passes the root: each goes to the
-    root of a parabola below q, whose second derivative is the least of q between here and `reach`.
+    Where ``starts_flat``, 0 is a root, and the result if q is negative beyond. No step passes the root: each goes to
+    the root of a parabola below q, whose second derivative is the least of q between here and ``reach``.
     """
     q = np.where(starts_flat, np.concatenate([q[1:], 0 * q[:1]]), q)
     roots, rows = np.zeros_like(reach), np.arange(reach.size)
@@ -321,7 +327,10 @@ def _first_root(q: FloatArray, reach: FloatArray, starts_flat: Any) -> FloatArra
 
 
 def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:
-    """Return roots in two words from doubles by one Newton step of third order, with a bound on the error."""
+    """Return roots as `DoubleDouble` from doubles v (m,), by one Newton step of third order.
+
+    Inf bounds if it is large.
+    """
     x = DoubleDouble(v)
     value = q[4]
     for c in q[3::-1]:

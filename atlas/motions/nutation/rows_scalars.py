@@ -63,11 +63,11 @@ class Scalars:
         return self._known[name]
 
     def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
-        """Return the function that computes a scalar, together with all scalars of the same pass."""
+        """Return the function from a `Block` to the scalar ``name`` and all others of its pass, by name."""
         return _angles if name.endswith("per_period") else _scalars
 
     def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:
-        """Evaluate some scalars."""
+        """Evaluate the scalars that ``values`` gives for all blocks, and cache them."""
         rounded_roots: dict[str, list[Rounded]] = {}
         count = self.blocks.count
         for block in self.blocks if count else type(self.blocks)((1.0,) * len(self.blocks.inputs), (1,)):
@@ -79,7 +79,7 @@ class Scalars:
 
 
 def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
-    """Return numbers of a block, homogeneous of a degree in the frequencies, rounded once."""
+    """Return numbers x of a block as `Rounded`; they are homogeneous of ``degree`` in the frequencies."""
     values, is_sure = x.nearest()
     values = np.ldexp(values, degree * block.exponents)
     return Rounded(
@@ -110,7 +110,7 @@ def _of_tops(block: Block) -> dict[str, Rounded]:
 
 
 def of_period(block: Block) -> dict[str, Rounded]:
-    """Return period, moduli and nome of a block."""
+    """Return period, modulus, complementary modulus and nome of a block, each a `Rounded` by name."""
     means, nome = block.means, block.means.nome
     return {
         "period": rounded(HALF_TURN / means.rate, block, -1),
@@ -121,7 +121,7 @@ def of_period(block: Block) -> dict[str, Rounded]:
 
 
 def _kinds(block: Block) -> dict[str, Rounded]:
-    """Return {"kind": index into KINDS} of a block."""
+    """Return {"kind": `Rounded` of indices into KINDS} of a block of bodies in a field."""
     r = block.roots
     steady = np.select([r.at_rest, r.starts_on_field], [3, 5], 4)
     fieldless, moving = np.where(r.at_rest, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
@@ -131,7 +131,7 @@ def _kinds(block: Block) -> dict[str, Rounded]:
 
 
 def _all_roots(block: Block) -> dict[str, Rounded]:
-    """Return the turning points, (2, m), and the roots of Q, (4, m)."""
+    """Return the turning points (2, m) and the complex roots of Q (4, m), each a `Rounded` by name."""
     r = block.roots
     root_1, root_2, imaginary = r.other_roots
     low, high = (rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))

@@ -76,7 +76,7 @@ def sphere_of_field(r: Roots) -> Sphere:
 
 
 def half_angles(axial: DoubleDouble, flat: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
-    """Return cosine and sine, (2, m), of half the angle whose cosine and sine are along/b and across/b."""
+    """Return cosine and sine, (2, m), of half the angle whose cosine is ``axial``/b and whose sine is ``flat``/b."""
     longer = ((abs(axial) / b + ONE).scaled(-1)).sqrt()
     shorter = flat / (longer * b).scaled(1)
     up = axial.hi >= 0

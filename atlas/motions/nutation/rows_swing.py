@@ -75,7 +75,7 @@ class Swings(NamedTuple):
 
     @classmethod
     def of_block(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
-        """Return the constants of the turn for the tops of a block."""
+        """Return the `Swings` of the tops of a block; ``sums`` None stands for no rotation by the integral of nu."""
         A, kappa, (cos, sin) = r.A, top.kappa, means.start
         nothing = np.zeros((MAX_TERMS, *A.hi.shape), dtype=np.longdouble)
         sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))
@@ -100,14 +100,17 @@ class Swings(NamedTuple):
         return swings._replace(before=swings.half_of(*start)[0])
 
     def half(self, phase: tuple[FloatArray, FloatArray], t: FloatArray) -> tuple[Extended, FloatArray]:
-        """Return half the swing since t = 0 and its error, from half the phase in two words, in radians."""
+        """Return (half the swing since t = 0 in rad, a bound on its error), (m,) each.
+
+        ``phase`` is half the phase in rad, in two words.
+        """
         angle = 4 * (phase[0].astype(np.longdouble) + phase[1])
         (c, s), cos, sin = self.start, np.cos(angle), np.sin(angle)
         turn, error = self.half_of(c * cos - s * sin, s * cos + c * sin)
         return turn - self.before, 2 * error + np.pi * self.slope * self.frequency_error * abs(t)
 
     def half_of(self, cos: Extended, sin: Extended) -> tuple[Extended, FloatArray]:
-        """Return half the swing, in rad, and its error, from cosine and sine of 2 y."""
+        """Return (half the swing in rad, a bound on its error), (m,) each, from cos and sin of 2 y."""
         even, odd, multiple, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
         lost_even, lost_odd = abs(self.even[0]), 0 * abs(sin)
         for n in range(1, MAX_TERMS):
@@ -124,7 +127,7 @@ class Swings(NamedTuple):
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
-    """Return the sums of tops, from b nu at t = 0 and A/b^2."""
+    """Return the `SwingSums` of tops, from b nu at t = 0 and A/b^2."""
     r, square = means.roots, means.nome * means.nome
     is_at_low = r.ends.hi[0] < r.ends.hi[1]
     size = abs(A).sqrt()
@@ -160,7 +163,10 @@ def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
 
 
 def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle:
-    """Return the weights of a term but for the power of q: where two roots are complex, q is i q, and c is shifted."""
+    """Return the weights (of cos, of sin) of term n without the power of q.
+
+    Where two roots are complex, q stands for i q, and the angle c is shifted.
+    """
     (cos, sin), sign = circle, np.where(four, (-1.0) ** n, (-1.0) ** ((n + 1) // 2))
     if n % 2:
         cos, sin = chosen(four, cos, size * sin), chosen(four, sin, cos / size)
@@ -168,7 +174,7 @@ def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle
 
 
 def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circle:
-    """Return cosine and sine of c, the sine over sqrt(|A|), which is `size`."""
+    """Return (cos c, sin c/sqrt(|A|)) of the angle c at which nu is infinite; ``size`` is sqrt(|A|)."""
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()
     roots = fourth * fourth
@@ -208,5 +214,5 @@ def _sum_of_angles(angle: Circle, increment: Circle, A: DoubleDouble) -> Circle:
 
 
 def extended(x: DoubleDouble) -> Extended:
-    """Return numbers in two words in the longest type."""
+    """Return double-double numbers as long doubles."""
     return x.hi.astype(np.longdouble) + x.low

@@ -34,17 +34,14 @@ VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
 
 
 class SingleMotion:
-    """One motion whose axis nutates: its constants in balls, and the evaluation of matrices at times.
-
-    `exact` is the motion with R(0) = 1.
-    """
+    """Evaluator of one motion whose axis nutates; ``exact`` is the certified motion with R(0) = 1."""
 
     def __init__(self, exact: Nutating) -> None:
         self.exact = exact
 
     @cached_property
     def pair(self) -> CayleyKlein:
-        """Constants of (alpha, beta). Raises DomainError where alpha or beta underflows."""
+        """Constants of (alpha, beta), a `CayleyKlein`. Raises DomainError where alpha or beta underflows."""
         exact = self.exact  # not of self, which holds the parts: memory would wait for the collector of garbage
         pair = CayleyKlein(lambda: exact.solution)
         if pair.is_lost:
@@ -66,26 +63,26 @@ class SingleMotion:
 
     @cached_property
     def entries(self) -> FloatArray:
-        """Weights of the products in the entries of R, (10, 9)."""
+        """Weights (10, 9) with which the ten products of (alpha, beta) sum to the entries of R."""
         return entries(*self.sides)
 
     @cached_property
     def field(self) -> FloatArray:
-        """Weights of the products in K, (10, 3)."""
+        """Weights (10, 3) with which the ten products of (alpha, beta) sum to K."""
         with workprec(2 * BITS):
             b = nearest(arb(self.exact.b))
         return np.asarray(b * VECTOR @ self.sides[1])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape (..., 3, 3)."""
+        """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled."""
         return self._linear(self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), shape (..., 3)."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); ``out``, if given, is filled."""
         return self._linear(np.ascontiguousarray(self.entries[:, j - 1 :: 3]), t, (3,), out)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t with w >= 0 at t = 0, shape t.shape + (4,)."""
 
         def prepare(size: int) -> Any:
             """Return the function that fills a block of times."""
@@ -108,7 +105,7 @@ class SingleMotion:
         return np.asarray(-matrix if start[3] < 0 else matrix)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t), shape (..., 3)."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time."""
         return self._linear(self.field, t, (3,), out)
 
     def _linear(
@@ -119,7 +116,10 @@ class SingleMotion:
         out: FloatArray | None,
         pair: CayleyKlein | None = None,
     ) -> FloatArray:
-        """Return linear combinations (*t.shape, *shape) of the products of alpha and beta, or of `pair`, at times t."""
+        """Return linear combinations, shape t.shape + ``shape``, of the ten products of (alpha, beta) at times t.
+
+        ``weights`` (10, prod(shape)) are constant; ``pair`` replaces (alpha, beta) of the motion.
+        """
         times, pair = real(t, "The time"), pair or self.pair
         if times.size == 1 and pair.at_one_time:
             out = target(out, times.shape + shape)
@@ -143,15 +143,16 @@ BALL_BLOCK = 16
 
 
 class SingleGeneral(SingleMotion):
-    """One general motion: its constants in balls, and the evaluation of matrices at times."""
+    """Evaluator of one general motion; ``exact`` is the certified motion with R(0) = 1."""
 
     exact: GeneralMotion
 
     @cached_property
     def velocity(self) -> tuple[CayleyKlein, FloatArray, float, float]:
-        """The pair (alpha, beta) of (Omega2, Omega1, -sqrt(I) Omega3), the weights of its products in Omega, and sizes.
+        """The pair of (Omega2, Omega1, -sqrt(I) Omega3), weights of its products in Omega, and two sizes.
 
-        The sizes are the largest that Omega across and along the axis could be, sqrt(E') and sqrt(E'/I).
+        The tuple is (`CayleyKlein`, (10, 3), sqrt(E'), sqrt(E'/I)): the sizes are the largest that Omega across and
+        along the axis could be, in rad/time.
         """
         pair = CayleyKlein(lambda: self.exact.velocity)
         sizes = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
@@ -160,7 +161,10 @@ class SingleGeneral(SingleMotion):
         return pair, VECTOR @ turn, equatorial, axial
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return q(t), shape (..., 4); components that are zero at all times are exactly zero."""
+        """Return the quaternion (x, y, z, w) of R(t), shape t.shape + (4,).
+
+        Components zero at all times are exactly zero.
+        """
         q = super().quaternion(t, out)
         q[..., self._zeros] = 0.0
         return q
@@ -190,7 +194,7 @@ class SingleGeneral(SingleMotion):
         return Omega
 
     def _third(self, t: FloatArray) -> FloatArray:
-        """Return Omega3 at times (m,): for many in double-double, and from balls where that is not accurate enough."""
+        """Return Omega3 at times t (m,) in rad/time, in double-double, or from balls where that is not accurate."""
         out, uncertain = np.empty((t.size, 3)), np.arange(t.size)
         if t.size > BALL_BLOCK:
             from atlas.motions.nutation.rows import MotionsAtTimes, Rows
@@ -208,7 +212,7 @@ class SingleGeneral(SingleMotion):
 
 
 class SingleTop(SingleMotion):
-    """One motion of a top: its constants in balls, and the evaluation of matrices at times."""
+    """Evaluator of one motion of a top; ``exact`` is the certified motion with R(0) = 1."""
 
     exact: TopMotion
 
@@ -218,7 +222,10 @@ class SingleTop(SingleMotion):
         return CayleyKlein(lambda: self.exact.solution, slopes=True)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t), shape (..., 3): twice the vector part of the quaternion's logarithmic derivative."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
+
+        It is twice the vector part of the quaternion's logarithmic derivative.
+        """
         kappa = nearest(self.exact.quartic.kappa) if self._sloping.swing else 0.0
 
         def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:

@@ -18,7 +18,7 @@ MAX_ERROR = 3.6e-15
 
 
 class SingleElliptic(SingleMotion):
-    """One elliptic motion: its constants in balls, and the evaluation of matrices at times."""
+    """Evaluator of one elliptic motion; ``exact`` is the certified motion with R(0) = 1."""
 
     exact: EllipticMotion
 
@@ -39,7 +39,7 @@ class SingleElliptic(SingleMotion):
         return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t), Omega_i = (E_i - 1) K_i, or I^-1 m of a free body, shape (..., 3)."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,): (E_i - 1) K_i, or I^-1 m of a free body."""
         Omega = self._linear(self.field, t, (3,), out)
         Omega *= self._rates
         return Omega
@@ -52,14 +52,14 @@ class SingleElliptic(SingleMotion):
 
 
 class SingleEulerTop(SingleElliptic):
-    """One free body, or one that spins about a principal axis along the field, which is constant in the body."""
+    """Evaluator of a free body, or of a spin about a principal axis along the field, which is constant in the body."""
 
     def __init__(self, exact: EulerTop, field: FloatArray) -> None:
         super().__init__(exact)
         self._constant = field
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K, which is constant, shape (..., 3)."""
+        """Return the constant K along the body's axes, shape t.shape + (3,), in 1/time."""
         K = target(out, (*np.shape(t), 3))
         K[...] = self._constant
         return K

@@ -15,7 +15,10 @@ from atlas.motions.spectrum import Wheels, function_of, rodrigues
 
 
 def of_nutation(motion: Any, exact: Any) -> Wheels:
-    """Return the turns of a motion in one nutation, or without."""
+    """Return the `Wheels` of a motion with one phase, of nutation, or none if it is steady.
+
+    Raises DomainError on a separatrix.
+    """
     (L, C), rates = motion._sides, enclosed(lambda: _rates(exact), BITS)  # noqa: SLF001  of a motion
     half, p, s = (float(x.mid()) for x in rates)
     finite(2 * half, "The period")
@@ -46,7 +49,10 @@ def of_nutation(motion: Any, exact: Any) -> Wheels:
 
 
 def _rates(exact: Any) -> list[arb]:
-    """Return half the period of nutation, and the rates about the field and about the body's axis."""
+    """Return [half the period of nutation, rate about the field, rate about the body's axis] as balls.
+
+    For a steady motion the first is 1. Raises DomainError on a separatrix.
+    """
     solution = exact.solution
     if exact.is_steady:
         first, second = arb(solution.alpha.rate), arb(solution.beta.rate)

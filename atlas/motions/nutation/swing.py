@@ -41,9 +41,11 @@ MAX_LAST_DIGIT = 2.0**-54
 
 
 class Swing:
-    """Half of the periodic part, in radians, as a function of the time in a period; in numbers of `type`.
+    """Half the rotation of a top about its axis by the integral of nu, without its mean, in rad.
 
-    `twist` is the part proportional to that time, in radians by half turns of v, if there is a period.
+    Numbers are of `type`, double or long double. `twist` is the part proportional to the time in a period, in radians
+    per half turn of v; `is_known` says whether all constants are accurate, `is_coarse` whether even long doubles lose
+    digits.
     """
 
     def __init__(self, exact: Exact) -> None:
@@ -70,7 +72,7 @@ class Swing:
 
     @property
     def is_large(self) -> bool:
-        """Whether extended precision is used."""
+        """Whether the angle needs long doubles."""
         return self.type is np.longdouble
 
     def _number(self, x: arb | int) -> Any:
@@ -80,7 +82,7 @@ class Swing:
         return self.type(head) + self.type(float(middle - head))
 
     def _count_terms(self, weights: list[arb]) -> int:
-        """Return the number of terms that are not negligible, at least 1."""
+        """Return the number of leading terms that are not negligible, at least 1."""
         terms = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
         largest = max(terms, key=lambda x: float(x.mid()))
         return max((n + 1 for n, x in enumerate(terms) if not x < NEGLIGIBLE * largest), default=1)
@@ -91,19 +93,25 @@ class Swing:
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
 
     def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
-        """Return half the whole turn of a motion without a period; `half` is half the mean turn, x + low = rate s."""
+        """Return half the whole angle (m,) of a motion without a period, in rad.
+
+        ``half`` is half the mean angle, x + ``low`` = rate s.
+        """
         return half + self._rounded(self.of_line(self._sum(x, low)))
 
     def half_on_line(self, x: FloatArray, low: FloatArray, v: FloatArray, low_of_phase: FloatArray) -> FloatArray:
-        """Return half the turn within a period, from x + low = rate s and half the phase v; rounded once."""
+        """Return half the angle (m,) within a period, in rad, rounded once.
+
+        x + ``low`` is rate s, v + ``low_of_phase`` half the phase in the period.
+        """
         return self._rounded(self.of_line(self._sum(x, low)) + self.twist * self._sum(v, low_of_phase))
 
     def _sum(self, x: FloatArray, low: FloatArray) -> Numbers:
-        """Return the sum of two doubles as a number of the type."""
+        """Return x + low as numbers of `type`."""
         return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(low, dtype=self.type))
 
     def _rounded(self, angle: Numbers) -> FloatArray:
-        """Return an angle as doubles, in extended precision reduced by whole turns first."""
+        """Return an angle in rad as doubles; a long double is first reduced by whole turns."""
         if self.is_large:
             angle = np.remainder(angle + HALF_TURN, 2 * HALF_TURN) - HALF_TURN
         return np.asarray(angle, dtype=np.float64)
@@ -132,7 +140,7 @@ class Swing:
         return self._turn(np.copysign(1.0, x) * odd, even)
 
     def _between(self, x: Numbers) -> Numbers:
-        """Return artanh(O/E) for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
+        """Return artanh(O/E) for A > 0 and x >= 0, as the logarithm of sums of positive terms."""
         d, smaller = self.depth, np.minimum(x, self.depth)
         odd, low = np.zeros_like(x), np.zeros_like(x)
         for n in range(self.odd.size):
@@ -147,14 +155,17 @@ class Swing:
         return np.asarray(np.where(smaller < MAX_EXP_ARGUMENT, by_log1p, by_log) / 2)
 
     def _turn(self, odd: Numbers, even: Numbers) -> Numbers:
-        """Return the angle of swing from the sums O and E."""
+        """Return half the angle of swing in rad from the sums O (``odd``) and E (``even``)."""
         if self.sign < 0:
             return np.asarray(self.factor * np.arctan2(odd, even))
         return np.asarray(self.factor * (np.arctanh(odd / even) if self.sign else odd / even))
 
 
 class Crossing:
-    """Half the swing on the separatrix between n and -n, in rad: the rate changes sign at x = slope s/2 = 0."""
+    """Half the swing on the separatrix between n and -n, in rad.
+
+    Its rate changes sign at the equator, x = slope s/2 = 0.
+    """
 
     is_known, is_large = True, False
 
@@ -163,7 +174,10 @@ class Crossing:
         self.is_coarse = not abs(self.factor) < MAX_DOUBLE_ANGLE
 
     def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
-        """Return half the turn from `half`, half of kappa s less whole half turns, and x + low = slope s/2."""
+        """Return half the angle (m,) in rad.
+
+        ``half`` is half of kappa s less whole half turns, x + ``low`` = slope s/2.
+        """
         s = x + low
         logarithm = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
         return np.asarray(self.sense * (np.where(s < 0, -half, half) + logarithm))

@@ -24,7 +24,7 @@ Branch = tuple[FloatArray, FloatArray]
 
 
 def halves(points: Any) -> tuple[int, int]:
-    """Split a number of points between two branches."""
+    """Return a number of points, at least 2, as two numbers for two branches; the first is not the smaller."""
     count = whole(points, "The number of points of two branches", 2)
     return count - count // 2, count // 2
 
@@ -65,13 +65,16 @@ class TopHyperbola(Shown):
         return np.array([0.0, 1.0]), axial / np.hypot(*axial)
 
     def omega3(self, omega2: Any) -> Any:
-        """Ordinate omega3 at omega2, rounded once. DomainError at the pole; AtlasError unless a number."""
+        """Return omega3 on the curve at omega2, rounded once, in rad/time: a float, or an array.
+
+        Raises DomainError at the pole, AtlasError unless omega2 is a number or an array.
+        """
         return self._over(top.omega3, self._exact.omega3, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
-        """Rates k = omega2/n2 of precession about n and phi = omega3 - n3 k of the turn about the axis.
+        """Return (k = omega2/n2, phi = omega3 - n3 k): rates about n and about the axis, in rad/time, floats or arrays.
 
-        DomainError at the pole; AtlasError for an input that is no number.
+        Raises DomainError at the pole, AtlasError for an input that is no number.
         """
         k, phi = self._over(top.frequencies, self._exact.frequencies, omega2, degree=(1, 1))
         return k, phi
@@ -94,9 +97,10 @@ class TopHyperbola(Shown):
 
     @property
     def unstable_bands(self) -> list[tuple[float, float]]:
-        """Intervals of omega2 in which the motions are unstable, none to two; the ends belong to them, rounded once.
+        """Intervals (low, high) of omega2, none to two, in which the motions are unstable, in rad/time, ends included.
 
-        They are real roots of a quartic whose coefficients are exact; `atlas.surfaces.certified_top` has them as balls.
+        Their ends are real roots of a quartic with exact coefficients, rounded once; `atlas.surfaces.certified_top` has
+        them as balls.
         """
         ends = enclosed(lambda: self._exact.unstable_bands, BITS)
         return [(nearest(low), nearest(high)) for low, high in ends]
@@ -110,16 +114,16 @@ class TopHyperbola(Shown):
         return TopMotion(inertia, coupling, direction, (omega1, omega2, self.omega3(omega2)), linear, quadratic)
 
     def sample(self, points: int = 200, *, reach: float = 4.0) -> Branch:
-        """Points (omega2, omega3) of both branches, one after the other; see `branches`."""
+        """Return (omega2, omega3), arrays of all points of both branches, one after the other; see `branches`."""
         start, second = zip(*self.branches(points, reach=reach), strict=True)
         return np.concatenate(start), np.concatenate(second)
 
     def branches(self, points: int = 200, *, reach: float = 4.0) -> tuple[Branch, Branch]:
-        """Branches of the curve as arrays (omega2, omega3), w > 0 first, spread evenly in the logarithm of |w|.
+        """Return two pairs of arrays (omega2, omega3), the branch w > 0 first, even in the logarithm of |w|.
 
-        |w| runs from where |v| to where |w| is `reach` times b, the distance of the centre from rest or, if larger,
-        sqrt|D|. Each omega3 is that of the double omega2, rounded once. DomainError where the curve is two straight
-        lines, n3 = 0 without a linear potential, AtlasError for fewer than two points.
+        |w| runs from where |v| to where |w| is ``reach`` times b, the distance of the centre from rest or, if larger,
+        sqrt|D|. Each omega3 is that of the double omega2, rounded once. Raises DomainError where the curve is two
+        straight lines, n3 = 0 without a linear potential, AtlasError for fewer than two points.
         """
         I2, I3, _, _, n2, n3, a0, _ = self._top
         if n3 == 0 and a0 == 0:
@@ -134,15 +138,16 @@ class TopHyperbola(Shown):
         return self._branch(1, upper), self._branch(-1, lower)
 
     def _branch(self, sign: int, w: FloatArray) -> Branch:
-        """Return the points at these |w| on one side of the pole."""
+        """Return (omega2, omega3) at the distances w (m,) > 0 from the pole, on the side ``sign``."""
         omega2 = sign * w + self.pole
         offset = np.nextafter(self.pole, sign * np.inf)
         omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, offset)
         return omega2, np.asarray(self.omega3(omega2))
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
-        """Return a formula at omega2, rounded once; `exact` is its certified scalar, `degree` its power of rates.
+        """Return a formula at omega2, each result rounded once.
 
+        ``degree`` is its power of rates, a sequence for several. ``exact`` is its certified counterpart at one omega2.
         Raises DomainError at the pole.
         """
         values, is_single = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))

@@ -199,7 +199,7 @@ class Curve:
         return [(start, stop) for _, start, stop in chosen[: 4 * paths_per_zero]]
 
     def distances(self, end: acb) -> Array:
-        """Return the places of the four zeros and of the pole less `end`, (5, 81): in 9 x 9 cells of periods."""
+        """Return places of four zeros and the pole, each in 9 x 9 cells of periods, minus ``end``, shape (5, 81)."""
         sizes = float(self.real.mid()), float(self.imaginary.imag.mid())
         cells = np.arange(-ZERO_CELLS, ZERO_CELLS + 1)
         rows = []
