@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Plate:
-    """A figure of the gallery: its picture, the number of its sentence's text, and the page that shows it."""
+    """A figure of the gallery: `picture`, index of its `sentence` among the document's texts, and its `page`.
+
+    `page` is the address of the figure in the report, such as "motions.html#fig-cusp", or "" if no page shows it.
+    """
 
     picture: Picture
     sentence: int
@@ -39,7 +42,7 @@ class Plate:
 
 @dataclass(frozen=True)
 class GalleryView:
-    """The plates of each row by its heading, and the targets' widths in millimetres by name."""
+    """Plates by heading of their row, and the targets' widths as text such as "86 mm" by name."""
 
     rows: dict[str, list[Plate]]
     widths: dict[str, str]
@@ -56,7 +59,10 @@ class GalleryView:
 
 
 def page(composer: "Composer") -> PageView:
-    """Return the page of a report's gallery; a recipe that failed is left out."""
+    """Return the view of a report's gallery page; a recipe that failed has no plate.
+
+    The sentence of a plate is that of its recipe, or the first one of the picture's caption.
+    """
     composer.place, document = "the gallery", composer.document
     places: dict[int, str] = {}
     for view_of_page in document.pages:
@@ -81,9 +87,10 @@ def page(composer: "Composer") -> PageView:
 
 
 def chosen(names: Sequence[str], folder: Path) -> tuple[str, ...]:
-    """Return the recipes of a gallery; ``*`` is all of figures/, NAME.py a file, also by pattern beside the report.
+    """Return the distinct recipes of a gallery as names, or paths for files.
 
-    Raises AtlasError for a name or a file that does not exist.
+    "*" stands for all names in figures/, "NAME.py" for files in ``folder``, also as a pattern. Raises AtlasError for a
+    name or a file that does not exist.
     """
     chosen_names = list[str]()
     for name in names:

@@ -59,12 +59,15 @@ class Asked:
 
     @property
     def typed(self) -> list[str]:
-        """Options of the object, as typed."""
+        """Words of the options of the object, each "--name" followed by its texts."""
         return [word for name, texts in self.options.items() for word in (f"--{name}", *texts)]
 
     @property
     def words(self) -> list[str]:
-        """Words of the command that makes the report: the family where options do not tell it, and all options."""
+        """Words of the command that makes the report: options of the object, title, name, digits, parts.
+
+        The page's family stands first for tops only, whose options do not tell it; defaults are left out.
+        """
         own = {"title": self.title, "name": self.called, "digits": self.digits if self.digits != 10 else "",
                "only": self.only}  # fmt: skip
         options = [word for name, value in own.items() if value for word in (f"--{name}", str(value))]
@@ -77,7 +80,7 @@ class Asked:
 
     @property
     def command(self) -> str:
-        """The command that makes the report."""
+        """The shell command that makes the report: "atlas page ..." or "atlas report your_body ...", quoted."""
         if self.is_page:
             return shlex.join(["atlas", "page", *replace(self, only="").words])
         return shlex.join(["atlas", "report", "your_body", *self.words])
@@ -114,14 +117,17 @@ HEAD = (
 
 
 def templated(name: str, template: str, head: Mapping[str, Any], values: Mapping[str, Any], command: str) -> str:
-    """Return a report in Markdown from a file of `templates/report` with values filled in, below its head."""
+    """Return a report in Markdown: ``head`` as TOML, then a template of templates/report with ``values`` filled in."""
     source = (folder("templates") / "report" / template).read_text(encoding="utf-8")
     lines = "".join(toml.lines({"name": name, **head}))
     return headed(name, f"{RULE}\n{lines}{RULE}\n\n{expanded(values, {}, source)[1]}", command)
 
 
 def headed(name: str, content: str, command: str) -> str:
-    """Return a file's content below a head with its digest and the command that makes it."""
+    """Return a file's content below a comment with its digest and the command that makes it.
+
+    A head of TOML stays first.
+    """
     start = f"{RULE}\n" * content.startswith(RULE)
     content = content.removeprefix(start)
     digest = sha256(content.encode()).hexdigest()[:12]
@@ -136,13 +142,13 @@ def edited(file: str) -> bool:
 
 
 def setting_of(request: Asked) -> Iterator[dict[str, Any]]:
-    """Yield the table of the body and the field B as given, and what follows from them, if B is given."""
+    """Yield a table block of the body and the field B, if the request has a field given by B; otherwise nothing."""
     if request.field and "B" in request.field:
         yield {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 
 
 def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
-    """Yield the table of standard deviations, if inputs have uncertainties."""
+    """Yield a listing block of standard deviations, if inputs have uncertainties; otherwise nothing."""
     if request.deviations:
         yield {
             "kind": "listing", "id": "deviations", "rows": [list(row) for row in request.deviations],
@@ -153,14 +159,17 @@ def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
 
 
 def other_families(family: Family) -> list[Family]:
-    """Return the other families of a body in a field that need no further inputs."""
+    """Return the families other than this one whose parameters, ratio and field among them, this one has too."""
     names = {p.name for p in family.parameters}
     parameters = {other.name: {p.name for p in other.parameters} for other in FAMILIES.values() if other is not family}
     return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
 
 
 def _calls(request: Asked, family: Family) -> dict[str, str]:
-    """Return the keys by which a block names the body and the field, if the family takes them."""
+    """Return {"body": "body", "field": "field"}, keys by which a block refers to the report's body and field.
+
+    A key is left out where the family has no such parameter or takes it as an option; {} without a body.
+    """
     return {
         key: key
         for key, name in (("body", "ratio"), ("field", "field"))
@@ -203,9 +212,9 @@ def too_slow(motion: Any, time: str) -> Iterator[str]:
 def figures_of(
     request: Asked, recipes_of: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the blocks of figures by recipe, with given parameters; add to `left_out` why figures are missing.
+    """Yield a figure block for each recipe of ``recipes_of``, with its given parameters.
 
-    A figure is left out where its recipe refuses the parameters.
+    A recipe that refuses the parameters yields none, and adds a sentence with the reason to ``left_out``.
     """
     from atlas.bodies.units import system
     from atlas.pictures import recipes
@@ -236,7 +245,10 @@ def case_of(request: Asked) -> Any:
 
 
 def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
-    """Yield the table of the nearest closed motions, if there are any; else add the reason to `left_out`."""
+    """Yield the table block of the nearest closed motions; if they can't be computed add the reason to ``left_out``.
+
+    Nothing is yielded for a family without phi or precession per period.
+    """
     if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
         block = table_of(request, "closed", request.family.name, request.exact_values)
         try:
@@ -248,7 +260,10 @@ def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
 
 
 def records_of(request: Asked) -> dict[str, Any]:
-    """Return the parameters of a report's head: its body and its field, where there are records of them."""
+    """Return the table "parameters" of a report's head: its body and its field by kind, those that the request has.
+
+    It is {"parameters": {"bodies": {"body": ...}, "fields": {"field": ...}}}, or {} without records.
+    """
     records = (("bodies", "body", request.body), ("fields", "field", request.field))
     parameters = {kind: {name: record} for kind, name, record in records if record}
     return {"parameters": parameters} if parameters else {}

@@ -38,7 +38,7 @@ def _string(text: str) -> str:
 
 
 def _number(cell: Cell) -> str:
-    """Return Typst code of a number as two cells, split at the decimal point."""
+    """Return Typst code of a number as two cells, split at the decimal point; digits not proven are marked."""
     fraction = _string(cell.fraction) + (f" + power({_string(cell.power)})" if cell.power else "")
     after = f"right-of-point({fraction if cell.proven else f'unproven({fraction})'})"
     return f"left-of-point({_string(cell.whole)}), {after}"

@@ -16,9 +16,10 @@ from atlas.book.schema import StrictStruct
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of block: its record, the function (record, composer) that makes its view, the name of its templates.
+    """A kind of block: its record class, the function (record, composer) -> view, and the name of its templates.
 
-    `outline` takes the place of the view where only numbers and places are wanted, if the view computes or reads more.
+    `outline`, if given, replaces the view where only numbers and places are wanted, since the view computes or reads
+    more.
     """
 
     record: type[StrictStruct]

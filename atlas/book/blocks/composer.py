@@ -21,15 +21,15 @@ class Use:
 
 
 class Composer:
-    """Goes through the blocks of a report, and collects their texts, numbers and names in its `document`.
+    """Composes the views of a report's blocks, and collects their texts, numbers and names in its `document`.
 
-    slug, title      the page
+    slug, title      slug and title of the current page
     place            the place that an error names
     figures, tables  how many there are so far
     parameters       the bodies and fields of the report
     recorded         the recorded results that its blocks show
-    ledger           the page of each entry of the ledger that the report has
-    uses             the places that use each equation
+    ledger           slug of the page that holds each entry of the ledger, by name
+    uses             list of `Use` of each equation, by name
     """
 
     def __init__(self, document: Any, recorded: Appendices) -> None:
@@ -39,7 +39,10 @@ class Composer:
         self.uses, self.ledger, self.parameters = document.uses, document.ledger, document.report.parameters
 
     def begin(self, slug: str, title: str) -> None:
-        """Begin a page: keep its slug and title, and forget the equations cited and the sentences said before."""
+        """Begin a page with this slug and title.
+
+        Equations cited and sentences said on the page before are forgotten.
+        """
         self.slug, self.title = slug, title
         self.cited: set[str] = set()
         self.said: set[str] = set()
@@ -49,7 +52,11 @@ class Composer:
         return int(self.document.texts.add(markdown, self.place, inline=inline))
 
     def paragraphs(self, markdown: str) -> int:
-        """Add paragraphs and return their index; the first citation of an equation on a page becomes an anchor."""
+        """Add paragraphs in Markdown and return their index among the texts.
+
+        The first citation of an equation on a page becomes an anchor and counts as a use, unless the page holds its
+        entry.
+        """
         anchors = {}
         for name in citations(markdown):
             if name in EQUATIONS and name not in self.cited and self.ledger.get(name) != self.slug:
@@ -59,7 +66,7 @@ class Composer:
         return int(self.document.texts.add(markdown, self.place, anchors=anchors))
 
     def caption(self, markdown: str, anchor: str, words: str) -> int:
-        """Add a caption and return the number of its text; its citations count as uses by the figure or table."""
+        """Add a caption and return its index among the texts; its citations count as uses by the figure or table."""
         for name in citations(markdown):
             if name in EQUATIONS:
                 self.use(name, anchor, words)
@@ -72,26 +79,38 @@ class Composer:
         return sentence if new else ""
 
     def anchors(self, names: Iterable[str]) -> list[str]:
-        """Return the anchors of names in the PDF, except those of other reports. Raises AtlasError for other names."""
+        """Return the anchors in the PDF of cited names; names of other reports have none and are left out.
+
+        Raises AtlasError for a name that is not defined.
+        """
         find, targets = self.document.cite("typst"), self.document.targets
         anchors = (targets[name][1] if name in targets else find(name, self.place).anchor for name in names)
         return [anchor for anchor in anchors if anchor]
 
     def use(self, name: str, anchor: str, words: str) -> None:
-        """Record that `anchor` on this page cites an equation, with a word for the citing item; repeated ones once."""
+        """Record that the item at ``anchor`` of this page, in words such as "Figure 3", cites an equation.
+
+        Each `Use` once.
+        """
         place = Use(self.title, f"{self.slug}.html", anchor, words)
         if place not in self.uses[name]:
             self.uses[name].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
-        """Let citations of a name lead to an anchor of this page; return False if they lead elsewhere already."""
+        """Make an anchor of this page the target of citations of a name.
+
+        Return False if another one is its target already.
+        """
         is_first = name not in self.document.targets
         if is_first:
             self.document.targets[name] = (f"{self.slug}.html", anchor, words)
         return is_first
 
     def anchor(self, kind: str, ident: str | None, word: str, number: int) -> str:
-        """Return the anchor of a figure or table, from its id or number, and link citations to it."""
+        """Return the anchor "kind-ID" of a figure or table, and make it the target of citations of kind:ID.
+
+        ID is ``ident``, or the number.
+        """
         name = ident or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"

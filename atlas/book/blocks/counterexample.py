@@ -60,7 +60,7 @@ class _Letters:
         self.vectors, self.primed = vectors, primed
 
     def value(self, name: str, value: str) -> str:
-        """Return the value of a letter as TeX."""
+        """Return "$letter=value$" in TeX, or "any other $letter=value$"; the unit matrix is written as 1."""
         partner = "any other " if name.startswith("any other ") else ""
         number = "1" if value == _ONE else value.replace("[", "(").replace("]", ")")
         return f"{partner}${self.formula(name.removeprefix(partner))}={number}$"
@@ -74,12 +74,12 @@ class _Letters:
         return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{remainder}"
 
     def formula(self, line: str) -> str:
-        """Return a relation or an expression in Python's letters as TeX."""
+        """Return a relation or an expression in plain letters, such as "a = b^2", as TeX without dollar signs."""
         python = re.sub(r"(?<![<>!=])=(?!=)", "==", line).replace("^", "**")
         return self.tex(ast.parse(python, mode="eval").body)
 
     def letter(self, name: str, *, bold: bool, accent: str = "") -> str:
-        """Return a letter: a hat, the name, its dots, and the index below it."""
+        """Return the TeX of a letter: its hat, name, dots (``accent``) and lower index; bold for a vector."""
         if name in _LETTERS:
             letter, below = _LETTERS[name], ""
         else:
@@ -94,7 +94,7 @@ class _Letters:
     def tex(  # noqa: PLR0911  one return for each kind of formula
         self, node: ast.expr
     ) -> str:
-        """Return the TeX of a syntax tree."""
+        """Return the TeX of a syntax tree. Raises TypeError for one that is no formula of the trial."""
         match node:
             case ast.Compare():
                 signs = [_SIGNS[type(sign)] for sign in node.ops]
@@ -141,6 +141,6 @@ class _Letters:
         return f"{self.letter(name, bold=False)}_{{{' '.join([example, *alternatives])}}}"
 
     def factor(self, node: ast.expr) -> str:
-        """Return the TeX of a factor, a sum in brackets."""
+        """Return the TeX of a factor: a sum or difference in brackets, any other formula as it is."""
         tex = self.tex(node)
         return f"({tex})" if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub) else tex

@@ -77,7 +77,7 @@ class ExplorerView:
 
     @property
     def described(self) -> str:
-        """JSON of the sliders, a list of objects, for the script."""
+        """JSON list of the sliders, one object each, for the script."""
         return json.dumps([asdict(slider) for slider in self.sliders], ensure_ascii=False)
 
     @property
@@ -112,7 +112,7 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
 
 def sliders_of(B2: float, B3: float) -> dict[str, Slider]:
-    """Return all sliders that an explorer can have, by name, for the field (B2, B3)."""
+    """Return all `Slider` that an explorer can have, by name; the one of the angle starts at the field (B2, B3)."""
     defaults = {
         slider.name: slider for name in ("general", "elementary") for slider in sliders_of_family(FAMILIES[name])
     }

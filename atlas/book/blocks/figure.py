@@ -62,17 +62,17 @@ class Picture:
 
     @property
     def called(self) -> str:
-        """Name of the recipe as shown in the report: in figures/, or of its file beside the report."""
+        """Name of the recipe as shown in the report; of a file beside the report its file name."""
         return Path(self.recipe).name
 
     @property
     def printed(self) -> str:
-        """The file that the PDF shows: PDF in the place of SVG."""
+        """The file that the PDF shows: the PDF in the place of an SVG, otherwise `file`."""
         return self.file.replace(".svg", ".pdf")
 
     @property
     def command(self) -> str:
-        """The command that draws it."""
+        """The shell command that draws the picture, with its parameters and renderer."""
         from atlas.pictures.parameters import typed
 
         settings = [f"{name}={typed(value)}" for name, value in self.parameters.items() if value is not None]
@@ -95,7 +95,7 @@ class FigureView:
 
     @property
     def failure(self) -> str:
-        """Why there is no picture, or nothing."""
+        """The reason why a picture is missing, that of the first one; "" if none is."""
         return next((picture.failure for picture in self.pictures if picture.failure), "")
 
     @property

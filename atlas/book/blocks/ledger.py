@@ -98,7 +98,10 @@ def _reading(phrase: str, line: str) -> str:
 
 
 def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
-    """Return entries with a slip, grave ones first; entries that share a slip are adjacent, its origin first."""
+    """Return the entries in order of the gravity of their slips, all of which must have one.
+
+    Entries that share a slip are adjacent, the entry under which it is counted first.
+    """
     place = {entry.name: number for number, entry in enumerate(entries)}
 
     def order(entry: EntryView) -> tuple[int, int, bool, int]:
@@ -137,7 +140,7 @@ class ErrataView:
 
 
 def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
-    """Return the view of the ledger's entries of one section; its theorems are numbered."""
+    """Return the `LedgerView` of the entries of one section; its theorems get numbers."""
     for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
             composer.document.numbered(name)
@@ -145,7 +148,10 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
 
 
 def view_errata(_block: Errata, composer: Composer) -> ErrataView:
-    """Return the view of the entries with a slip, the grave ones first; a note that several share stands once."""
+    """Return the `ErrataView` of all entries with a slip, the gravest first.
+
+    A note that several share stands at the first.
+    """
     composer.document.errata = composer.slug
     ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))
     is_first = {entry.finding.note: entry.name for entry in reversed(ordered)}

@@ -43,12 +43,12 @@ class ProseView:
 
 
 def view_prose(block: Prose, composer: Composer) -> ProseView:
-    """Return the view of a text."""
+    """Return the `ProseView` of paragraphs, without a title."""
     return ProseView(composer.paragraphs(block.text))
 
 
 def view_notebook(block: Notebook, composer: Composer) -> ProseView:
-    """Return the view of a notebook's text. Raises AtlasError for a notebook that does not exist."""
+    """Return the `ProseView` of a notebook's text, without its head. Raises AtlasError if the file does not exist."""
     path = folder("reports") / PurePath(block.file).name
     if not path.is_file():
         raise AtlasError(f"{block.file}: there is no such notebook in {folder('reports')}.")
@@ -57,5 +57,5 @@ def view_notebook(block: Notebook, composer: Composer) -> ProseView:
 
 
 def view_note(block: Note, composer: Composer) -> ProseView:
-    """Return the view of a note: its heading and its text."""
+    """Return the `ProseView` of a note, with its title."""
     return ProseView(title=composer.text(block.title, inline=True), text=composer.paragraphs(block.text))

@@ -34,9 +34,10 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 
 
 def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement | None = None) -> None:
-    """Draw panel `number` with hidden lines, and its names; the axes must be in position.
+    """Draw a panel with hidden lines into axes, then its names; the axes must be in position.
 
-    The scale is the largest at which the panel fits, or that of a given placement.
+    ``number`` is the panel's, for ids of artists. The scale is the largest at which the panel fits, or that of
+    ``placement``. The limits of the axes become the panel's size in points.
     """
     view = fit(panel, window(axes), placement)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
@@ -57,13 +58,16 @@ def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement |
 
 
 def window(axes: Axes) -> tuple[float, float]:
-    """Return width and height of axes in points, before the target's enlargement."""
+    """Return (width, height) of axes in printer's points, divided by the target's enlargement."""
     box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
     return float(box.width * scale), float(box.height * scale)
 
 
 def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]]) -> None:
-    """Write the names of a panel clear of the ink: pairs of points (N, 2) and the cost of covering one."""
+    """Write the names of a panel into axes where they cover least ink.
+
+    ``ink`` has pairs (points (N, 2) in printer's points, cost of covering one).
+    """
     edges = (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0)
     write(axes, view.tags, place(view.tags, [(*strokes, NOBODY) for strokes in ink], edges))
 
@@ -80,7 +84,7 @@ class _Drawing:
         self._lines: defaultdict[tuple[Any, ...], list[FloatArray]] = defaultdict(list)
 
     def begin(self, layer: Layer, panel: int, place: int) -> None:
-        """Start a layer of number `place` in panel number `panel`: later artists get the layer's group id."""
+        """Begin layer number ``place`` of panel number ``panel``: artists made later get its group id."""
         self._names = (gid(layer, panel, place, piece) for piece in count(1))
 
     def finish(self) -> None:
@@ -92,9 +96,9 @@ class _Drawing:
             self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
 
     def surface(self, surface: Surface) -> None:
-        """Fill both sides of a surface, the far parts below the near ones, then draw silhouette, edges and wires.
+        """Fill both sides of a surface, far parts below near ones, then draw shadows, wires, edges and silhouette.
 
-        For an opaque surface, a piece of a convex body, only the near part is filled; its inner side lies below all.
+        Of an opaque surface, a piece of a convex body, only the near part is filled; its inner side lies below all.
         """
         look, view = style_of(surface.role), self.view
         opaque = look.fill == 1.0
@@ -115,7 +119,10 @@ class _Drawing:
             self.line(line, style_of("silhouette"))
 
     def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
-        """Draw a polyline: visible parts in its own style, hidden parts thin and dashed, or not at all."""
+        """Draw a polyline (N, 3): visible parts in the style ``look``, hidden parts thin and dashed, or not at all.
+
+        ``height`` is the order of visible parts, ``weight`` the cost for names of covering them.
+        """
         for piece, visible in split(points, self.view.surfaces, self.view.towards):
             length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
             if length < _SPECK or not (visible or look.hidden):
@@ -147,7 +154,7 @@ class _Drawing:
         self.axes.add_artist(Polygon(corners, zorder=_HEAD + self.rise, **head))
 
     def marks(self, points: Points) -> None:
-        """Draw marked points; hidden ones are hollow."""
+        """Draw marked points; hidden ones have a white face."""
         places = np.atleast_2d(points.points)
         gone = hidden(places, self.view.surfaces, self.view.towards)
         flat, look = self.view.on_paper(places), marker(points.role)
@@ -168,7 +175,7 @@ class _Drawing:
 
 
 def silhouette(surface: Surface, view: View) -> list[FloatArray]:
-    """Return the curves (N, 3) where lines of sight graze the surface: plane sections, since grad F . d is linear."""
+    """Return the curves (N, 3) where lines of sight graze the surface, plane sections of it; [] if none do."""
     normal = surface.quadric[:3, :3] @ view.towards
     reach = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     centre = 0.5 * (reach.min(axis=0) + reach.max(axis=0))
@@ -181,7 +188,7 @@ def silhouette(surface: Surface, view: View) -> list[FloatArray]:
 
 
 def draw_shaded(axes: Axes, panel: Space) -> None:
-    """Draw a `Space` as a picture by VTK, at the resolution in which the figure is saved, with names above it."""
+    """Draw a panel into axes as a picture by VTK, at the resolution of the saved figure, then its names."""
     from atlas.pictures.drawing.shaded import still_picture
 
     view = fit(panel, window(axes))
@@ -196,7 +203,7 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
 
 
 def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
-    """Yield (points that names should not cover in a shaded picture, weight of one)."""
+    """Yield (points (N, 2) on paper, cost of covering one) of lines, arrows and marks of a shaded picture."""
     for layer in view.panel.layers:
         if isinstance(layer, Curve):
             yield ink_points(view.on_paper(layer.points)), 3.0

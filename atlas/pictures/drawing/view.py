@@ -31,10 +31,10 @@ _BEYOND = 4.5
 
 @dataclass(frozen=True)
 class Placement:
-    """Scale of a panel and position of its origin on paper, common to all frames of an animation.
+    """Scale and position of a panel on paper, common to all frames of an animation.
 
-    Coordinates are (x - ``centre``)/``size``, of order one; ``scale`` is in printer's points per unit of these,
-    ``shift`` (2,) the position of their origin on paper.
+    Scaled coordinates are (x - ``centre``)/``size``, of order one; ``scale`` is in printer's points per unit of these,
+    ``shift`` (2,) the position of their origin on paper, in points.
     """
 
     centre: FloatArray
@@ -72,7 +72,10 @@ class View(Placement):
 
 
 def hold(panels: Sequence[Space], window: tuple[float, float]) -> Placement:
-    """Return the placement with the largest scale at which all panels and names fit a window (width, height)."""
+    """Return the `Placement` with the largest scale at which all panels and their names fit a window.
+
+    The window is (width, height) in points.
+    """
     low = np.min([cloud(panel).min(axis=0) for panel in panels], axis=0)
     high = np.max([cloud(panel).max(axis=0) for panel in panels], axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
@@ -119,7 +122,7 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
 
 
 def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
-    """Return (text, position, offset, role) of a layer's name, None without a name."""
+    """Return (text, positions (3,) or (N, 3), offset in points, role) of a layer's name; None if the name is empty."""
     request: tuple[str, FloatArray, tuple[float, float], str] | None = None
     if isinstance(layer, Label):
         request = layer.text, layer.at, layer.offset, layer.role
@@ -151,7 +154,7 @@ def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
 
 
 def _boxes(tags: list[Tag]) -> FloatArray:
-    """Return, for N names, anchor at scale 1, position of the middle from there, and half the extent: (3, N, 2)."""
+    """Return an array (3, N, 2) for N names, in points: anchors at scale 1, middles from there, half extents."""
     boxes = [(tag.anchor, spot(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
     return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
 
@@ -166,7 +169,10 @@ def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArra
 
 
 def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
-    """Return a list of the dashes (M, 3) of a polyline (N, 3), with lengths in points; [points] for a solid line."""
+    """Return the dashes (M, 3) of a polyline (N, 3) as a list; [points] for a solid line.
+
+    Lengths of dashes are those of ``look``, in points on paper.
+    """
     if not look.dash:
         return [points]
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
