@@ -11,7 +11,7 @@ from atlas.pictures.quadric_panel import E2, E3, in_plane
 
 ROW = "a body"
 SEEN = "One colour means one thing in all figures."
-COLUMN, ROW_HEIGHT, LENGTH = 6.2, 1.0, 1.4
+COLUMN, ROW_HEIGHT, LENGTH = 6.2, 1.0, 1.0
 VECTORS = (
     ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),
     ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),
@@ -57,11 +57,10 @@ def scene() -> Scene:
     for row, (role, name) in enumerate(MARKS, len(COMPONENTS)):
         ends = place(2, row)
         columns[2] += [Points(ends.mean(axis=0)[None], role), meaning(ends[1], name)]
-    for column, (role, name) in enumerate((("surface", "initial data"), ("solid", "the body"))):
-        ends = place(column, len(VECTORS))
+    for row, (role, name) in enumerate((("surface", "initial data"), ("solid", "the body")), len(BODIES)):
+        ends = place(3, row)
         half = 0.5 * (ends[1] - ends[0])
-        area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
-        columns[column] += [area, meaning(ends[1], name)]
+        columns[3] += [solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role), meaning(ends[1], name)]
     return Scene(
         caption="In grey print a vector is recognised by its name; two lines of a "
         "column differ in lightness, width or dashes, and marks in shape. The colours of bodies are for figures in "

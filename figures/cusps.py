@@ -62,23 +62,24 @@ def scene(
         )
         for letter, kind, push, top in zip("abc", kinds, omega2, tops, strict=False)
     ]  # fmt: skip
-    panels = (*spheres, close("abcd"[len(tops)], tops), plane("bcde"[len(tops)], tops, unit))
+    letters = "abcdef"[len(tops) :]
+    panels = (*spheres, close(letters[0], tops), rates(letters[1], tops, unit), plane(letters[2], tops, unit))
     return Scene(
         caption=(
-            rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
-            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations, and near the start (letters: later ends). "
-            r"Last: these motions (dots) by $p$ and $g$, above the least energies (solid). Cusps lie on the dashed "
-            r"segment, loops above, waves elsewhere."
+            rf"The axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
+            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations, and near the start; its rate of precession "
+            r"over its angle with $\mathbf{n}$, zero at a cusp; these motions (dots) above the least energies (solid): "
+            r"cusps on the dashed segment, loops above."
         ),
         alt=(
-            f"Unit spheres with the trace of an axis: {listed(kinds)}; their traces near the start. A plane of p and g "
-            "with the curve of the steady precessions, and above it a straight segment between the two spins on the "
-            "axis."
+            f"Unit spheres with the trace of an axis: {listed(kinds)}; their traces near the start; their rates of "
+            "precession. A plane of p and g with the curve of the steady precessions, and above it a straight segment "
+            "between the two spins on the axis."
         ),
         panels=panels,
         columns=3,
         named={"solid": "main", "dashed": "reference", "dots": "start"},
-        spare=(len(spheres), len(spheres) + 1),
+        spare=tuple(range(len(spheres), len(panels))),
         size=(3 * SIZE, SIZE * -(-len(panels) // 3) + 6.0),
     )
 
@@ -105,6 +106,22 @@ def close(letter: str, tops: list[TopMotion]) -> Plane:
         layers += [Curve(points, "trace"), Label(points[-1], name, offset=(0.0, -7.0))]
     layers.append(Points(np.zeros((1, 2)), "start"))
     return Plane(tuple(layers), "along the parallel", "up the meridian", title=f"({letter}) near the start", equal=True)
+
+
+def rates(letter: str, tops: list[TopMotion], unit: str) -> Plane:
+    """Return a `Plane` of the rates of precession (p - M3 nu)/(1 - nu^2) over the angle arccos nu of the axis."""
+    layers: list[Layer] = []
+    for name, top in zip("abc", tops, strict=False):
+        invariants = top.invariants()
+        angles = np.linspace(*np.arccos(top.turning_points), 201)
+        nu = np.cos(angles)
+        rate = (invariants["p"] - invariants["M3"] * nu) / (1 - nu * nu)
+        points = np.stack([np.degrees(angles), rate], axis=1)
+        layers += [Curve(points, "main"), Label(points[int(np.argmax(angles))], name, offset=(5.0, 0.0))]
+    ends = np.array([layer.points[[0, -1], 0] for layer in layers if isinstance(layer, Curve)])
+    still = Curve(np.array([[ends.min(), 0.0], [ends.max(), 0.0]]), "reference")
+    labels = r"angle with $\mathbf{n}$ (degrees)", f"rate (1/{unit})"
+    return Plane((still, *layers), *labels, title=f"({letter}) rate of precession")
 
 
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:

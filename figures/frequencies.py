@@ -23,8 +23,6 @@ WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
 TOP = 4.0
 """How far panel (b) goes, in units of the free body's quotient."""
 MAX_ORDER = 8
-BESIDE = 4.4
-"""Millimetres from a dot to its p/q."""
 APART, ROOM = 3.0, 5.0
 """Millimetres between dots that have their p/q both, and from a pair in (a) with a p/q to the next."""
 POLE_TOLERANCE = 1e-9
@@ -136,7 +134,7 @@ def frequencies(
     marks = [m for m in motions.values() if ends[0] < m.omega2 < ends[1] and abs(m.phi) < top]
     pairs = [np.array([[m.omega2, m.phi], [m.omega2, m.k]]) for m in marks]
     layers += [Curve(pair, "guide") for pair in pairs]
-    layers += [Points(pair, "point") for pair in pairs]
+    layers += [Points(pair[:1], "point") for pair in pairs]
     scale = (WIDTH - MARGIN) / (ends[1] - ends[0])  # millimetres
     for r, m in motions.items():
         neighbours = [neighbour.omega2 for neighbour in motions.values() if neighbour is not m]
@@ -180,14 +178,11 @@ def quotients(
     for r, motion in motions.items():
         place = np.array([motion.omega2, float(r)])
         if ends[0] < motion.omega2 < ends[1]:
-            x = 1 + motion.omega2 / B2
             scale = np.array([(WIDTH - MARGIN) / (ends[1] - ends[0]), (HEIGHT / 2 - MARGIN) / (2 * top)])  # mm
-            normal = np.array([scale[1] * free_quotient / (x * x * B2), scale[0]])  # upright to the curve, as drawn
-            away = normal / np.hypot(*normal) / scale * BESIDE * np.copysign(1.0, -free_quotient)
             layers.append(Points(place[None], "point"))
             if min(float(np.hypot(*((place - neighbour) * scale))) for neighbour in named) > APART:
                 named.append(place)
-                layers.append(Label(place - away, f"${r}$"))
+                layers.append(Label(place, f"${r}$", offset=(-4.0 * float(np.copysign(1.0, B2)), 4.0)))
     layers.append(Points(np.array([[0.0, 2 * free_quotient]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
     return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

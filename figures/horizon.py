@@ -55,7 +55,7 @@ def panels(record: benchmark.Results, cases: tuple[str, ...], columns: int) -> t
     """Return a `Plane` for each case: error over horizon of all methods, and the limit."""
     layers = {case: tuple(run_lines(benchmark.runs_of(record, case))) for case in cases}
     planes = benchmark.panels(layers, ("time $T$", "largest error up to $T$"), ROOM, columns)
-    limit = Curve(benchmark.pairs(planes[0].x_limits or (), float, lambda _: LIMIT), "limit", "four ulp of 1")
+    limit = Curve(benchmark.pairs(planes[0].x_limits or (), float, lambda _: LIMIT), "limit")
     return tuple(replace(plane, layers=(*plane.layers, limit)) for plane in planes)
 
 

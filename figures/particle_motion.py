@@ -4,13 +4,17 @@ The path in constant fields, (93) to (99): round the magnetic field with the fre
 acceleration, and adrift across both fields.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from atlas.arithmetic.inputs import FloatArray, positive
+from atlas.arithmetic.inputs import positive
 from atlas.motions.particle.kernel import ParticleMotion
 from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space
 from atlas.pictures.any_motion import course
 from atlas.pictures.captions import plain, plain_vector, tex, tex_equals, tex_vector
+from atlas.pictures.flight import scale_bar
+from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import tolerance
 from atlas.pictures.sample import curve
 
@@ -39,26 +43,26 @@ def scene(
     stop = positive(turns, "turns") * _unit_of_time(particle)
     pieces = max(32, round(12 * turns))
     rough = particle.position(np.linspace(0.0, stop, 8 * pieces + 1))
-    middle, span = (rough.min(axis=0) + rough.max(axis=0)) / 2, float(np.ptp(rough, axis=0).max()) or 1.0
-
-    def path(t: FloatArray) -> FloatArray:
-        return np.asarray((particle.position(t) - middle) / span)
-
-    line = curve(path, 0.0, stop, tolerance(1.0), pieces=pieces)
+    span = float(np.ptp(rough, axis=0).max()) or 1.0
+    line = curve(particle.position, 0.0, stop, tolerance(span), pieces=pieces)
+    view = Space((), azimuth=azimuth, elevation=elevation, title="(a) path")
+    eye = frame(view)
+    corner = ((line @ eye.T).min(axis=0) - (0.0, 0.1 * span, 0.0)) @ eye
     layers: list[Layer] = [Curve(line, "trajectory"), Points(line[:1], "start")]
+    layers += scale_bar(corner, eye[0], 0.3 * span, length)
     for vector, role, name in ((magnetic, "field", r"$\mathbf{B}$"), (electric, "electric", r"$\mathbf{E}$")):
         if any(vector):
-            layers.append(Arrow(line[0], line[0] + 0.4 * np.array(vector) / np.linalg.norm(vector), role, name))
+            layers.append(Arrow(line[0], line[0] + 0.4 * span * np.array(vector) / np.linalg.norm(vector), role, name))
     fields = rf"$\mathbf{{E}}={tex_vector(electric)}$, $\mathbf{{B}}={tex_vector(magnetic)}$"
     until = tex_equals(float(f"{stop:.3g}"))
     return Scene(
-        caption=rf"(a) The path of a particle ({particle.kind}) up to $t{until}$; its largest extent is "
-        rf"${tex(float(f'{span:.3g}'))}$ ({length}), and the arrows are not to scale. (b) Its velocity, at the dot "
+        caption=rf"(a) The path of a particle ({particle.kind}) up to $t{until}$; the "
+        rf"arrows are not to scale. (b) Its velocity, at the dot "
         rf"${tex_vector(velocity)}$. {particle.case.capitalize()}: $\mu={tex(mu)}$, {fields}.",
         alt=f"The path in space of a particle with mu = {plain(mu)} in E = {plain_vector(electric)} and B = "
         f"{plain_vector(magnetic)}, and the three components of its velocity over time.",
         panels=(
-            Space(tuple(layers), azimuth=azimuth, elevation=elevation, title="(a) path"),
+            replace(view, layers=tuple(layers)),
             course(
                 particle.velocity, tuple(f"$v_{i}$" for i in (1, 2, 3)), stop, f"$t$ ({unit})",
                 rf"$\mathbf{{v}}$ ({length}/{unit})", "(b) velocity", size=(SIZE[0] / 2, SIZE[1]), pieces=pieces,

@@ -111,7 +111,7 @@ def quartic(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: 
         Region(band(allowed, limits), "region"),
         Curve(np.array([[view[0], 0.0], [view[1], 0.0]]), "guide"),
         Curve(graph(Q, view, limits), "main"),
-        Points(np.stack([allowed, np.zeros(2)], axis=1), "rest"),
+        Points(np.stack([allowed[::-1], np.zeros(2)], axis=1), "rest", "turning points"),
         Points(start[None], "start"),
     ]
     return Plane(tuple(layers), x_label, rf"$Q$ (1/{unit}$^4$)", view, limits, title="(a) first integral")
@@ -131,7 +131,7 @@ def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label
     layers = (
         Region(band(allowed, limits), "region"),
         Curve(graph(V, view, limits), "main"),
-        Curve(level_line, "second"),
+        Curve(level_line, "reference", "level"),
         Points(level_line, "rest"),
         Points(np.array([[start[0], level]]), "start"),
     )

@@ -50,7 +50,7 @@ def scene(
         caption=(
             rf"$\omega_2={tex(omega2)}$ of "
             rf"{tex_setting(ratio, field)}. (a) The trace of the axis in each of the two, $\mathbf{{B}}$ "
-            r"upright; dotted: the circle of the precession. (b) Their $\Omega_3$, with "
+            r"upright, and the circle of the precession (vermilion). (b) Their $\Omega_3$, with "
             rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$."
         ),
         alt=(
@@ -63,7 +63,7 @@ def scene(
             course(motions, float(Hyperbola(ratio, field).omega3(omega2)), half_time, unit),
         ),
         columns=2,
-        named={"dotted": "limit"},
+        named={"vermilion": "unstable"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -98,8 +98,7 @@ def sphere(
     layers: list[Layer] = [
         solids.sphere(O, 1.0, sag),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
-        Curve(ring, "limit"),
-        Label(ring[int(np.argmax(ring @ aside))], "precession", "note", (6.0, 0.0)),
+        Label(ring[int(np.argmax(ring @ aside))], "precession", "unstable", (6.0, 0.0)),
     ]
     for motion, role in zip(motions, ROLES, strict=True):
 
@@ -109,6 +108,7 @@ def sphere(
         place = axis(np.zeros(1))
         layers += [Curve(curve(axis, -half_time, half_time, sag, pieces=64), role), Points(place, "start")]
         layers.append(Label(place[0], "$t=0$", "label", (0.0, 8.0)))
+    layers.append(Curve(ring, "unstable"))
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
 
 

@@ -1,7 +1,8 @@
 """The lines of a motion.
 
 The signals of detectors of the body's axis and of its angular velocity in a general motion: each line is at
-m M + l p, or m M + j s, M the frequency of nutation, p and s the mean rates of precession and of spin.
+m omega_T + l k, or m omega_T + j phi: omega_T is the frequency of nutation, k and phi the mean rates of precession
+and of spin.
 """
 
 import numpy as np
@@ -81,7 +82,10 @@ def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, u
     for turns, (role, kind) in enumerate((("second", "along"), ("main", "across"))):
         chosen = np.flatnonzero((numbers[:, 1] != 0) == bool(turns))
         for i, n in enumerate(chosen):
-            layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i or unit else kind))
+            stem = np.array([[f[n], least / 2], [f[n], size[n]]])
+            layers.append(Curve(stem, role))
+            if not (i or unit):
+                layers.append(Label(np.sqrt(stem[0] * stem[1]), kind, role, (4.0, 0.0)))
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
     labelled: list[int] = []
     for n in np.argsort(-size):
@@ -94,5 +98,5 @@ def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, u
         layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
     return Plane(
         tuple(layers), f"frequency (1/{unit})" if unit else "", "amplitude", (-0.1 * top, top), (least / 2, 20.0),
-        y_scale="log", legend=not unit, title=heading,
+        y_scale="log", title=heading,
     )  # fmt: skip

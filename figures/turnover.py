@@ -47,7 +47,7 @@ def scene(
         (role, rf"$s={tex(push)}$", push, points) for role, (push, points) in zip(ROLES, curves, strict=False)
     ]
     in_time = [Curve(points[1:] * (b / abs(push), 1.0), role, name) for role, name, push, points in named_curves]
-    in_turns = [Curve(points, role, name) for role, name, _, points in reversed(named_curves)]  # the least push on top
+    in_turns = [Curve(points, role, name) for role, name, _, points in named_curves]  # dashes over the solid line
     over_time, over_turns = (0.01 * reach * b / abs(largest), reach * b / abs(smallest)), (0.0, reach)
     return Scene(
         caption=(
@@ -76,7 +76,7 @@ def panel(title: str, x_label: str, view: tuple[float, float], curves: list[Curv
     name = Label(np.array([view[0], 2.0]), "upside down", "note", (6.0, -6.0))
     scale: Literal["log", "linear"] = "log" if log else "linear"
     y_label = r"$|\mathbf{K}-\mathbf{B}'|/b$"
-    return Plane((top, name, *curves), x_label, y_label, view, (0.0, 2.1), scale, legend=not log, title=title)
+    return Plane((top, name, *curves), x_label, y_label, view, (0.0, 2.1), scale, title=title)
 
 
 def departure(

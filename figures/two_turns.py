@@ -92,7 +92,7 @@ def sweep(
     centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float, share: float
 ) -> list[Layer]:
     """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, with an arrow and its name."""
-    arc_angle = angle - np.sign(angle) * min(0.35, 0.5 * abs(angle))
+    arc_angle = angle - np.sign(angle) * min(0.25, 0.5 * abs(angle))
     arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, arc_angle, tolerance)
     tip = solids.ellipse(centre, radius, np.cross(axis, radius))(np.array([angle]))[0]
     middle = solids.ellipse(centre, 1.25 * radius, 1.25 * np.cross(axis, radius))(np.array([share * angle]))[0]

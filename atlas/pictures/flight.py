@@ -141,7 +141,11 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
 def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: str) -> Space:
     """Return panel (a), a `Space`: the paths with arrows along the fields and a scale bar to the left of them."""
     layers = bundle(*path_points)
-    layers.append(Curve(path_points[2][0], "velocity", rides="arm"))
+    layers += [
+        Curve(path_points[2][0], "velocity", rides="arm"),
+        Label(path_points[0][0], "centre of mass", "fourth", (9.0, -6.0), rides="centre"),
+        Label(path_points[1][0], "point", "trajectory", (5.0, 0.0), rides="point"),
+    ]
     eye = frame(view)
     flat = np.concatenate(path_points[:2]) @ eye.T
     length = 0.25 * float(np.ptp(flat, axis=0).max())
@@ -160,13 +164,13 @@ def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: st
     size = 10.0 ** np.floor(np.log10(longest))
     size *= max(step for step in (1, 2, 5) if step * size <= longest)
     bar = start + np.array([[0.0], [size]]) * direction
-    return [Curve(bar, "axis"), Label(bar.mean(axis=0), f"${tex(size)}$ {unit}", "note", (0.0, -5.0))]
+    return [Curve(bar, "axis"), Label(start, f"${tex(size)}$ {unit}", "note", (3.0, -5.0))]
 
 
 def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) -> Plane:
     """Return panel (b), a `Plane`: the paths projected on the plane across B by the columns of ``axes`` (3, 2)."""
     centre, point, arms = (path @ axes for path in path_points)
-    layers = bundle(centre, point, arms, ("centre of mass", "point"), " below")
+    layers = bundle(centre, point, arms, " below")
     drifts = bool(flight.particle.drift.any())
     x_name = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
     y_name = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
@@ -179,14 +183,12 @@ def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) 
     )
 
 
-def bundle(
-    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), suffix: str = ""
-) -> list[Layer]:
+def bundle(centre: FloatArray, point: FloatArray, arms: FloatArray, suffix: str = "") -> list[Layer]:
     """Return the layers of both paths and the arms."""
     return [
         *(Curve(arm, "guide") for arm in arms),
-        Curve(centre, "fourth", names[0]),
-        Curve(point, "trajectory", names[1]),
+        Curve(centre, "fourth"),
+        Curve(point, "trajectory"),
         Points(point[:1], "start", rides=f"point{suffix}"),
         Points(centre[:1], "fourth", rides=f"centre{suffix}"),
     ]

@@ -189,6 +189,6 @@ def marked(named: Sequence[Place], field: Any) -> list[Layer]:
         Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
         *(
             Label(np.array(place.point), place.text, place.role, (x * s2, y * s3))
-            for place, (x, y) in zip(named, ((5, -5), (-5, 4), (0, -8)), strict=False)
+            for place, (x, y) in zip(named, ((5, -5), (-5, 4), (5, 6)), strict=False)
         ),
     ]

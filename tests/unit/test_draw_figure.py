@@ -20,7 +20,7 @@ from atlas import AtlasError, gl
 from atlas.pictures import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
 from atlas.pictures.drawing import save, to_figure
 from atlas.pictures.drawing.files import _short, choose
-from atlas.pictures.drawing.labels import NOBODY, Tag, place
+from atlas.pictures.drawing.labels import MARK, NOBODY, Tag, place
 from atlas.pictures.drawing.space import silhouette
 from atlas.pictures.drawing.view import fit
 from atlas.pictures.style import STYLES, WHITE, contrast
@@ -350,6 +350,15 @@ def test_no_name_is_taken_for_that_of_a_guide() -> None:
     window = (0.0, 0.0, 90.0, 90.0)
     beside, away = (place([tag], [(own, 1.5, 0), (other, 0.2, whose)], window)[0] for whose in (NOBODY, 1))
     assert beside[1] > 50.0 > away[1]
+
+
+def test_a_name_of_a_point_stands_beside_that_point() -> None:
+    """A marked point above it drives the name to the other side, where a line would not."""
+    window = (0.0, 0.0, 90.0, 90.0)
+    tag = Tag("a", (45.0, 45.0), (0.0, 4.0), (12.0, 8.0), "#000000", 9.0)
+    own, other = np.array([[45.0, 45.0]]), np.array([[45.0, 63.0]])
+    alone, beside = (place([tag], [(own, MARK, 0), (other, cost, 1)], window)[0] for cost in (1.5, MARK))
+    assert beside[1] < alone[1] == 53.0
 
 
 def test_curves_on_a_sphere_stand_off_its_graticule_in_grey() -> None:

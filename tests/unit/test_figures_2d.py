@@ -504,7 +504,7 @@ def test_the_potential_is_that_of_the_cubic() -> None:
     omega = (0.3, 0.7, 0.2)
     scene = load("pseudo_oscillator").scene(omega=omega)
     panel = scene.panels[1]
-    (line,), (level,) = curves(panel, "main"), curves(panel, "second")
+    (line,), (level,) = curves(panel, "main"), curves(panel, "reference")
     V = -np.polynomial.Polynomial(PseudoOscillator(1.5, (1.0, 2.0), omega).coefficients).integ(lbnd=omega[2])
     assert np.abs(line[:, 1] - V(line[:, 0])).max() <= 1e-13 * np.abs(line[:, 1]).max()
     assert level[0, 1] == pytest.approx(0.3**2 / 2)

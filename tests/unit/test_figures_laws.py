@@ -92,8 +92,10 @@ def scaled(value: Any, factor: float) -> Any:
 
 
 def places(layer: Layer) -> Iterator[FloatArray]:
-    """Yield the places of a layer, arrays (N, 2) or (N, 3)."""
+    """Yield the places of a layer, arrays (N, 2) or (N, 3); of a scale bar, whose length is round, the first end."""
     match layer:
+        case Curve(role="axis"):
+            yield layer.points[:1]
         case Curve() | Points() | Region():
             yield np.atleast_2d(layer.points)
         case Label():

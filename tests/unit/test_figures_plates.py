@@ -86,8 +86,9 @@ def test_a_marked_motion_repeats_itself(ratio: float) -> None:
         omega = (0.0, omega2, float(hyperbola.omega3(omega2)))
         R = simulate(ratio, (1.0, 2.0), omega, np.array([0.0, period]), rtol=1e-11, atol=1e-12).R[-1]
         assert np.abs(R - np.eye(3)).max() <= 1e-8
-    for pair in layers(above, Points, "point"):
-        (omega2, phi), (_, k) = pair.points
+    for dot in layers(above, Points, "point"):
+        ((omega2, phi),) = dot.points
+        k, _ = Hyperbola(ratio, (1.0, 2.0)).frequencies(omega2)
         assert min(abs(phi / k - quotient) for at, quotient in dots if at == omega2) <= 8 * EPS * 4
 
 

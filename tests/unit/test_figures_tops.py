@@ -54,9 +54,12 @@ def inside(polygon: np.ndarray, x: float, y: float) -> bool:
 
 
 def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
-    """The least speed of each drawn axis and the sense of its longitude are those of its name; its energies too."""
+    """The least speed of each drawn axis and the sense of its longitude are those of its name.
+
+    So are its energy and the least of its rates of precession.
+    """
     scene = made("cusps")
-    *spheres, near, plane = scene.panels
+    *spheres, near, rates, plane = scene.panels
     (cusps,), (places,) = layers(plane, Curve, "reference"), layers(plane, Points, "start")
     slope = np.ptp(cusps.points[:, 1]) / np.ptp(cusps.points[:, 0])
     for panel, omega2, (p, g) in zip(spheres, (-0.5, 0.0, 0.25), places.points, strict=True):
@@ -73,6 +76,8 @@ def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
         assert p == pytest.approx(top.invariants()["p"], abs=1e-14)
         trace = layers(panel, Curve, "trace")[0].points
         assert trace[:, 2].min() == pytest.approx(top.turning_points[0], abs=1e-3)
+    for rate, omega2 in zip(layers(rates, Curve, "main"), (-0.5, 0.0, 0.25), strict=True):
+        assert rate.points[:, 1].min() == pytest.approx(omega2 / 0.8, abs=1e-9)
     for trace, name in zip(layers(near, Curve, "trace"), ("loops", "cusps", "waves"), strict=True):
         later = trace.points[len(trace.points) // 2 + 1 :]
         assert (later[0, 0] < 0) == (name == "loops")

@@ -22,6 +22,8 @@ _FAR, _SIGHT = 5.0, 30.0
 _KEPT = 100
 _HEIGHT = 20.0
 _HALO, _BOX = 2.2, 0.85
+MARK = 6.0
+"""Cost of covering a marked point; a name anchored at one should be nearer to it than to other marked points."""
 NOBODY = -2
 """The owner of ink that a name is never taken for the name of."""
 Ink: TypeAlias = tuple[FloatArray, float, int]
@@ -73,6 +75,7 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
     point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
     ink, counts = np.concatenate(point_sets), list(map(len, point_sets))
     weights, owners = (np.repeat(values, counts) for values in attributes)
+    marks = ink[weights == MARK]
     centres = np.array([spot(tag) for tag in tags]).reshape(-1, 2)
     sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
     fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
@@ -87,9 +90,12 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
         cost += np.concatenate([_covers(group, tag.extent, ink, weights, window) for group in groups])
         best = np.argsort(cost, kind="stable")[:_KEPT]
         candidates, cost = candidates[best], cost[best]
-        if tag.owner >= 0:
-            named = owners != NOBODY
-            cost += _doubt(candidates, tag.extent, ink[named], owners[named] == tag.owner)
+        own, named = owners == tag.owner, owners != NOBODY
+        if own.any():
+            cost += _doubt(candidates, tag.extent, ink[named], own[named], _FAR)
+        if not own.any() or MARK in weights[own]:
+            far = 1.0 + float(np.hypot(*tag.offset))
+            cost += _doubt(candidates, tag.extent, marks, (marks == tag.anchor).all(axis=1), far)
         choices[i] = candidates, cost
     for _ in range(2):
         for i, (candidates, cost) in choices.items():
@@ -100,17 +106,19 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
     return list(centres)
 
 
-def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_]) -> FloatArray:
-    """Return the cost (N,) of centres (N, 2) of a text whose own layer is not clearly the nearest.
+def _doubt(
+    centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_], far: float
+) -> FloatArray:
+    """Return the cost (N,) of centres (N, 2) of a text whose own ink is not clearly the nearest, or further than `far`.
 
-    `owned` is the mask of the points `ink` (M, 2) that belong to its layer. 0 if all or none of them do.
+    `owned` is the mask of the points `ink` (M, 2) that are its own. 0 if all or none of them are.
     """
     if not owned.any() or owned.all():
         return np.zeros(len(centres))
     half = 0.5 * np.array(extent)
     own_gap, other_gap = (_gap(centres, half, ink[mask]) for mask in (owned, ~owned))
     return _DOUBT * np.clip(1.0 - (other_gap + 1.0) / (own_gap + 4.0), 0.0, 1.0) + _ELSEWHERE * np.maximum(
-        own_gap - _FAR, 0.0
+        own_gap - far, 0.0
     )
 
 

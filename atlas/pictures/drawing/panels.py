@@ -17,7 +17,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.transforms import Bbox
 
 from atlas.errors import AtlasError
-from atlas.pictures.drawing.labels import NOBODY, Ink, Tag, ink_points, place
+from atlas.pictures.drawing.labels import MARK, NOBODY, Ink, Tag, ink_points, place
 from atlas.pictures.drawing.labels import write as write_tags
 from atlas.pictures.drawing.plane import draw_plane, marker
 from atlas.pictures.drawing.space import draw_shaded, draw_space, window
@@ -305,5 +305,5 @@ def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[In
             continue
         inside = ((points >= -_OVER) & (points <= np.array(size) + _OVER)).all(axis=1)
         guide = layer.role == "guide"
-        weight = 6.0 if isinstance(layer, Points) else 0.2 if guide else 1.5
+        weight = MARK if isinstance(layer, Points) else 0.2 if guide else 1.5
         yield points[inside], weight, NOBODY if guide else owner

@@ -107,7 +107,8 @@ class _Drawing:
             colour = look.colour if outer or not look.back else look.back
             opacity = look.fill * (1.0 if is_near else max(0.5, look.fill))  # so that a dense tint is the same inside
             self._area(edge, colour, opacity, _TINT if is_near and (outer or not opaque) else _INSIDE)
-        if not opaque or any(outer for _, outer, _ in sides):
+        is_scale = surface.role.startswith("rate_")  # shade would falsify its colours
+        if not is_scale and (not opaque or any(outer for _, outer, _ in sides)):
             light = _LIGHT @ view.frame
             for edge, shade in zip(shadows(surface, view.towards, light, _LEVELS), cycle(_SHADES), strict=False):
                 self._area(edge, shade, _DEPTH)
