@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.dimensions import bare
 from atlas.arithmetic.given import Given, exact_number
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.uncertainty import is_uncertain
 from atlas.errors import AtlasError, DomainError
-from atlas.lazy import cached_property
 
 FloatArray = NDArray[np.float64]
 Value = TypeVar("Value")

@@ -13,11 +13,11 @@ import numpy as np
 
 from atlas.arithmetic.circle import circle_of, signs
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.machine import keep
 from atlas.arithmetic.numbers import Number, nearest, workprec
 from atlas.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, units, words
 from atlas.errors import AtlasError
-from atlas.lazy import cached_property
 
 MAX_PHASE = 2.0**50
 """Largest phase |f t| in radians: beyond it two words of f no longer hold the turn."""

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.machine import keep, shared
 from atlas.arithmetic.numbers import Number, nearest, workprec
 from atlas.arithmetic.phase import QUANTUM, Phases, room
 from atlas.arithmetic.words import TURN, words
 from atlas.errors import AtlasError
-from atlas.lazy import cached_property
 
 Axis = tuple[Number, Number, Number]
 """A unit vector of exact numbers."""

@@ -8,8 +8,8 @@ from functools import partial, wraps
 from time import process_time
 from typing import Any, NamedTuple, Self
 
+from atlas.arithmetic.lazy import cached_property
 from atlas.errors import AtlasError, AtlasWarning, DomainError
-from atlas.lazy import cached_property
 
 DERIVATIVE_STEP = 1 / 8
 """Part of a standard deviation over which a derivative is taken, by differences on both sides."""

@@ -15,8 +15,8 @@ from atlas.arithmetic.numbers import cross, dot, nearest, root, unit, workprec
 from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.arithmetic.words import exact
 from atlas.bodies import units as unit_systems
+from atlas.bodies.display import called
 from atlas.bodies.speeds import check_drift
-from atlas.display import called
 from atlas.errors import AtlasError, DomainError
 
 

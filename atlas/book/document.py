@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
+from atlas.arithmetic.lazy import cached_property
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks.composer import Use
 from atlas.book.blocks.figure import Figure, Picture
@@ -15,7 +16,6 @@ from atlas.book.pandoc import Target
 from atlas.book.pictures import keys
 from atlas.book.texts import Link, Texts, citations
 from atlas.errors import AtlasError, unknown
-from atlas.lazy import cached_property
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.ledger.equation import slug
 from atlas.trial.ledger.plain import plain

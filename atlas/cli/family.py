@@ -11,6 +11,7 @@ from typing import Any
 
 import click
 
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.uncertainty import mapped
 from atlas.cli import body
 from atlas.cli.axes import OWN_AXES, axes_text, motion_in_given_axes
@@ -36,7 +37,6 @@ from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.families.family import RATE, ROUNDING, TIME
-from atlas.lazy import cached_property
 from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.motions.register import Command as Described
 

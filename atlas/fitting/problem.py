@@ -8,13 +8,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.errors import AtlasError
 from atlas.fitting.data import STEP, Data
 from atlas.fitting.flow import ERROR, FINE
 from atlas.fitting.least import RHO
 from atlas.fitting.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, state, units_of, unseen
 from atlas.fitting.parameters import Parameters
-from atlas.lazy import cached_property
 
 HUGE, LOST = 1e6, 1e100
 """Residual where there is no motion, and size above which a computed residual is replaced by HUGE."""

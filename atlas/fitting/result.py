@@ -8,6 +8,7 @@ import numpy as np
 
 from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike, StyleLike
 from atlas.arithmetic.inputs import FloatArray, positive, real
+from atlas.arithmetic.lazy import cached_property
 from atlas.errors import AtlasError
 from atlas.fitting.alternatives import Alternative, equal_solutions, other_minima, warnings_of, wider_families
 from atlas.fitting.data import KINDS, Data
@@ -15,7 +16,6 @@ from atlas.fitting.least import SCORE
 from atlas.fitting.parameters import Parameters
 from atlas.fitting.problem import Problem, minimum
 from atlas.fitting.seen import Seen, gauge
-from atlas.lazy import cached_property
 from atlas.motions.any_body import AnyMotion
 from atlas.motions.nutation.kernel_elliptic import EllipticMotion
 from atlas.motions.nutation.kernel_top import TopMotion

@@ -32,11 +32,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray, number, plain, positive, real, vector, vectors
+from atlas.arithmetic.lazy import cached_property
 from atlas.bodies.clebsch_integrals import clebsch
 from atlas.bodies.inertia import inertia_tensor
 from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.lazy import cached_property
 from atlas.maps.wells import Wells
 from atlas.motions.nutation.formula_elliptic import split
 

@@ -17,12 +17,12 @@ from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.given import element
 from atlas.arithmetic.grid import fill_grid
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, number, real, whole
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.rotation import DoubleRotation, target
 from atlas.arithmetic.rotation_rows import DoubleRotationRows, Group
-from atlas.display import Shown, made
+from atlas.bodies.display import Shown, made
 from atlas.errors import AtlasError
-from atlas.lazy import cached_property
 from atlas.motions.actions import Actions, actions
 from atlas.motions.frames import Placement
 from atlas.motions.spectrum import Spectrum, SpectrumOf, Wheels, function_of, spectrum

@@ -14,10 +14,10 @@ from flint import fmpq
 
 from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, real
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.words import floats
 from atlas.errors import AtlasError, DomainError
-from atlas.lazy import cached_property
 
 VECTORS = ("rotation", "angular_velocity", "field")
 """Quantities of `of` that are functions of time."""

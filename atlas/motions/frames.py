@@ -10,9 +10,9 @@ from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.double_double import given
 from atlas.arithmetic.given import Given
 from atlas.arithmetic.inputs import FloatArray, plain
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, turned
 from atlas.arithmetic.quaternions import of_matrix, product, rows_of_matrix
-from atlas.lazy import cached_property
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,12 @@ from atlas.arithmetic.dimensions import INERTIA, RATE
 from atlas.arithmetic.double_double import given
 from atlas.arithmetic.given import Given, exact_numbers
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, frozen, plain, real, vectors
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, as_rational, dot, length, nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import SymmetricBody, exact_moments, moments
 from atlas.bodies.inertia import inertia_tensor, principal_values, rational_matrix, rounded
 from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning, tell_nearest
-from atlas.lazy import cached_property
 from atlas.motions.frames import Placement, turned_by
 
 ROUNDING = 2.0**-50

@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.arithmetic.dimensions import TIME
 from atlas.arithmetic.inputs import FloatArray, positive, real
-from atlas.display import Shown
+from atlas.bodies.display import Shown
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.libraries import of_sweeps
 from atlas.pictures.any_motion import axis_period, pieces, turns

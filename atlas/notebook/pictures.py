@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from atlas.display import Shown
+from atlas.bodies.display import Shown
 from atlas.errors import AtlasError, unknown
 from atlas.motions.particle.flight import Flight
 from atlas.motions.register import FAMILIES, Family

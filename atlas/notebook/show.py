@@ -9,10 +9,10 @@ from io import BytesIO
 from typing import Any
 
 from atlas.bodies.body import SymmetricBody
+from atlas.bodies.display import Shown
 from atlas.book.digits import Number
 from atlas.book.tables.elementary import NONE
 from atlas.book.tables.properties import SPACE, Row, Thing, rows_of
-from atlas.display import Shown
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES
 from atlas.notebook.pictures import plot

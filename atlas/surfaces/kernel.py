@@ -13,9 +13,9 @@ from atlas.arithmetic.given import Given
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, kept, plain, vectors
 from atlas.arithmetic.numbers import rounded
 from atlas.bodies.body import exact_moments, excess, kept_ratio
+from atlas.bodies.display import Shown
 from atlas.bodies.formula_domain import check_a2, check_a3, check_beta, check_D
 from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
-from atlas.display import Shown
 from atlas.surfaces import formula as quadric
 from atlas.surfaces import formula_top as top
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.arithmetic.lazy import cached_property
 from atlas.errors import AtlasError, DomainError, nearest
 from atlas.families.family import TIME
-from atlas.lazy import cached_property
 from atlas.motions import register as families
 from atlas.motions.register import Family, Quantity
 

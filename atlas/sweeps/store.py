@@ -21,8 +21,8 @@ from tempfile import gettempdir
 from typing import IO, Any
 
 from atlas import files
+from atlas.arithmetic.lazy import cached_property
 from atlas.errors import AtlasError
-from atlas.lazy import cached_property
 from atlas.places import own_folder
 from atlas.sweeps.tables import check_format
 

@@ -11,7 +11,7 @@ import pytest
 from agreement import FLOORS, Floor, Tie, agree, modules, negate, source
 
 import atlas
-from atlas.display import Shown
+from atlas.bodies.display import Shown
 from atlas.errors import DomainError
 
 TOPICS = [path for path in sorted(Path(__file__).parent.glob("test_agreement_*.py")) if path != Path(__file__)]

@@ -30,7 +30,7 @@ from atlas import (
     SymmetricBody,
     TopMotion,
 )
-from atlas.display import Shown
+from atlas.bodies.display import Shown
 from atlas.motions.register import FAMILIES
 from atlas.notebook.pictures import alone, scene_of
 from atlas.notebook.show import picture

@@ -14,8 +14,8 @@ from flint import ctx
 
 import atlas
 from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import workprec
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_general import GeneralMotion
 from atlas.motions.torus.kernel import forget
 

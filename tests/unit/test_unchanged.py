@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.display import Shown
+from atlas.bodies.display import Shown
 from atlas.families.family import Family
 from atlas.motions.register import FAMILIES
 

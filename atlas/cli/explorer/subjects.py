@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from atlas.arithmetic.lazy import cached_property
 from atlas.errors import AtlasError, nearest
 from atlas.families.sliders import Slider, letters, sliders_of, step_of
-from atlas.lazy import cached_property
 from atlas.motions.register import FAMILIES, Family
 from atlas.pictures import recipes
 from atlas.pictures.layers import Scene

@@ -24,6 +24,7 @@ from atlas.arithmetic.inputs import (
     real,
     turn_time,
 )
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import direction, nearest, workprec
 from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.rotation_rows import Group
@@ -33,7 +34,6 @@ from atlas.bodies.formula_domain import CASES, FREE_CASES, case_of, check_omega3
 from atlas.bodies.formula_integrals import NAMES
 from atlas.bodies.integrals import integrals, shape_factors
 from atlas.errors import AtlasError, DomainError
-from atlas.lazy import cached_property
 from atlas.motions.base import DoubleTurn
 from atlas.motions.elementary.formula import conserved, constants, free, quotient, scalars, turning
 from atlas.motions.start import Start, across

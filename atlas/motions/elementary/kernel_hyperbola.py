@@ -10,13 +10,13 @@ from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, Real
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, as_given, components, plain, positive, real, whole
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import exact_moments, kept_ratio
+from atlas.bodies.display import Shown
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
-from atlas.display import Shown
 from atlas.errors import AtlasError, DomainError
-from atlas.lazy import cached_property
 from atlas.motions.elementary.closed import ClosedMotion
 from atlas.motions.elementary.formula_hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.motions.nutation.top_hyperbola import Branch, halves

@@ -9,7 +9,7 @@ that is, the sign of the torque says.
 
 from flint import acb, arb, fmpq
 
-from atlas.lazy import cached_property
+from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import (
     Lattice,
     Parameter,

@@ -14,9 +14,9 @@ from typing import Any, Self
 from flint import acb, arb, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rationals
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import by_precision, dot, root
 from atlas.bodies.certified_body import ratio_of
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import Solution, steady
 from atlas.motions.nutation.certified_constants import Nutation

@@ -24,9 +24,9 @@ from flint import acb, arb, ctx, fmpq
 
 from atlas.arithmetic.certified_inputs import Real
 from atlas.arithmetic.certified_surd import Polynomial, Surd, derivative, evaluated, roots, squarefree, trimmed
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import by_precision, workprec
 from atlas.bodies.formula_integrals import along_field, integrals, quartic
-from atlas.lazy import cached_property
 
 Vector = tuple[fmpq, fmpq, fmpq]
 

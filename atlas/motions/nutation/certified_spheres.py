@@ -19,8 +19,8 @@ from flint import acb, arb, fmpq
 
 from atlas.arithmetic.certified_inputs import Real
 from atlas.arithmetic.certified_surd import Surd
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import root
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_quartic import Quartic, Vector
 
 POLES = (-1, 1)

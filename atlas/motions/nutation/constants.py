@@ -10,11 +10,11 @@ import numpy as np
 from flint import acb, arb, fmpq
 
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import rational, workprec
 from atlas.arithmetic.phase import EVEN, ROUNDER, Phases
 from atlas.arithmetic.words import ZERO, middle
 from atlas.errors import DomainError
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import Solution, infinite
 from atlas.motions.nutation.certified_swing import Crossing as ExactCrossing
 from atlas.motions.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric

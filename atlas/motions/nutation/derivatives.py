@@ -16,7 +16,7 @@ import numpy as np
 from flint import acb
 
 from atlas.arithmetic.inputs import FloatArray
-from atlas.lazy import cached_property
+from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.certified_derivatives import Variation
 from atlas.motions.nutation.certified_differences import Differences
 from atlas.motions.nutation.derivatives_pair import Array, VariedPair

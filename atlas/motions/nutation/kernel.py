@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from atlas.arithmetic.annotations import FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.inputs import FloatArray, finite, kept, plain
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.errors import DomainError
-from atlas.lazy import cached_property
 from atlas.motions.base import Motion
 from atlas.motions.nutation.rows import MotionsAtTimes, Rows
 from atlas.motions.nutation.rows_blocks import Blocks

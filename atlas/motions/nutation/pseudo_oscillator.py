@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, kept, plain, real, vectors
+from atlas.arithmetic.lazy import cached_property
 from atlas.bodies.body import kept_ratio, moments
 from atlas.bodies.formula_integrals import cubic, quartic
 from atlas.bodies.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
-from atlas.lazy import cached_property
 
 
 class PseudoOscillator:

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, largest
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.phase import MAX_PHASE, Phases, room
 from atlas.arithmetic.rotation_rows import MAX_FREQUENCY, MAX_LOST_PHASE
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import turning_rate
 from atlas.motions.nutation.rows_blocks import WEIGHT_RADIUS, Block, Blocks, Constants
 from atlas.motions.nutation.rows_pair import SpherePair, multiples

@@ -16,8 +16,8 @@ import numpy as np
 from atlas.arithmetic.double_double import BLOCK, MAX_INPUT, DoubleDouble, blocks, chosen, constant, stacked
 from atlas.arithmetic.given import broadcast, ldexp, part
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.rotation_rows import PER_RADIAN
-from atlas.lazy import cached_property
 from atlas.motions.nutation.rows_means import Means
 from atlas.motions.nutation.rows_pair import MAX_TERMS, SpherePair
 from atlas.motions.nutation.rows_roots import Roots, in_plane, roots_of, roots_of_tops

@@ -19,7 +19,7 @@ import numpy as np
 
 from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, stacked
 from atlas.arithmetic.inputs import FloatArray
-from atlas.lazy import cached_property
+from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.rows import CayleyKleinAtTimes, MotionsAtTimes
 from atlas.motions.nutation.rows_blocks import WEIGHT_RADIUS, Block, Blocks, Constants
 from atlas.motions.nutation.rows_pair import SpherePair

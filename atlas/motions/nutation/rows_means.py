@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant
-from atlas.lazy import cached_property
+from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.rows_roots import TurningPoints
 
 MAX_MEANS = 12

@@ -12,7 +12,7 @@ import numpy as np
 
 from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, signed, stacked
 from atlas.arithmetic.inputs import FloatArray
-from atlas.lazy import cached_property
+from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.rows_means import MEANS_TOLERANCE, Circle, Level, Means
 from atlas.motions.nutation.rows_spheres import Sphere
 

@@ -16,9 +16,9 @@ from flint import fmpq
 
 from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number
 from atlas.arithmetic.words import words
-from atlas.lazy import cached_property
 
 MAX_ROOT_STEPS = 60
 """Most steps to a turning point in doubles; next to a double root more would be needed."""

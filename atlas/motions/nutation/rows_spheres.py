@@ -11,7 +11,7 @@ import numpy as np
 
 from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
 from atlas.arithmetic.inputs import FloatArray
-from atlas.lazy import cached_property
+from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.rows_roots import Roots, TurningPoints
 
 

@@ -14,11 +14,11 @@ from flint import arb, fmpq
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.given import exact_number
 from atlas.arithmetic.inputs import FloatArray, largest, real
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.arithmetic.quaternions import between
 from atlas.arithmetic.rotation import combined, evaluate, target
 from atlas.errors import DomainError
-from atlas.lazy import cached_property
 from atlas.motions.nutation.cayley_klein import Evaluation, entries, products_of_one
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import turning_rate

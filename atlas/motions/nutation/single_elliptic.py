@@ -7,9 +7,9 @@ from flint import arb
 
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import rounded
 from atlas.arithmetic.rotation import target
-from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.single import BITS, SingleMotion
 

@@ -11,8 +11,8 @@ from atlas.arithmetic.dimensions import ENERGY, RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, number, plain, positive, real, whole
 from atlas.arithmetic.numbers import nearest, rounded
+from atlas.bodies.display import Shown
 from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
-from atlas.display import Shown
 from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.surfaces import formula_top as top

@@ -7,8 +7,8 @@ import numpy as np
 from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.dimensions import LENGTH
 from atlas.arithmetic.inputs import FloatArray, common_shape, kept, vectors
+from atlas.bodies.display import Shown
 from atlas.bodies.field import LaboratoryFrame
-from atlas.display import Shown
 from atlas.errors import AtlasError
 from atlas.motions.euler_poisson import bracket
 from atlas.motions.particle.kernel import ParticleMotion

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from atlas.arithmetic.annotations import FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import NO_FIELDS, SI_FIELDS, TIME
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, frozen, plain, real, turn_time, vectors
+from atlas.bodies.display import Shown
 from atlas.bodies.field import Field
-from atlas.display import Shown
 from atlas.errors import DomainError
 from atlas.motions.particle.rows import BLOCK, Charge
 

@@ -15,13 +15,13 @@ import numpy as np
 
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, nearest, rational, workprec
 from atlas.arithmetic.phase import Phases, room
 from atlas.arithmetic.rotation_rows import Frequencies, words_of
 from atlas.arithmetic.words import TURN
 from atlas.bodies.formula_domain import check_force
 from atlas.errors import DomainError
-from atlas.lazy import cached_property
 from atlas.motions.particle import formula as particle
 
 SERIES = np.array([(-1) ** n / factorial(2 * n + 3) for n in range(12, -1, -1)])

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 from flint import acb, acb_mat, arb, ctx, fmpq, fmpq_poly
 
 from atlas.arithmetic.certified_digits import certified
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import by_precision, workprec
 from atlas.errors import DomainError, NotCertifiedError
-from atlas.lazy import cached_property
 from atlas.motions.torus.approximate_theta import ThetaMotion
 from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS
 from atlas.motions.torus.certified import AsymmetricMotion

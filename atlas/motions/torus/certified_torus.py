@@ -18,9 +18,9 @@ from itertools import combinations
 import numpy as np
 from flint import arb, arb_mat, fmpq
 
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Vector, cross, dot, workprec
 from atlas.errors import NotCertifiedError
-from atlas.lazy import cached_property
 from atlas.motions.torus.approximate_lattice import Lattice, lattice
 from atlas.motions.torus.approximate_periods import Integrals, nearest, real_periods
 from atlas.motions.torus.certified_flow import CYCLE, MAX_STEPS, Arrival, Flow, jacobian

@@ -10,11 +10,11 @@ from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, Name
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, RATE
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain, real
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.rotation import target
 from atlas.arithmetic.words import floats
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
-from atlas.lazy import cached_property
 from atlas.motions.base import Motion
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.kernel import scalar

@@ -18,13 +18,13 @@ from flint import acb, arb, fmpq
 from atlas.arithmetic.circle import signs
 from atlas.arithmetic.grid import check_grid
 from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import workprec
 from atlas.arithmetic.phase import EVEN, Phases, room
 from atlas.arithmetic.quaternions import of_matrix, product
 from atlas.arithmetic.rotation import BLOCK, combined, evaluate
 from atlas.arithmetic.words import TURN, middle
 from atlas.errors import NotCertifiedError
-from atlas.lazy import cached_property
 from atlas.motions.nutation.grid import moments
 from atlas.motions.torus.approximate_periods import BITS, complex_of, matrix_of
 from atlas.motions.torus.approximate_theta import ThetaMotion, frame
