@@ -353,10 +353,10 @@ def test_no_name_is_taken_for_that_of_a_guide() -> None:
 
 
 def test_a_name_of_a_point_stands_beside_that_point() -> None:
-    """A marked point above it drives the name to the other side, where a line would not."""
+    """A marked point above the name drives it to another side, where a line would not."""
     window = (0.0, 0.0, 90.0, 90.0)
     tag = Tag("a", (45.0, 45.0), (0.0, 4.0), (12.0, 8.0), "#000000", 9.0)
-    own, other = np.array([[45.0, 45.0]]), np.array([[45.0, 63.0]])
+    own, other = np.array([[45.0, 45.0]]), np.array([[45.0, 58.5]])
     alone, beside = (place([tag], [(own, MARK, 0), (other, cost, 1)], window)[0] for cost in (1.5, MARK))
     assert beside[1] < alone[1] == 53.0
 
