@@ -1,6 +1,6 @@
 """The colours of the figures.
 
-One colour means one thing in the whole atlas; this is the key to all of its figures.
+A vector, a curve or a body has the same colour in the whole atlas; this is the key to all of its figures.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from atlas.pictures.arrange import stacked
 from atlas.pictures.quadric_panel import E2, E3, in_plane
 
 ROW = "a body"
-SEEN = "One colour means one thing in all figures."
+SEEN = "Each vector, curve and body keeps its colour in all figures."
 COLUMN, ROW_HEIGHT, LENGTH = 6.2, 1.0, 1.0
 VECTORS = (
     ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),

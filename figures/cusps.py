@@ -153,10 +153,8 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         Label(np.array([0.0, 0.4 * low]), "waves", "note"),
         *(Label(end, "spin", "note", (side, 0.0)) for end, side in zip(ends, (8.0, 9.0), strict=True)),
     ]
-    label_shift = np.array([0.0, 0.08 * (high - low)])
     for name, top, place in zip("abc", tops, places, strict=False):
-        side = -1 if trace(top) == "waves" else 1
-        layers.append(Label(place + side * label_shift, name))
+        layers.append(Label(place, name, offset=(0.0, -5.0 if trace(top) == "waves" else 5.0)))
     return Plane(
         tuple(layers), f"$p$ (1/{unit})", f"$g-2ap/M_3$ (1/{unit}$^2$)", (-p_limit, p_limit), room((low, high), 0.2),
         title=f"({letter}) energies",

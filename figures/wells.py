@@ -58,15 +58,16 @@ def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[
 
     Raises DomainError if nothing lies within ``reach``.
     """
-    edge = clipped(envelope(M3, reach), reach)
+    edge = envelope(M3, reach)
+    visible = edge[np.abs(edge).max(axis=1) <= reach]
     lines = {nu: within(float(rest(M3, 1.0, np.array([nu]))[0]), nu, reach) for nu in cosines}
-    if len(edge) < 3 and not any(map(len, lines.values())):
+    if not (len(visible) or any(map(len, lines.values()))):
         raise DomainError(
             f"figure wells: at M3 = {M3:g} p no line and no border lies within reach = {reach:g}: give a larger reach "
             "or a smaller M3."
         )
-    layers: list[Layer] = [Region(edge, "region")] if len(edge) > 2 else []
-    layers += [
+    layers: list[Layer] = [
+        Region(edge, "region"),
         Curve(np.array([[-reach, 0.0], [reach, 0.0]]), "guide"),
         Curve(np.array([[0.0, -reach], [0.0, reach]]), "guide"),
     ]
@@ -83,9 +84,9 @@ def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[
             Curve(np.stack([place + gap, line[1]]), "component"),
         ]
         layers.append(Label(place, f"$\\nu_0={tex(nu)}$" if order == len(lines) // 2 else f"${tex(nu)}$", "note"))
-    layers.append(Curve(envelope(M3, reach), "main"))
-    if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
-        layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))
+    layers.append(Curve(edge, "main"))
+    if len(visible):
+        layers.append(Label(np.array([visible[[0, -1], 0].mean(), -0.9 * reach]), "two wells", "note"))
     if is_first:
         layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note", (0.0, 2.0)))
     if is_last:
@@ -113,8 +114,8 @@ def envelope(M3: float, reach: float) -> FloatArray:
     if abs(M3) == 1:  # nu = e is a double root: e a + A = M3^2/4
         e = np.copysign(1.0, M3)
         end_point = points[-1] if e > 0 else points[0]
-        far_point = end_point + 40 * reach * np.array([e, -1.0])
-        points = np.concatenate([points, [far_point]] if e > 0 else [[far_point], points])
+        line = end_point + np.outer(np.linspace(0.0, 40 * reach, 801)[1:], [e, -1.0])
+        points = np.concatenate([points, line] if e > 0 else [line[::-1], points])
     return points
 
 
@@ -127,22 +128,3 @@ def within(c: float, nu: float, reach: float) -> FloatArray:
     if A[0] >= A[1] or abs(c - nu * A).max() > reach * (1 + 1e-9):
         return np.empty((0, 2))
     return np.stack([c - nu * A, A], axis=1)
-
-
-def clipped(polygon: FloatArray, reach: float) -> FloatArray:
-    """Return the part (N, 2) of a polygon in the square |x|, |y| <= reach (Sutherland and Hodgman)."""
-    for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
-        if not len(polygon):
-            break
-        inside = sign * polygon[:, axis] <= reach
-        corners = []
-        for corner, neighbour, is_corner_inside, is_neighbour_inside in zip(
-            polygon, np.roll(polygon, -1, 0), inside, np.roll(inside, -1), strict=True
-        ):
-            if is_corner_inside:
-                corners.append(corner)
-            if is_corner_inside != is_neighbour_inside:
-                share = (sign * reach - corner[axis]) / (neighbour[axis] - corner[axis])
-                corners.append(corner + share * (neighbour - corner))
-        polygon = np.array(corners).reshape(-1, 2)
-    return polygon

@@ -1,6 +1,6 @@
 """How each role looks: one palette, one set of widths, read by both renderers.
 
-A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, gold the direction n of a
+Each thing keeps its colour: crimson is B and its multiples, pink II^-1 B', blue E, green m, gold the direction n of a
 top, plum an angular velocity and all that is made of such (the hyperbola of the motions, the canonical axes), navy
 the body's axis R_3 and its trace, pale blue R_1, teal the path of a particle or of a point, vermilion instability,
 brown the body, charcoal the first of several plotted lines; where bodies are compared, the loop is magenta, the short
