@@ -115,13 +115,7 @@ def columns_of(table: Path) -> tuple[dict[str, "Column"], dict[str, str]]:
         return {**columns}, {name: headings.get(name, "") for name in columns}
     import numpy as np
 
-    heads, lines = cells_of(table)
-    if not lines:
-        raise click.UsageError(f"{table} has no rows of numbers to plot: choose another table.")
-    units = dict(heading(cell) for cell in heads)
-    for number, cells in lines:
-        if len(cells) != len(heads):
-            raise click.UsageError(f"{table}, line {number}: {len(cells)} cells under a heading of {len(heads)}.")
+    units, lines = cells_of(table)
     return dict(zip(units, np.array([cells for _, cells in lines]).T, strict=True)), units
 
 

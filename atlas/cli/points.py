@@ -150,8 +150,12 @@ def _one_ratio(path: Path, masses: Any, charges: Any) -> Fraction:
     return Fraction(charge) / mass
 
 
-def cells_of(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Return the cells of the heading of a CSV file, and of each row, with the number of its line."""
+def cells_of(path: Path) -> tuple[dict[str, str], list[tuple[int, list[str]]]]:
+    """Return the units of a CSV file's columns by name, and for each row the number of its line and its cells.
+
+    Raises click.UsageError for a file that cannot be read, names that are not different, no row, and a row of another
+    length.
+    """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             texts = lines_of(file, str(path))
@@ -172,7 +176,14 @@ def cells_of(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
     if len(lines) > MAX_ROWS:
         raise click.UsageError(f"{path} has more than {MAX_ROWS} rows: split it.")
-    return heading_cells, lines
+    units = dict(map(heading, heading_cells))
+    if not lines or len(units) != len(heading_cells):
+        raise click.UsageError(f"{path} must have a heading of different names, as ratio,radius [um], and at least one "
+                               "row.")  # fmt: skip
+    for number, line in lines:
+        if len(line) != len(units):
+            raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(units)}.")
+    return units, lines
 
 
 def measured_columns(
@@ -183,19 +194,14 @@ def measured_columns(
     A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
     taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
     """
-    heading_cells, lines = cells_of(path)
-    names, units = zip(*map(heading, heading_cells), strict=True) if heading_cells else ((), ())
-    if not lines or len(set(names)) != len(names):
-        raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
+    units, lines = cells_of(path)
     meant = [
-        None if unit in ("", "1", *plain.get(name, ())) else options.get(name)
-        for name, unit in zip(names, units, strict=True)
+        (name, unit, None if unit in ("", "1", *plain.get(name, ())) else options.get(name))
+        for name, unit in units.items()
     ]
-    columns: dict[str, list[float]] = {name: [] for name in names}
+    columns: dict[str, list[float]] = {name: [] for name in units}
     for number, line in lines:
-        if len(line) != len(names):
-            raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(names)}.")
-        for name, unit, option, cell in zip(names, units, meant, line, strict=True):
+        for (name, unit, option), cell in zip(meant, line, strict=True):
             try:
                 x = float(cell)
                 columns[name].append(float(Fraction(x) * size(unit, option)) if option else x)
@@ -205,4 +211,4 @@ def measured_columns(
                 )
                 under = f"{name} [{unit}] is not a number{unit_text}" if option else f"{name} is not a number"
                 raise click.UsageError(f"{path}: line {number}: {cell!r} under {under}.") from error
-    return columns, {*units}
+    return columns, {*units.values()}

@@ -14,7 +14,6 @@ from atlas.cli.points import cells_of
 from atlas.cli.present import bar, status_of
 from atlas.cli.your_body import build, built, request_of, words_of
 from atlas.errors import AtlasError
-from atlas.measured import heading
 
 if TYPE_CHECKING:
     from atlas.book.several_bodies import Row
@@ -77,25 +76,13 @@ def _built(line: int, words: list[str], out: Path, jobs: int | None) -> "tuple[R
 def rows_of(table: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the line of each row of a table and the words of its options.
 
-    Raises
-    ------
-    AtlasError
-        For a column that is no option.
-    click.UsageError
-        For a table without rows, a column that is there twice, and a row of another length.
+    Raises AtlasError for a column that is no option.
     """
-    heads, lines = cells_of(table)
-    columns = [heading(cell) for cell in heads]
-    for name in (names := [name for name, _ in columns]):
+    units, lines = cells_of(table)
+    for name in units:
         words_of(name, "")
-        if names.count(name) > 1:
-            raise click.UsageError(f"{table}: the column {name} is there twice.")
-    if not lines:
-        raise click.UsageError(f"{table} needs a heading such as ratio,radius [um] and at least one row.")
     for line, cells in lines:
-        if len(cells) != len(columns):
-            raise click.UsageError(f"{table}, line {line}: {len(cells)} cells under a heading of {len(columns)}.")
-        named = zip(columns, cells, strict=True)
+        named = zip(units.items(), cells, strict=True)
         yield line, [word for (name, unit), cell in named if cell.strip() for word in words_of(name, cell, unit)]
 
 

@@ -40,11 +40,11 @@ def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("", "needs a heading such as"),
-        ("ratio,field\n", "needs a heading such as"),
+        ("", "must have a heading"),
+        ("ratio,field\n", "must have a heading"),
         ("ratoi,field\n0.7,1 2\n", "no option 'ratoi' of a body (did you mean 'ratio'?)"),
-        ("ratio,ratio\n0.7,0.8\n", "the column ratio is there twice"),
-        ("ratio,field\n0.7\n", "line 2: 1 cells under a heading of 2"),
+        ("ratio,ratio\n0.7,0.8\n", "a heading of different names"),
+        ("ratio,field\n0.7\n", "line 2 has 1 cells, but the heading 2"),
     ],
 )
 def test_a_malformed_table_of_bodies_is_refused_in_a_line(
