@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
+from atlas.bodies.formula_domain import check_ratio
 from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
 from atlas.cli.options import FILE, chosen_times, given, numbers, stack
 from atlas.cli.points import exact_inertia, oblique_tensor, point_masses, points, principal_moments, ratio_of_points
@@ -154,6 +155,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     if sizes and options["shape"] is None:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only: add --shape NAME, or leave it out.")
     if options["ratio"] is not None:
+        check_ratio(options["ratio"])
         return options["ratio"]
     if options["shape"] is not None:
         return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options))

@@ -2,32 +2,50 @@
 
 import re
 import tomllib
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
 from atlas.cli import body
 from atlas.cli.app import GONE
 from atlas.cli.axes import in_principal_axes, motion_in_given_axes
-from atlas.cli.family import family_of, in_field, in_plane, lines_of_quantities, object_options, spread_of, values_of
-from atlas.cli.options import jobs_option, out_option, stack
+from atlas.cli.family import (
+    family_of,
+    in_field,
+    in_plane,
+    lines_of_quantities,
+    object_options,
+    spread_of,
+    value_of,
+    values_of,
+)
+from atlas.cli.options import given, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.top import top_units
 from atlas.cli.typed import Inclined, parts_of
 from atlas.cli.uncertain import UncertainAnswer, certain, uncertain
-from atlas.cli.words import Command, Words
-from atlas.errors import unknown
+from atlas.cli.words import SECTIONS, Command, Words
+from atlas.errors import AtlasError, FaultsError, unknown
 from atlas.motions.register import FAMILIES, Family
 from atlas.places import folder
 
 if TYPE_CHECKING:
     from atlas.book.parts import Asked
 
+PLACE = "atlas.cli.body_request.place"
+"""Key of the place of typed options in a file of inputs, such as "one.inputs.toml, typed: "."""
+OF_ANGLE = ("--angle", "--field", "--magnetic")
+"""Options that are read together, so that a fault of one is a fault of all."""
+OPTIONS_OF = {
+    "ratio": SECTIONS["Body"], "inertia": SECTIONS["Body"], "omega": SECTIONS["Start"],
+    "field": (*SECTIONS["Body"], *SECTIONS["Field"]),
+}  # fmt: skip
+"""Options on which parameters of a family depend, by the parameter's name."""
 DEVIATIONS = "atlas.cli.body_request.deviations"
 """Key of the deviations of quantities of inputs in other axes than the report has."""
 EXPLAIN = "--explain"
@@ -55,13 +73,49 @@ def report_options(out: str) -> Callable[[Any], Any]:
 def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str:
     """Return the names of parts, separated by commas, in the report's order; "" if all are named or none.
 
-    Raises AtlasError for an unknown name.
+    Raises click.UsageError for an unknown name.
     """
     chosen = text.split(",") if text else []
     for name in chosen:
         if name not in PARTS:
-            raise unknown("part", name, PARTS, "of the report")
+            raise click.UsageError(f"--only: {unknown('part', name, PARTS, 'of the report')}")
     return ",".join(name for name in PARTS if name in chosen) if {*chosen} < {*PARTS} else ""
+
+
+class OneObject(Command):
+    """The command of a family, which refuses all faulty options at once."""
+
+    def __init__(self, *args: Any, family: Family, **settings: Any) -> None:
+        super().__init__(*args, **settings)
+        self.family = family
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Parse the words into `ctx.params` and return the remaining ones.
+
+        They are read again without each option at fault, so that all faults are found; see `refuse`.
+        """
+        errors, dropped, left = list[Exception](), set[str](), None
+        while left is None:
+            ctx.params.clear()
+            try:
+                left = super().parse_args(ctx, args)
+            except click.MissingParameter as error:
+                if not (error.param and {*error.param.opts} & dropped):
+                    errors.append(error)
+                ctx.resilient_parsing = True  # no other missing option is an error
+            except click.UsageError as error:
+                errors.append(error)
+                names = Words(args).names
+                name = next((x for x in re.findall(r"--[\w-]+", error.format_message()) if x in names), "")
+                if not name:
+                    refuse(errors)
+                dropped |= {name, *(OF_ANGLE if name in OF_ANGLE else ())}
+                args = _without(args, dropped)
+        if errors:
+            known = [opt for param in self.params for opt in param.opts]
+            meant = {next(iter(get_close_matches(name, known, 1)), name).removeprefix("--") for name in dropped}
+            refuse([*errors, *faults_of(self.family, ctx.params, meant)])
+        return left
 
 
 def command_of(family: Family) -> click.Command:
@@ -77,12 +131,44 @@ def command_of(family: Family) -> click.Command:
         return with_errors(asked(family, options), options)
 
     says = f"Make a report: {family.says}."
-    command = click.command(family.page, cls=Command, carries=True, help=says, hidden=family.page in GONE)
+    command = click.command(
+        family.page, cls=OneObject, family=family, carries=True, help=says, hidden=family.page in GONE
+    )
     return command(stack(*object_options(family), *more)(run))
 
 
 COMMANDS: dict[str, click.Command] = {one.page: command_of(one) for one in FAMILIES.values() if one.command}
 """By the name of the command; the families that are no command of their own have no name here, only options."""
+
+
+def _without(args: list[str], names: Collection[str]) -> list[str]:
+    """Return the words of a command without some options and their values."""
+    words = Words(args)
+    kept = ((one.typed, *one.values[one.typed != one.name :]) for one in words.options if one.name not in names)
+    return [*words.loose, *(word for option in kept for word in option)]
+
+
+def faults_of(family: Family, options: Mapping[str, Any], dropped: Collection[str] = ()) -> Iterator[Exception]:
+    """Yield the errors of body, field and start, each taken by itself; parts with `dropped` options are left out."""
+    if family.takes("coupling") or given(options, ("tensor", "attitude")):
+        return
+    for p in family.parameters:
+        if p.name in OPTIONS_OF and not {*OPTIONS_OF[p.name]} & {*dropped}:
+            try:
+                value_of(family, p, {**options, "decimal": False})
+            except (click.UsageError, AtlasError) as error:
+                yield error
+
+
+def refuse(errors: Sequence[Exception]) -> NoReturn:
+    """Raise the only error, or a FaultsError with a sentence for each, behind the place of a file of inputs."""
+    from atlas.cli.app import explained
+
+    place = click.get_current_context().meta.get(PLACE, "")
+    if len(errors) == 1 and not place:
+        raise errors[0]
+    sentences = (explained(one) if isinstance(one, click.ClickException) else str(one) for one in errors)
+    raise FaultsError(f"{place}{says}" for says in sentences)
 
 
 def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
@@ -109,7 +195,9 @@ class ByOptions(click.Group):
         args = [word for word in args if word not in {NAME, EXPLAIN}]
         if "--from" in args:
             at = args.index("--from")
-            args = [*typed_in("--from", *args[at + 1 : at + 2]), *args[:at], *args[at + 2 :]]
+            file, beside = "".join(args[at + 1 : at + 2]), [*args[:at], *args[at + 2 :]]
+            args = [*typed_in("--from", file), *beside]
+            ctx.meta[PLACE] = "" if Words(beside).names - {f"--{name}" for name in OWN} else f"{file}, typed: "
         if args and args[0] in GONE:
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
         if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
@@ -197,6 +285,8 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
     from atlas.book.parts import Asked
 
     body.check_speeds(options)
+    if errors := [*faults_of(family, options)]:
+        refuse(errors)
     typed_options = typed_options_of(options.keys() - OWN, options)
     options_asked = dict(zip((p.name for p in family.parameters), values_of(family, options), strict=True))
     family.kernels()(*options_asked.values())  # refuses an impossible object before figures are drawn

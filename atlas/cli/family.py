@@ -575,16 +575,19 @@ def values_of(family: Family, options: dict[str, Any]) -> Iterator[Any]:
             yield from (top.arguments[p.name] for p in family.parameters)
             return
         needs_no_way(options)
+    yield from (value_of(family, p, options) for p in family.parameters)
+
+
+def value_of(family: Family, p: Parameter, options: dict[str, Any]) -> Any:
+    """Return the argument of a family's class for one of its parameters, from typed options."""
     typed = body.as_typed(options)
-    for p in family.parameters:
-        if p.name in OF_BODY and (not p.option or of_any_body(family)):
-            yield OF_BODY[p.name](typed)
-        elif p.name == "mu":
-            yield body.charge_to_mass_of(typed, "A point charge")
-        elif p.name == "c":
-            yield body.speed_of_light(options)
-        else:
-            yield body.start_of(typed) if p.name == "omega" and "spin" in options else typed[p.name]
+    if p.name in OF_BODY and (not p.option or of_any_body(family)):
+        return OF_BODY[p.name](typed)
+    if p.name == "mu":
+        return body.charge_to_mass_of(typed, "A point charge")
+    if p.name == "c":
+        return body.speed_of_light(options)
+    return body.start_of(typed) if p.name == "omega" and "spin" in options else typed[p.name]
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:

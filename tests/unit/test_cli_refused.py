@@ -357,6 +357,7 @@ ELSEWHERE = (
     "exceptions.Exit(_reader_gone())",
     "no JSON for",
     "raise error",
+    "FaultsError(",  # of several options at fault, in test_your_body
     "raise ValueError(text)",
     "a ratio, three moments or a tensor (3, 3) is wanted",  # of an object of Python
     "AtlasError(error.format_message())",  # of one row of several, which the index lists

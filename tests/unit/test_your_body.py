@@ -21,7 +21,7 @@ from atlas.book.verdict import stands, verdict
 from atlas.book.your_body import explorer_of, files_of, name_of, sign_of, title_of
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, FaultsError
 from atlas.motions.spin_stability import spins_on
 
 SHELL = (
@@ -189,7 +189,7 @@ def test_another_file_than_that_of_the_inputs_is_refused(text: str, tmp_path: Pa
     [
         ("", "your_body takes a body, a field and a start"),
         ("--from nosuch.toml", "--from takes a file NAME.inputs.toml that your_body wrote, not 'nosuch.toml'"),
-        ("--shape thin-rod --length 1e-6 --mass 1 --field 1 2 --omega 1 2 3", "a thin rod has I3 = 0"),
+        ("--shape thin-rod --length 1e-6 --field 1 2 --omega 1 2 3", "a thin rod has I3 = 0"),
         ("--only card,moton --ratio 0.7 --field 1 2", "no part 'moton' of the report (did you mean 'motion'?)"),
         ("--ratio 3 --field 1 2 --omega2 1", "3"),
     ],
@@ -205,6 +205,31 @@ def test_a_body_without_a_report_is_refused_in_one_line(
     (line,) = capsys.readouterr().err.splitlines()
     assert reason in line
     assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("--ratoi 0.7 --field 1 2 --omega2 x --digts 3", ["'--ratoi'. (Did you mean", "'--digts'", "'--omega2': 'x'"]),
+        (
+            "--ratio 3 --field 1x 2 --omega2 1 --digits 0",
+            ["'--field': there is no unit 'x'", "'--digits': 0", "I3/I2 = 3.0"],
+        ),
+        ("--ratio 3 --magnetic 0.8T 0T --omega 1 2 3 --spin 2", ["I3/I2 = 3.0", "needs --mass and --charge", "twice"]),
+        ("--shape disk --radius 1um --height 2um --mass 1 --magnetic 0.8T --angle x --spin 2", ["'--angle'", "disk"]),
+        ("top --inertia 1 9 --direction 1 0 --omega 1 2 x --linear y", ["'--omega'", "'--linear'"]),
+    ],
+)
+def test_all_faults_of_the_options_are_told_at_once(words: str, says: list[str], tmp_path: Path) -> None:
+    """A sentence for each option at fault and no other, also for words from a file, which is named."""
+    with pytest.raises(FaultsError) as refused:
+        request_of(words)
+    assert [x in said for x, said in zip(says, refused.value.sentences, strict=True)] == [True] * len(says)
+    file = tmp_path / "one.inputs.toml"
+    file.write_text(f"typed = {json.dumps(words.split())}", encoding="utf-8")
+    with pytest.raises(FaultsError) as of_file:
+        request_of(["--from", str(file), "--name", "other"])
+    assert of_file.value.sentences == tuple(f"{file}, typed: {one}" for one in refused.value.sentences)
 
 
 @pytest.mark.slow
