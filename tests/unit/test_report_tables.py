@@ -262,12 +262,12 @@ def test_fonts_have_all_written_characters() -> None:
         assert face.weight == TTFont(source(face))["OS/2"].usWeightClass
 
 
-def test_a_table_of_more_than_a_dozen_rows_may_be_broken_over_pages() -> None:
+def test_a_table_of_more_than_two_dozen_rows_may_be_broken_over_pages() -> None:
     """Its rows are single lines then, of words too."""
     column = ColumnView(0, None, numeric=False, before=0.0, after=0.0)
-    for count in (12, 13):
+    for count in (24, 25):
         table = TableView(1, "tab-x", (column, column), ((Cell(0), Cell(0)),) * count, 0, 0, None)
-        assert table.tall == table.tight == (count > 12)
+        assert table.tall == table.tight == (count > 24)
 
 
 def test_tops_of_a_table_have_the_period_of_a_quadrature() -> None:

@@ -29,8 +29,8 @@ def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
 
 
 _CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
-_SIGN = re.compile(r"((?<![a-z])'|'(?=_)|[!-&(-/:-@\[-_{-~])")
-"""Signs that would be markup, and primes; an apostrophe, behind a small letter, is left to become typographic."""
+_SIGN = re.compile(r"((?!(?<=[a-z])'s\b|(?<=s)' )[!-/:-@\[-_{-~])")
+"""Signs that would be markup, and primes; the apostrophe of a genitive is left to become typographic."""
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\S.*)((?:\n(?: .*)?)*)", re.MULTILINE)
 _TABLES = frozenset({"Parameters", "Attributes", "Returns", "Raises", "Warns"})
