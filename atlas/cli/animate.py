@@ -6,14 +6,16 @@ from typing import Any
 import click
 
 from atlas import files
-from atlas.cli.figure import FigureCommand, setting
+from atlas.cli.figure import parameters_of, setting
 from atlas.cli.options import choice, examples, out_option, several, style_option
 from atlas.cli.present import bar
+from atlas.cli.words import Command
 
 
 @click.command(
     "animate",
-    cls=FigureCommand,
+    cls=Command,
+    inputs_of=parameters_of,
     epilog=examples(
         "atlas animate motion --over omega2=0:2:60",
         "atlas animate film_strip --format mp4 --fps 30",

@@ -17,43 +17,27 @@ if TYPE_CHECKING:
     from atlas.book.building.figures import Files
 
 
-class FigureCommand(Command):
-    """A command whose help also lists the parameters of the recipes that are named beside --help."""
+def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
+    """Return the title and the rows (parameter, meaning) of the help on the parameters of a recipe."""
+    from atlas.pictures import recipes
+    from atlas.pictures.parameters import MEANINGS, described, typed
 
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Keep the words that may name recipes in `ctx.obj`, since click obeys --help before they are read."""
-        ctx.obj = [word for word in args if not word.startswith("-")]
-        return super().parse_args(ctx, args)
-
-    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the parameters of each named recipe, then the options."""
-        for name in ctx.obj:
-            self._parameters(name, formatter)
-        super().format_options(ctx, formatter)
-
-    @staticmethod
-    def _parameters(name: str, formatter: click.HelpFormatter) -> None:
-        from atlas.pictures import recipes
-        from atlas.pictures.parameters import MEANINGS, described, typed
-
-        recipe = recipes.load(name)
-        at_least = f"; it needs a page of {recipe.narrowest:g} mm" if recipe.narrowest else ""
-        hints, rows = recipe.hints(), []
-        for key, default in recipe.parameters.items():
-            ends = recipe.ranges.get(key)
-            takes = described(hints.get(key), default) + (f" from {ends[0]:g} to {ends[1]:g}" if ends else "")
-            takes += "; left out, the recipe chooses" if default is None else ""
-            means = f"{MEANINGS[key]}: " if key in MEANINGS else ""
-            rows.append((key if default is None else f"{key}={typed(default)}", means + takes))
-        with formatter.section(
-            f"{recipe.title}{at_least}. Parameters of {recipe.name}, after --set, with their defaults"
-        ):
-            formatter.write_dl(rows or [("none", "")])
+    recipe = recipes.load(name)
+    at_least = f"; it needs a page of {recipe.narrowest:g} mm" if recipe.narrowest else ""
+    hints, rows = recipe.hints(), []
+    for key, default in recipe.parameters.items():
+        ends = recipe.ranges.get(key)
+        takes = described(hints.get(key), default) + (f" from {ends[0]:g} to {ends[1]:g}" if ends else "")
+        takes += "; left out, the recipe chooses" if default is None else ""
+        means = f"{MEANINGS[key]}: " if key in MEANINGS else ""
+        rows.append((key if default is None else f"{key}={typed(default)}", means + takes))
+    return f"{recipe.title}{at_least}. Parameters of {recipe.name}, after --set, with their defaults", rows
 
 
 @click.command(
     "figure",
-    cls=FigureCommand,
+    cls=Command,
+    inputs_of=parameters_of,
     epilog=examples(
         "atlas figure quadrics hyperbola",
         "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",

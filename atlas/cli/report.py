@@ -18,27 +18,15 @@ set_option: Callable[[Any], Any] = several(
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 
 
-class ReportCommand(Command):
-    """A command whose help also lists the inputs of the reports that are named beside --help."""
+def inputs_of(name: str) -> tuple[str, list[tuple[str, str]]]:
+    """Return the title and the rows (input, meaning) of the help on the inputs of a report."""
+    from atlas.book.files import find
+    from atlas.book.inputs import declared
 
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Keep the arguments that may name reports in `ctx.obj`, since click obeys --help before they are read."""
-        ctx.obj = Words(args).loose
-        return super().parse_args(ctx, args)
-
-    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write a section on the inputs of each named report, then the options."""
-        for name in ctx.obj:
-            from atlas.book.files import find
-            from atlas.book.inputs import declared
-
-            rows = [
-                (key if one.default is None else f"{key}={one.default}", ", ".join(filter(None, (one.takes, one.help))))
-                for key, one in declared(find(name)).items()
-            ]
-            with formatter.section(f"Inputs of {name}, after --set, with their defaults"):
-                formatter.write_dl(rows or [("none", "")])
-        super().format_options(ctx, formatter)
+    return f"Inputs of {name}, after --set, with their defaults", [
+        (key if one.default is None else f"{key}={one.default}", ", ".join(filter(None, (one.takes, one.help))))
+        for key, one in declared(find(name)).items()
+    ]
 
 
 SEVERAL = {"--each": "each", "--against": "against"}
@@ -61,7 +49,8 @@ def _of_your_body(words: Words) -> click.Command | None:
 
 @click.command(
     "report",
-    cls=ReportCommand,
+    cls=Command,
+    inputs_of=inputs_of,
     other=_of_your_body,
     epilog=examples(
         "atlas report",

@@ -138,6 +138,8 @@ class Command(click.Command):
         Returns the command to which words belong, None where it is this one.
     carries : bool
         Whether uncertainties of numbers go on to the results.
+    inputs_of : callable, optional
+        Returns the title and the rows of a section of the help, for each name that stands beside --help.
     """
 
     def __init__(
@@ -145,10 +147,11 @@ class Command(click.Command):
         *args: Any,
         other: Callable[[Words], click.Command | None] = lambda _: None,
         carries: bool = False,
+        inputs_of: Callable[[str], tuple[str, list[tuple[str, str]]]] | None = None,
         **settings: Any,
     ) -> None:
         super().__init__(*args, **settings)
-        self.other, self.carries = other, carries
+        self.other, self.carries, self.inputs_of = other, carries, inputs_of
 
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
@@ -158,7 +161,10 @@ class Command(click.Command):
         return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the help of the options, those of body, field and start under a title each."""
+        """Write the inputs of each name, then the options, those of body, field and start under a title each."""
+        for title, rows in map(self.inputs_of, ctx.obj or ()) if self.inputs_of else ():
+            with formatter.section(title):
+                formatter.write_dl(rows or [("none", "")])
         sections: dict[str, list[tuple[str, str]]] = {}
         for param in self.get_params(ctx):
             title = next((title for title, names in SECTIONS.items() if param.name in names), "Options")
@@ -176,6 +182,7 @@ class Command(click.Command):
         """
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
+            ctx.obj = [*words.loose, *(x for one in words.options if one.name in help_names for x in one.values)]
             return super().parse_args(ctx, [*help_names][:1])
         with augment_usage_errors(ctx):
             plain_words = list(Reader(words, self.get_params(ctx)).plain())
