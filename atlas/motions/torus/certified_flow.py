@@ -18,7 +18,7 @@ half the errors of V, and its own.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from math import exp, inf, isfinite, sqrt
+from math import exp, inf, sqrt
 from operator import mul
 
 import numpy as np
@@ -157,18 +157,16 @@ class _Way:
 
         Raises NotCertifiedError for a step too long, GrowthError for errors that grow too much.
         """
-        W, K, size_V, lipschitz = self._sizes(rows, h)
+        W, K, size_V, lipschitz, bend = self._sizes(rows, h)
         if not lipschitz < 2 * MAX_LIPSCHITZ:
             raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
         state, turn = self._defect(rows, h, W, K)
         spread = exp(lipschitz)
         J, eta = self._derivative(rows, h, spread)
         before = float(np.linalg.norm(abs(self.X) @ self.w))
-        if not (isfinite(before) and before < 2.0 ** (self.bits / 4)):
+        if not before * spread * sqrt(bend) < 2.0 ** (self.bits / 2):
             raise GrowthError("not certified: the errors of Taylor's series grow beyond their bounds.")
-        added = (
-            state * spread + len(rows[0]) * 6 + 1
-        )  # the 1 is for terms of second order in errors below 2^(-3/4 bits)
+        added = state * spread + len(rows[0]) * 6 + 1  # the 1 is for terms of second order, bend (before spread)^2 / 2
         if not np.linalg.cond(J @ self.X) < MAX_CONDITION:
             self._straighten()
         following: Matrix = J @ self.X
@@ -187,12 +185,15 @@ class _Way:
         edges = abs(R) @ self.w[longest_first]
         self.X, self.w = Q, 1.01 * edges + ROUNDING * edges.max()
 
-    def _sizes(self, rows: Series, h: fmpq) -> tuple[float, float, float, float]:
-        """Return bounds on |W| and |K| in the step, on h max|V_i/W_i|, and on the Lipschitz constant times h."""
+    def _sizes(self, rows: Series, h: fmpq) -> tuple[float, float, float, float, float]:
+        """Return bounds: |W| and |K| in the step, h max|V_i/W_i|, the Lipschitz constant and second derivatives.
+
+        The last two are of the right-hand side times h.
+        """
         size = [_float(sum(map(abs, row)), self.bits) for row in rows[:6]]
         W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
         most, w_rates, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
-        return W, K, most, 2 * w_rates * W + 2 * second * K + most * (W + K)
+        return W, K, most, 2 * w_rates * W + 2 * second * K + most * (W + K), 2 * (w_rates + second + most)
 
     def _defect(self, rows: Series, h: fmpq, W: float, K: float) -> tuple[float, float]:
         """Return bounds in units on p' - h f(p) over the step, of (W, K) together and of q."""
