@@ -22,11 +22,11 @@ VECTORS = (
     ("body_axis", r"the body's axis $\mathbf{R}_3$"),
 )
 CURVES = (
-    ("hyperbola", "elementary motions"),
+    ("hyperbola", "elementary"),
     ("trace", r"path of $\mathbf{R}_3$"),
     ("second_trace", r"path of $\mathbf{R}_1$"),
     ("trajectory", "path of a point"),
-    ("unstable", "unstable motions"),
+    ("unstable", "unstable"),
     ("asymptote", "asymptote, law"),
 )
 COMPONENTS = (("main", "first component"), ("second", "second component"), ("third", "third component"))

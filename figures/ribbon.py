@@ -137,7 +137,7 @@ def line(points: FloatArray, stable: FloatArray) -> list[Layer]:
 
 
 def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, step: float) -> list[Layer]:
-    """Return layers of the key: tints in a column, with the rates at their borders, upwards from a corner (3,).
+    """Return layers of the key: tints in a column, with the rates at both ends, upwards from a corner (3,).
 
     ``frame`` has the directions right and up as rows, ``step`` is the height of a tint.
     """
@@ -149,7 +149,8 @@ def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, ste
             layers.append(
                 solids.rectangle(place + step / 2 * up, 0.45 * step * rightward, step / 2 * up, role=f"rate_{k}")
             )
-        layers.append(Label(place + 0.6 * step * rightward, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
+        if k in {0, BANDS}:
+            layers.append(Label(place + 0.6 * step * rightward, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
     top = corner + (len(edges) - 0.2) * step * up
     return [*layers, Label(top, r"$|\omega_1B'_2|$", "label", (0.0, 3.0))]
 

@@ -95,7 +95,9 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
             cost += _doubt(candidates, tag.extent, ink[named], own[named], _FAR)
         if not own.any() or MARK in weights[own]:
             far = 1.0 + float(np.hypot(*tag.offset))
-            cost += _doubt(candidates, tag.extent, marks, (marks == tag.anchor).all(axis=1), far)
+            cost += _doubt(
+                candidates, tag.extent, marks, np.isclose(marks, tag.anchor, rtol=0.0, atol=1e-6).all(axis=1), far
+            )
         choices[i] = candidates, cost
     for _ in range(2):
         for i, (candidates, cost) in choices.items():

@@ -15,7 +15,7 @@ from matplotlib.path import Path
 
 from atlas.pictures import conics
 from atlas.pictures.drawing.hidden import Edge, areas, facing, hidden, shadows, split
-from atlas.pictures.drawing.labels import NOBODY, ink_points, place, write
+from atlas.pictures.drawing.labels import MARK, NOBODY, ink_points, place, write
 from atlas.pictures.drawing.plane import gid, marker
 from atlas.pictures.drawing.style import HEAD_WIDTH, dashes, head_base, stroke, style_of, zoom
 from atlas.pictures.drawing.view import Placement, View, fit
@@ -163,8 +163,8 @@ class _Drawing:
             if len(group):
                 mark = {**look, "mfc": face, "zorder": _MARK + self.rise, "clip_on": False, "gid": next(self._names)}
                 self.axes.plot(*group.T, ls="", **mark)
-        around = flat[:, None] + np.array([[0, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]])
-        self.ink.append((around.reshape(-1, 2), 4.0))
+        around = flat[:, None] + np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
+        self.ink += [(flat, MARK), (around.reshape(-1, 2), 4.0)]
 
     def _area(self, edge: Edge, colour: str, opacity: float, height: float = _TINT) -> None:
         """Fill the area inside an edge."""
