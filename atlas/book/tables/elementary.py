@@ -156,13 +156,14 @@ def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[
             named.setdefault(omega2, []).append(name)
     if not named:
         raise AtlasError("with B2 = 0 the hyperbola is the line omega2 = 0, and omega3 is free: it has no such points.")
-    found = []
-    for omega2 in sorted(named):
-        x = rational(omega2, "omega2")
-        values = certified(lambda x=x: (h.omega3(x), *h.frequencies(x), h.stability(x)), digits)
-        given = Number.as_given(float(omega2)) if Fraction(float(omega2)) == omega2 else x
-        found.append(Point(", ".join(filter(None, named[omega2])), (given, *values), h.stable(x)))
-    return found
+    order = sorted(named)
+    exact = [rational(omega2, "omega2") for omega2 in order]
+    values = certified(lambda: [(h.omega3(x), *h.frequencies(x), h.stability(x)) for x in exact], digits)
+    given = [Number.as_given(float(y)) if Fraction(float(y)) == y else x for x, y in zip(exact, order, strict=True)]
+    return [
+        Point(", ".join(filter(None, named[y])), (number, *row), h.stable(x))
+        for x, y, number, row in zip(exact, order, given, values, strict=True)
+    ]
 
 
 class Motion(StrictStruct, frozen=True):
