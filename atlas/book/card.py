@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -123,6 +124,14 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
     return functions.sqrt(sum(x * x for x in (*across, along)))
 
 
+def _words(one: Entry, centre: str, motion: Any) -> str:
+    """Return the words of an entry, with the direction `centre`, and the axis of a free body of three moments."""
+    says = one.says.replace("the field", centre)
+    with suppress(AtlasError, AttributeError):
+        says = says.replace("body's axis", f"body's {motion.mode}" if "axis" in motion.mode else "body's axis")
+    return says
+
+
 def _pole(key: str, arguments: Mapping[str, Any]) -> str:
     """Return words on the rates of an axis that passes through the direction of the field, "" for other motions."""
     *across, along = arguments.get("field") or arguments.get("direction") or (0.0,)
@@ -210,7 +219,7 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
             value, reason = _in_doubles(one.key, request.family, motion, floats)
         equation = one.equation if request.family.takes("ratio") else ""
         entry: dict[str, Any] = {
-            "says": one.says.replace("the field", centre) + _pole(one.key, floats), "letter": one.letter,
+            "says": _words(one, centre, motion) + _pole(one.key, floats), "letter": one.letter,
             "value": value, "unit": _unit(one.unit, request.time),
             "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
             "equation": equation or None, "reason": None,

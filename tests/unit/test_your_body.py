@@ -77,6 +77,9 @@ def test_numbers_of_the_card_agree_with_plain_formulas() -> None:
     free = card(request_of("--ratio 1.5 --omega 0.3 0.7 0.2"))
     assert free["turn"]["value"] == pytest.approx(2 * pi / hypot(0.3, 0.7, 1.5 * 0.2))
     assert free["spin"]["value"] == pytest.approx((1 - 1.5) * 0.2)
+    toutatis = card(request_of("--inertia 1 3.0836 3.235 --omega -1.71914931 0.25307274 0.58817596"))  # rad a day
+    assert [round(toutatis[key]["value"], 2) for key in ("nutation", "turn")] == [5.38, 7.40]
+    assert toutatis["spin"]["says"] == "rate about the body's long axis"
 
 
 def test_a_turn_through_the_pole_is_said_to_be_a_mean() -> None:
