@@ -3,6 +3,7 @@
 import inspect
 import shlex
 from collections.abc import Iterator
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -24,7 +25,7 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
         w2 = values["omega2"]
         without_third = {"omega3": None} if "omega3" in values else {}
         starts = {
-            r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair": -2 * B2 - w2,
+            r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair": opposite(B2, w2),
             "at rest": 0.0,
             r"$\phi=0$: it turns as a whole": -2 * B2,
         }
@@ -33,7 +34,7 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
                 yield words, request.changed(name, omega2=omega2, **without_third)
     if "omega" in values:
         w1, w2, w3 = values["omega"]
-        pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
+        pair = (-w1, opposite(B2, w2), opposite(B3, w3))
         yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", request.changed(name, omega=pair, spin=None)
         if B2 and w2 != -B2:
             same = request.changed("elementary", omega2=w2, omega=None, spin=None)
@@ -44,6 +45,11 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
             "all motions of this body in this field",
             request.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),
         )
+
+
+def opposite(B: float, omega: float) -> float:
+    """Return -2 B - omega, of the shortest decimals of both and so without their noise, rounded to 15 digits."""
+    return float(f"{-2 * Decimal(repr(float(B))) - Decimal(repr(float(omega))):.15g}")
 
 
 def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:

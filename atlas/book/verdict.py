@@ -42,6 +42,12 @@ def verdict(item: Thing) -> str:
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
 
 
+def has_mean_rates(item: Thing) -> bool:
+    """Return whether the axis of a motion goes round unevenly, so that the rate of its turn is a mean."""
+    kind = str(getattr(item.kernels(), "kind", ""))
+    return kind.startswith("nutation") or kind in {"ball", "Euler's top", "on a torus"}
+
+
 def is_stable(item: Thing) -> bool | None:
     """Return whether a motion whose axis keeps its angle is stable against small nutations; None where undecided."""
     family, motion = item.family, item.kernels()

@@ -36,7 +36,7 @@ from atlas.book.parts import (
     too_slow,
 )
 from atlas.book.templates import versions
-from atlas.book.verdict import place_of, stands, verdict
+from atlas.book.verdict import has_mean_rates, place_of, stands, verdict
 from atlas.places import folder
 
 NAME = "your_body"
@@ -82,7 +82,8 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
         return f"{subject}: {says}"
     unit = turn["unit"].replace("time", "units of time")
     time = concise(turn["value"], turn["sigma"]) if turn["sigma"] else f"{turn['value']:.4g}"
-    return f"{subject} turns about {centre_of(request)} once in {time} {unit}; {says}"
+    mean = " in the mean" * has_mean_rates(thing_of(request))
+    return f"{subject} turns about {centre_of(request)} once in {time} {unit}{mean}; {says}"
 
 
 def sign_of(request: Asked) -> str:
