@@ -96,6 +96,14 @@ def size(unit: str, option: str) -> Fraction | float:
     return value if exact is None else exact
 
 
+def is_unit(text: str) -> bool:
+    """Return whether a text is a unit, such as deg/s."""
+    try:
+        return bool(text) and bool(_parsed(text))
+    except AtlasError:
+        return False
+
+
 def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
     """Return a unit as a factor and the powers of the base units. Raises AtlasError for an unknown unit."""
     factor, powers, place = Fraction(1), Counter[str](), 0

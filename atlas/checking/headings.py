@@ -45,7 +45,6 @@ QUESTIONS = {
 class Heading:
     """Columns of a table by canonical name: their indices, their names in the file, and factors to s and rad/s."""
 
-    width: int
     places: Mapping[str, int]
     written: Mapping[str, str]
     sizes: Mapping[str, Fraction]
@@ -61,8 +60,6 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
     an unknown unit, no column of times, and no other known column.
     """
     titles = [heading(cell) for cell in cells]
-    while len(titles) > 1 and not titles[-1][0]:
-        del titles[-1]  # a separator at the end
     if all(re.fullmatch(r"[+-]?\.?\d.*", name) for name, _ in titles if name):
         first_cell = cells[0].strip()
         raise AtlasError(
@@ -91,7 +88,7 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
         raise AtlasError(f"{source}: timestamp has no unit; call it t [s], t [ms], t [us] or t [ns].")
     sizes = {name: _size(name, unit, source) for name, unit in units.items()}
     left_out = f"columns left out: {', '.join(unknown)}{ask}" if unknown else ""
-    return Heading(len(titles), places, titles_used, sizes, units, left_out)
+    return Heading(places, titles_used, sizes, units, left_out)
 
 
 def _canonical(names: Sequence[str], extra_names: Sequence[str]) -> dict[int, str]:

@@ -7,22 +7,18 @@ Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega
 or a gyroscope's x, y, z; a quaternion that takes the body's frame to the laboratory, as ``w x y z``, ``qw qx qy qz``
 or, scalar first, ``q0 q1 q2 q3``; other columns are left out. Names may have units, as ``t [ms]`` or ``Omega1 (Hz)``;
 times are then in s, rates in rad/s. Lines such as ``# ratio = 1.5`` and ``# field: 1 2`` above the rows hold
-parameters; other # lines are comments, and so is text behind a colon that does not begin with a number. The numbers are
-separated by commas, or by semicolons, tabs or spaces where the line of names has no comma; an empty cell is NaN. Rows
-are read in blocks, so that a file may be larger than the memory.
+parameters; other # lines are comments, and so is text behind a colon that does not begin with a number. How the cells
+are written, says `atlas.text_tables`; an empty one is NaN. Rows are read in blocks, so that a file may be larger than
+the memory.
 """
 
-import codecs
-import csv
-import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -31,7 +27,7 @@ from atlas.arithmetic.inputs import FloatArray, real
 from atlas.checking.binary_tables import READERS, head_and_columns
 from atlas.checking.headings import FIELD, MATRIX, OMEGA, QUATERNION, Heading, headed
 from atlas.errors import AtlasError, DomainError
-from atlas.files import lines_of
+from atlas.text_tables import number_of, opened_table, split_cells
 
 BLOCK = 8192
 """Lines read at once."""
@@ -57,10 +53,6 @@ NAMED = re.compile(
     r"# *(t|time)( *[\[(][^])]*[\])])?([\s,;]+(R_?\d\d|(Omega_?|K|q)\d|q?[w-z])( *[\[(][^])]*[\])])?)+", re.IGNORECASE
 )
 """The names of columns in a comment, as NumPy's savetxt writes them."""
-
-
-HOLES = ("na", "n/a", "#n/a", "null", "none", "-")
-"""Texts of cells without a number, besides NaN and the empty text."""
 
 POLICIES = ("omit", "raise")
 """Policies for rows that lack a number."""
@@ -96,35 +88,25 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
         (*head, names), columns = head_and_columns(path)
         for line in head:
             parameters |= _parameters(line.lstrip("# "), path.name)
-        title = headed(_split(names, ","), path.name, extra_names)
+        title = headed(split_cells(names, ",", path.name), path.name, extra_names)
         yield Trajectory(
             path.name, title.written, parameters, _sliced(columns, title, path.name), title.left_out, title.units
         )
         return
-    if path.is_dir():
-        raise AtlasError(f"{path.name} is a folder; a table is a file, or the folder x.parquet of a sweep.")
-    separator = ""
-    with path.open("rb") as raw:  # once: a pipe can't be opened again
-        encoding = "utf-16" if raw.peek(2)[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
-        file = TextIOWrapper(raw, encoding=encoding, errors="atlas-latin-1", newline=None)
-        lines = _decoded(file, path.name)
-        for number, raw_line in enumerate(lines, 1):
-            line, place = raw_line.strip(" \n"), f"{path.name}, line {number}"
-            line = line.lstrip("# ") if NAMED.fullmatch(line) else line
-            if line.startswith("#"):
-                for name, values in _parameters(line.lstrip("# "), place).items():
-                    if parameters.setdefault(name, values) != values:
-                        raise AtlasError(f"{place}: {name} is there twice, with other numbers.")
-            elif re.fullmatch("sep=.", line):
-                separator = line[-1]
-            elif line.strip():
-                separator = separator or max(",;\t", key=re.sub('"[^"]*"', "", line).count)
-                separator = separator if separator in line else " "
-                title = headed(_split(_one_word(line) if separator == " " else line, separator), place, extra_names)
-                blocks = _blocks(lines, number, title, separator, path.name)
-                yield Trajectory(path.name, title.written, parameters, blocks, title.left_out, title.units)
-                return
-    raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
+
+    def remark(number: int, text: str, above: bool) -> None:
+        """Read the parameters of a remark. Raises AtlasError for one below the names, and for one given twice."""
+        place = f"{path.name}, line {number}"
+        for name, values in _parameters(text, place).items():
+            if not above:
+                raise AtlasError(f"{place}: a parameter stands above the line of names, not below it.")
+            if parameters.setdefault(name, values) != values:
+                raise AtlasError(f"{place}: {name} is there twice, with other numbers.")
+
+    with opened_table(path, remark, NAMED) as table:
+        title = headed(table.names, f"{path.name}, line {table.number}", extra_names)
+        blocks = _blocks(table.rows, title, path.name)
+        yield Trajectory(path.name, title.written, parameters, blocks, title.left_out, title.units)
 
 
 def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str, Any]) -> dict[str, Any]:
@@ -205,57 +187,14 @@ def holes_left_out(count: int, rows: int, file: str) -> str:
     return f"{count} row{'s' * (count != 1)} left out, which lack{'s' * (count == 1)} a number" if count else ""
 
 
-def _latin_1(error: UnicodeError) -> tuple[str, int]:
-    """Return bytes that are no UTF-8 decoded as Latin-1, and the position behind these: a handler of `codecs`."""
-    if not isinstance(error, UnicodeDecodeError):
-        raise error
-    return error.object[error.start : error.end].decode("latin-1"), error.end
-
-
-codecs.register_error("atlas-latin-1", _latin_1)
-
-
-def _decoded(file: TextIO, name: str) -> Iterator[str]:
-    """Yield the lines of a text file. Raises AtlasError for a file that is no text."""
-    for line in lines_of(file, name):
-        if "\0" in line:
-            raise AtlasError(f"{name} is not a text file: save it as CSV in UTF-8.")
-        yield line
-
-
-def _split(line: str, separator: str) -> list[str]:
-    """Return the cells of a line, without quotes."""
-    if separator == " ":
-        return next(csv.reader([" ".join(line.split())], delimiter=" "))
-    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-
-
-def _one_word(line: str) -> str:
-    """Return a line of names separated by spaces, without the space between a name and its unit."""
-    return re.sub(r"\s+(?=[\[(])", "", line)
-
-
-def _blocks(
-    lines: Iterator[str], above: int, title: Heading, separator: str, file: str
-) -> Iterator[dict[str, FloatArray]]:
-    """Yield blocks of rows, arrays (m,) by column, from the lines below the line of names.
-
-    `above` is the number of the line of names. Raises AtlasError, which names the line, for a mistake in a row, for a
-    parameter among the rows, and where there are no rows.
-    """
-    first_row, empty = above + 1, True
-    while block := list(islice(lines, BLOCK)):
-        numbered = [(i, line.strip(" \n")) for i, line in enumerate(block, first_row) if line.strip()]
-        for i, line in numbered:
-            if line.startswith("#") and _parameters(line.lstrip("# "), f"{file}, line {i}"):
-                raise AtlasError(f"{file}, line {i}: a parameter stands above the line of names, not below it.")
-        rows = [(i, line) for i, line in numbered if not line.startswith("#")]
-        if rows:
-            empty = False
-            yield _in_units(title, _rows(rows, title, separator, file).T)
-        first_row += len(block)
-    if empty:
+def _blocks(rows: Iterator[tuple[int, list[str]]], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:
+    """Yield blocks of rows, arrays (m,) by column. Raises AtlasError without rows, and for a text that is no number."""
+    block = [*islice(rows, BLOCK)]
+    if not block:
         raise AtlasError(f"{file} has a line of names, but no rows of numbers: add them.")
+    while block:
+        yield _in_units(title, _numbers(block, title, file).T)
+        block = [*islice(rows, BLOCK)]
 
 
 def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:
@@ -278,32 +217,28 @@ def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatA
     }
 
 
-def _rows(rows: Sequence[tuple[int, str]], title: Heading, separator: str, file: str) -> FloatArray:
-    """Return the numbers in the known columns, shape (rows, columns), from pairs (line number, text).
+def _numbers(rows: Sequence[tuple[int, list[str]]], title: Heading, file: str) -> FloatArray:
+    """Return the numbers in the known columns, shape (rows, columns), from pairs (line number, cells).
 
-    Lines are decoded as JSON if possible, else cell by cell. Raises AtlasError for a cell without a number.
+    Cells are decoded as JSON if possible, else one by one. Raises AtlasError for a cell without a number.
     """
-    places = [*title.places.values()]
-    lines = [",".join(line.split(None if separator == " " else separator)) for _, line in rows]
-    if all(line.count(",") == title.width - 1 for line in lines):
-        try:
-            return np.array(_DECODER.decode(f"[{','.join(lines)}]")).reshape(-1, title.width)[:, places]
-        except msgspec.DecodeError:
-            pass  # 1., +1 and .5 are numbers but no JSON; and a text that is no number is refused below
-    return np.array([_cells(line, title, separator, f"{file}, line {i}") for i, line in rows])
+    places = title.places.items()
+    text = ",".join([cells[i] for _, cells in rows for _, i in places])
+    try:
+        numbers = np.array(_DECODER.decode(f"[{text}]"))
+        if numbers.size == len(rows) * len(places):  # not for cells with a comma
+            return numbers.reshape(-1, len(places))
+    except msgspec.DecodeError:
+        pass  # 1., +1 and .5 are numbers but no JSON; and a text that is no number is refused below
+    return np.array(
+        [
+            [number_of(cells[i], f"{file}, line {number}, column {title.written[name]}") for name, i in places]
+            for number, cells in rows
+        ]
+    )
 
 
 _DECODER = msgspec.json.Decoder(list[float])
-
-
-def _cells(line: str, title: Heading, separator: str, place: str) -> list[float]:
-    """Return the numbers in the known columns of a line. Raises AtlasError for another count of cells, or a text."""
-    cells = _split(line, separator)
-    if len(cells) == title.width + 1 and not cells[-1].strip():
-        del cells[-1]  # a separator at the end
-    if len(cells) != title.width:
-        raise AtlasError(f"{place}: {len(cells)} cells where the line of names has {title.width}.")
-    return [_number(cells[i], f"{place}, column {title.written[name]}") for name, i in title.places.items()]
 
 
 def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
@@ -319,28 +254,9 @@ def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
         words = re.split(r"[,\s]+", item[key.end() :].strip(" ()[]"))
         if key[2] == ":" and not re.match(r"[+-]?\.?\d", words[0]):
             continue  # "# field: along e3" is a comment
-        values = tuple(_number(word, f"{place}, parameter {name}") for word in words)
+        values = tuple(number_of(word, f"{place}, parameter {name}") for word in words)
         if len(values) not in PARAMETERS[name]:
             counts = " or ".join(map(str, PARAMETERS[name]))
             raise AtlasError(f"{place}: {name} takes {counts} numbers, not {len(values)}.")
         parameters[name] = values
     return parameters
-
-
-def _number(cell: str, place: str) -> float:
-    """Return the number in a cell, NaN for an empty cell or a text such as "null".
-
-    Raises AtlasError for another text and for infinity.
-    """
-    text = cell.strip(" \t")
-    text = "" if text.lower() in HOLES else text
-    plain = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's 1.5D-05
-    try:  # Python reads underscores and the digits of other scripts
-        value = float(plain if plain.isascii() and "_" not in plain else "") if text else math.nan
-    except ValueError as error:
-        remedy = "; a decimal has a point" * bool(re.fullmatch(r"[+-]?\d+,\d+", text))
-        remedy = remedy or "; it has a no-break space" * ("\N{NO-BREAK SPACE}" in text)
-        raise AtlasError(f"{place}: {text!r} is not a number{remedy}.") from error
-    if math.isinf(value):
-        raise AtlasError(f"{place}: the cell is {text}; every cell must be a finite number, or empty.")
-    return value

@@ -13,6 +13,7 @@ from atlas.errors import AtlasError, unknown
 from atlas.files import keeping
 from atlas.measured import heading
 from atlas.targets import TARGETS, find
+from atlas.text_tables import number_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -131,10 +132,10 @@ def numbers_of(columns: Mapping[str, "Column"], name: str, table: Path) -> "NDAr
 
     if name not in columns:
         raise unknown("column", name, columns, f"of {table}")
-    column = columns[name]
+    cells = columns[name]
     try:
-        cells = np.where(column == "", "nan", column) if column.dtype.kind == "U" else column
-        return np.asarray(cells, dtype=np.float64)
+        numbers = [number_of(cell, name) for cell in cells] if cells.dtype.kind == "U" else cells
+        return np.asarray(numbers, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise AtlasError(f"{table}: the column {name} has text: choose a column of numbers.") from error
 

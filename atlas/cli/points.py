@@ -1,18 +1,17 @@
 """Columns of numbers of a CSV file with a heading; point masses and charges of one as the body of a command."""
 
-import csv
 import warnings
 from collections.abc import Mapping
 from fractions import Fraction
-from itertools import chain, islice
+from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
 from atlas.errors import AtlasError, NearlySymmetricWarning
-from atlas.files import lines_of
 from atlas.measured import WANTED, heading, size
+from atlas.text_tables import opened_table
 
 MAX_ROWS = 10**7
 """Rows of a table that are read."""
@@ -151,38 +150,22 @@ def _one_ratio(path: Path, masses: Any, charges: Any) -> Fraction:
 
 
 def cells_of(path: Path) -> tuple[dict[str, str], list[tuple[int, list[str]]]]:
-    """Return the units of a CSV file's columns by name, and for each row the number of its line and its cells.
+    """Return the units of a text table's columns by name, and for each row the number of its line and its cells.
 
-    Raises click.UsageError for a file that cannot be read, names that are not different, no row, and a row of another
-    length.
+    Raises click.UsageError for a file that cannot be read, names that are not different, and no row; AtlasError for
+    another fault of the file.
     """
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            texts = lines_of(file, str(path))
-            skipped = 0
-            while (top := next(texts, "")).startswith("#"):  # the conventions above a table of ours
-                skipped += 1
-            separator = next((s for s in (",", ";", "\t") if s in top), ",")
-            reader = csv.reader(chain([top], texts), delimiter=separator)
-            rows = ((reader.line_num + skipped, line) for line in reader if line)
-            (_, heading_cells), *lines = [*islice(rows, MAX_ROWS + 2)] or [(1, [])]
+        with opened_table(path) as table:
+            lines = [*islice(table.rows, MAX_ROWS + 1)]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
-    except UnicodeDecodeError as error:
-        raise click.UsageError(
-            f"{path} is not UTF-8, for it has the byte {error.object[error.start]:#04x}: save it as UTF-8."
-        ) from error
-    except csv.Error as error:
-        raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
     if len(lines) > MAX_ROWS:
         raise click.UsageError(f"{path} has more than {MAX_ROWS} rows: split it.")
-    units = dict(map(heading, heading_cells))
-    if not lines or len(units) != len(heading_cells):
+    units = dict(map(heading, table.names))
+    if not lines or len(units) != len(table.names):
         raise click.UsageError(f"{path} must have a heading of different names, as ratio,radius [um], and at least one "
                                "row.")  # fmt: skip
-    for number, line in lines:
-        if len(line) != len(units):
-            raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(units)}.")
     return units, lines
 
 

@@ -40,11 +40,11 @@ def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("", "must have a heading"),
+        ("", "it needs a line of names"),
         ("ratio,field\n", "must have a heading"),
         ("ratoi,field\n0.7,1 2\n", "no option 'ratoi' of a body (did you mean 'ratio'?)"),
         ("ratio,ratio\n0.7,0.8\n", "a heading of different names"),
-        ("ratio,field\n0.7\n", "line 2 has 1 cells, but the heading 2"),
+        ("ratio,field\n0.7\n", "line 2: 1 cells where the line of names has 2"),
     ],
 )
 def test_a_malformed_table_of_bodies_is_refused_in_a_line(

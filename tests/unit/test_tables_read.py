@@ -104,18 +104,28 @@ def rates(unit: float = 1.0, time: float = 1.0) -> list[list[str]]:
         ("sep=;\nt [s];Omega_1 [deg/s];Omega_2 [deg/s];Omega_3 [deg/s]", 180 / np.pi, 1, "", ";", "utf-8"),
         ("timestamp (ms)\tgyr x (Hz)\tgyr y (Hz)\tgyr z (Hz)", 1 / (2 * np.pi), 1e3, "", "\t", "utf-16"),
         ("t\N{NO-BREAK SPACE}[s] Omega1 (1/s) Omega2 (1/s) Omega3 (1/s)", 1, 1, "", " ", "utf-8"),
+        ("% log\nt;Omega1;Omega2;Omega3;\n[ms];[deg/s];[deg/s];[deg/s];", 180 / np.pi, 1e3, "", ";", "utf-16"),
         ("t,angular_velocity.x,angular_velocity.y,angular_velocity.z,", 1, 1, "", ",", "utf-8-sig"),
     ],
 )
 def test_heads_of_loggers_are_read(
     tmp_path: Path, head: str, unit: float, time: float, quote: str, separator: str, encoding: str
 ) -> None:
-    """Round brackets, quotes, sep=, Latin-1, UTF-16, a separator at the end, degrees."""
+    """Round brackets, quotes, sep=, Latin-1, UTF-16, a separator at the end, degrees, units in a line of their own."""
     rows = [separator.join(f"{quote}{cell}{quote}" for cell in row) for row in rates(unit, time)]
     result = graded(tmp_path / "log.csv", head, rows, encoding=encoding)
     assert len(result.columns) == 3
     assert min(column.worst for column in result.columns) > 14
     assert not result.notes
+
+
+@pytest.mark.parametrize("separator", [";", "\t", " "])
+def test_decimal_commas_are_read(tmp_path: Path, separator: str) -> None:
+    """A table with decimal commas is graded as the same table with points."""
+    head, rows = separator.join(("t", "Omega1", "Omega2", "Omega3")), [separator.join(row) for row in rates()]
+    assert graded(tmp_path / "log.csv", head, [row.replace(".", ",") for row in rows]) == graded(
+        tmp_path / "log.csv", head, rows
+    )
 
 
 def test_numbers_of_fortran_are_read(tmp_path: Path) -> None:
