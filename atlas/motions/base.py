@@ -782,7 +782,7 @@ class DoubleTurn(Motion[Rotation]):
         raise NotImplementedError
 
     def _fill_grid(self, single: Rotation, start: float, step: float, out: FloatArray) -> None:
-        """Fill the matrices of one motion on a grid."""
+        """Write R of one motion at times start + i step into ``out`` (count, 3, 3), by `atlas.arithmetic.grid`."""
         fill_grid(single, start, step, out)
 
     def _wheels(self) -> Wheels:

@@ -269,7 +269,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return None
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_elementary`."""
         from atlas.motions.elementary.derivatives import of_elementary
 
         return of_elementary(self, i)
@@ -540,7 +540,7 @@ class FreeMotion(DoubleTurn[Free]):
         return cls(body, tuple(broadcast(x, start.shape) if start.shape else x for x in w)), axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_free`."""
         from atlas.motions.elementary.derivatives import of_free
 
         return of_free(self, i)

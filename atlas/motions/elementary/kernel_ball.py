@@ -196,7 +196,7 @@ class BallMotion(DoubleTurn[Ball]):
         return cls(start.moments[2], larmor, (m2, m3)), turn @ axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the exact inputs of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_ball`."""
         from atlas.motions.elementary.derivatives import of_ball
 
         return of_ball(self, i)

@@ -427,7 +427,10 @@ class Hyperbola(Shown):
         return lower_branch, upper_branch
 
     def _branch(self, sign: int, s: FloatArray) -> Branch:
-        """Return the points at parameters s on the side X > 0 or X < 0."""
+        """Return (omega2, omega3), (m,) in rad/time, at parameters s (m,); ``sign`` is that of X on the branch.
+
+        Raises AtlasError for parameters that lead beyond all floats.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             omega2 = sign * self._scale() * np.exp(s) - self.B2
         if not np.isfinite(omega2).all():
@@ -443,7 +446,10 @@ class Hyperbola(Shown):
             return nearest(root(abs(I2 - I3) / I2 * B2 * B2)) or abs(self.B2)
 
     def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
-        """Return the values of a formula of I2, I3, B2, B3 and omega2, where (71) holds; rounded once."""
+        """Return the results of a formula of I2, I3, B2, B3 and omega2 (rad/time, any shape), each rounded once.
+
+        Raises DomainError at an omega2 where (71) does not hold. ``more`` is passed to `over`.
+        """
         omega2 = real(omega2, "omega2", RATE)
         check_curve(self.B2, omega2)
         return over(formula, *self._inputs, omega2, unit=slice(2, None), **more)

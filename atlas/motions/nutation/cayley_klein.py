@@ -185,7 +185,7 @@ class Products:
 
 
 def _entries() -> FloatArray:
-    """Return the weights (10, 3, 3) with which the ten products sum to the entries of R."""
+    """Return the weights (10, 3, 3), in the entries of R, of the products of quaternion components in `PAIRS`."""
     w, x, y, z = QUATERNION
     table = np.zeros((4, 4, 3, 3))
     for i, j, (row, column), c in (

@@ -72,9 +72,9 @@ class Nutating:
         return False
 
     def _separatrix(self, poles: str) -> str | None:
-        """Return the name of the separatrix: "separatrix", with " between ``poles``" or ", triple root" if so.
+        """Return "separatrix", with " between ``poles``" or ", triple root" where it is so.
 
-        Else None.
+        None for any other motion.
         """
         roots = self.quartic.roots()
         ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))

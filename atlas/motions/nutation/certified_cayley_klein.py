@@ -238,7 +238,10 @@ class Parameter:
         return self.own_rate + self.frame
 
     def at(self, t: Any, s: arb) -> tuple[acb, acb]:
-        """Return (the parameter, its derivative by time) at time t; s is the time since the turning point."""
+        """Return (the parameter, its derivative by time), complex balls, at time t.
+
+        S is the time since the turning point.
+        """
         value, slope = self.sum.at(s)
         phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
         return phase * value, phase * (slope + acb(0, self.rate + self.twist) * value)
@@ -274,7 +277,10 @@ class Solution:
         return self._parameters(t, self.in_cell(arb(t) + self.origin), turning=turning)
 
     def _parameters(self, t: Any, s: arb, *, turning: bool) -> tuple[acb, acb, acb, acb]:
-        """Return alpha, beta and their derivatives at time t, which is s after the turning point in its period."""
+        """Return (alpha, beta, d alpha/dt, d beta/dt), complex balls, at time t; s is the time since the turning point.
+
+        The swing of a top turns alpha and beta oppositely; the derivatives contain its rate only if ``turning``.
+        """
         a, da = self.alpha.at(t, s)
         b, db = self.beta.at(t, s)
         if self.swing is None:

@@ -113,9 +113,9 @@ class Weighted:
     def _directions(
         self, a: Array, b: Array, square: FloatArray, angle: FloatArray
     ) -> tuple[list[FloatArray], list[FloatArray], FloatArray]:
-        """Return (vectors of `_ways`, body's axis in the laboratory, nu (m,)).
+        """Return (ways, axes, nu (m,)): lists of the vectors of `_ways` and of the body's axis in the laboratory.
 
-        The first two with slopes as a and b have.
+        Each list has one item, or two if ``a`` and ``b`` have slopes: then the second is the derivative by time.
         """
         phase = np.empty(angle.size, complex)
         phase.real, phase.imag = np.cos(angle), np.sin(angle)

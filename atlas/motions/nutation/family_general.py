@@ -12,7 +12,10 @@ def _complex(x: str, y: str) -> str:
 
 
 def _in_plane(arguments: dict[str, Any]) -> tuple[dict[str, Any], Any]:
-    """Return the arguments in axes in which the field is (0, B2, B3), rounded, and the turn to these axes, if any."""
+    """Return (arguments, turn): field and omega in axes in which the field is (0, B2, B3), rounded.
+
+    ``turn`` is the matrix (3, 3) about e3 to these axes; None where K1 is 0 and nothing is turned.
+    """
     import numpy as np
 
     K1, K2, K3 = [0.0, *map(float, arguments["field"])][-3:]

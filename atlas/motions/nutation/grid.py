@@ -164,7 +164,10 @@ def window(grid: Grid, count: int) -> int:
 
 
 def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
-    """Write R on a grid into `out` by polynomials, and time by time in windows where these are not accurate."""
+    """Write R on a grid into ``out`` (count, 3, 3): a polynomial per window of ``length`` times where it is accurate.
+
+    Other windows, and the last incomplete one, are evaluated time by time.
+    """
     rows, count = out.reshape(-1, 9), len(out) // length
 
     def fill(low: int, high: int) -> None:

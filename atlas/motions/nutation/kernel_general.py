@@ -97,7 +97,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         return cls(body, tuple(K), tuple(w)), axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the `Inputs` of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_general`."""
         from atlas.motions.nutation.derivatives_inputs import of_general
 
         exact = self._single(i).exact

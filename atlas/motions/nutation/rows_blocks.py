@@ -149,7 +149,7 @@ class Block:
 
 
 def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
-    """Return (words (2, ...) of frequencies in half turns, bounds on their errors), both times 2^``exponents``."""
+    """Return (words (2, ...), error bounds) of rates in rad/time as half turns per time, both times 2^``exponents``."""
     turns = rates * PER_RADIAN
     return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 

@@ -308,11 +308,11 @@ class EllipticAtTimes(MotionsAtTimes):
 
     @property
     def _frames(self) -> FloatArray:
-        """The axes of the pair in the body, as columns, (m, 3, 3)."""
+        """Matrices (m, 3, 3) of each time's motion: the axes of alpha and beta in the body, as columns."""
         return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
-        """Write R into (m, 3, 3)."""
+        """Write R of each motion at its time into ``out`` (m, 3, 3), turned from the axes of the pair to the body's."""
         super().rotation(t, out)
         C = self._frames
         out[:] = C @ out @ C.mT

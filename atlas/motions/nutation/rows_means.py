@@ -102,7 +102,10 @@ class Means:
 
     @cached_property
     def nome(self) -> DoubleDouble:
-        """Magnitude of the nome of the theta functions: for four real roots the nome of the moduli, else its root."""
+        """Magnitude of the nome of the theta functions, row by row, from the levels of the arithmetic-geometric mean.
+
+        For four real roots it is the nome of the moduli, otherwise its square root.
+        """
         product = constant(1.0, self.N)
         for n in range(len(self.levels) - 1, 0, -1):
             further = (product * self.level(n).a / self.level(n + 1).a).sqrt()

@@ -132,7 +132,7 @@ class Roots(TurningPoints):
 
     @cached_property
     def at_rest(self) -> Any:
-        """Mask of rows that start at rest."""
+        """Boolean mask (m,) of the rows whose angular velocity at t = 0 is exactly 0."""
         return np.logical_and.reduce([w.hi == 0 for w in self.omega])
 
     @property
@@ -267,7 +267,10 @@ def roots_of_tops(*inputs: DoubleDouble) -> Roots:
 
 
 def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> DoubleDouble:
-    """Return A, computed exactly in rows where its terms cancel: the sign of A decides the number of roots."""
+    """Return A with the rows whose relative error is 1/2 or more computed anew from the inputs, exactly, to two words.
+
+    The sign of A decides the number of roots. ``inputs`` are (I2, I3, k2, k3, n2, n3, ..., the quadratic term).
+    """
     hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
     for i in np.flatnonzero(~(rel < 0.5)).tolist():
         numbers = (float(np.broadcast_to(x.hi, A.hi.shape)[i]) for x in inputs)

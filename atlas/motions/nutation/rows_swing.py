@@ -208,7 +208,10 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
 
 
 def _sum_of_angles(angle: Circle, increment: Circle, A: DoubleDouble) -> Circle:
-    """Return cosine and sine of the sum of two angles."""
+    """Return (cosine, sine) of the sum of two angles, each given so.
+
+    Their sines are over sqrt(A), A may be negative.
+    """
     (a, b), (c, d) = angle, increment
     return a * c - A * b * d, a * d + b * c
 

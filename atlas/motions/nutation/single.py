@@ -218,7 +218,7 @@ class SingleTop(SingleMotion):
 
     @cached_property
     def _sloping(self) -> CayleyKlein:
-        """Constants of (alpha, beta) with those of their derivatives by time."""
+        """`CayleyKlein` constants of alpha and beta, and of their derivatives by time, eight rows."""
         return CayleyKlein(lambda: self.exact.solution, slopes=True)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:

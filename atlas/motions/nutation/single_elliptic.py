@@ -45,7 +45,7 @@ class SingleElliptic(SingleMotion):
         return Omega
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
-        """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
+        """Write R at the exact numbers start + i step into ``out`` (count, 3, 3)."""
         from atlas.motions.nutation.grid import fill_grid
 
         fill_grid(self, start, step, out)

@@ -54,7 +54,7 @@ class TopHyperbola(Shown):
 
     @property
     def pole(self) -> float:
-        """The omega2 = -n2 k3/I3 that is left out, rounded once."""
+        """Value -n2 k3/I3 of omega2 in rad/time, rounded once: it is left out of the curve, one branch on each side."""
         return float(self.quadric.centre[1])
 
     @property

@@ -94,14 +94,18 @@ class ParticleMotion:
         return tuple(self.mu * e for e in self.E)
 
     def _vectors(self) -> tuple[Vector, Vector, Vector, Vector]:
-        """Return d (steady velocity), p (acceleration along B), r and q (the two radii of the circle), all rational."""
+        """Return (d, p, r, q), four vectors of exact rationals, from which position and velocity follow.
+
+        d is the velocity of the point O of (99) at t = 0, p the acceleration along B, r the arm from O to the particle
+        at t = 0, and q its velocity across B less the drift.
+        """
         b2, x = dot(self.B, self.B), self._inputs
         p = tuple(self.mu * particle.along(*x) * b / b2 for b in self.B)
         q = tuple(a / b2 for a in particle.circling(*x))
         return tuple(particle.carried(*x)), p, tuple(particle.arm(*x)), q
 
     def _circle(self, t: fmpq) -> tuple[Real, Real]:
-        """Return sin(|w| t)/|w| and cos(|w| t)."""
+        """Return the balls (sin(|w| t)/|w|, cos(|w| t)), w the cyclotron frequency in rad/time."""
         w = self.cyclotron_frequency
         sine, cosine = sin_cos(w * t)
         return sine / w, cosine

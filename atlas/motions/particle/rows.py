@@ -107,17 +107,20 @@ class Charge:
 
     @cached_property
     def rate(self) -> Any:
-        """Magnitude of the cyclotron frequency omega; 0 without a magnetic force."""
+        """Magnitude |omega| of the cyclotron frequency, in rad/time, a number or array (m,).
+
+        0 without a magnetic force.
+        """
         return np.where(self.force, self._over("rate", 1)[0], 0.0)[()]
 
     @cached_property
     def cyclotron_frequency(self) -> Any:
-        """Frequency omega = mu |B|/c of (97), with the sign of mu."""
+        """Frequency omega = mu |B|/c of (97), in rad/time, with the sign of mu; 0 without a magnetic force."""
         return np.where(self.mu >= 0, self.rate, -self.rate)
 
     @cached_property
     def prime(self) -> FloatArray:
-        """B' = mu B/(2c), (32), (..., 3)."""
+        """Field B' = mu B/(2c) of (32), in rad/time, array (3,) or (m, 3); 0 without a magnetic force."""
         return np.where(self.force, self._over("prime", 3), 0.0).T
 
     @cached_property
@@ -128,7 +131,10 @@ class Charge:
 
     @cached_property
     def radius(self) -> Any:
-        """Radius a of (97). Raises DomainError without a magnetic force."""
+        """Radius a of the circle, (97), in length units, a number or array (m,).
+
+        Raises DomainError without a magnetic force.
+        """
         self.needs_field("radius")
         return self._over("radius", 1)[0]
 
@@ -179,12 +185,18 @@ class Charge:
 
     @cached_property
     def velocity_parts(self) -> FloatArray:
-        """Rows v_par, v_perp and [n, v_perp], (3, 3) or (3, 3, m); without a magnetic force, v alone."""
+        """Rows v_par, v_perp and [n, v_perp] in the unit of v, array (3, 3) or, for m particles, (3, 3, m).
+
+        Without a magnetic force v_par is v and the others are 0.
+        """
         return self._row_components("velocity_parts", np.array(self.inputs[8:11]))
 
     @cached_property
     def acceleration_parts(self) -> FloatArray:
-        """Rows a_par, a_perp and [n, a_perp] of a = mu E, (3, 3) or (3, 3, m); without a magnetic force, a alone."""
+        """Rows a_par, a_perp and [n, a_perp] of a = mu E, array (3, 3) or, for m particles, (3, 3, m).
+
+        Without a magnetic force the first row is a and the others are 0.
+        """
         return self._row_components("acceleration_parts", self.mu * np.array(self.inputs[2:5]))
 
     @cached_property
@@ -255,7 +267,10 @@ class Charge:
         return _check(np.where(self.force, components, without), TOO_LARGE[name])
 
     def _over(self, name: str, count: int) -> FloatArray:
-        """Return results of a formula, (count,) or (count, m), each rounded once; DomainError beyond all floats."""
+        """Return ``count`` results of the formula ``name``, (count,) or (count, m), each rounded once.
+
+        Raises DomainError where a result is beyond all floats.
+        """
         return _check(self._results(name, count, nearest), TOO_LARGE.get(name, name))
 
     def _signs(self, name: str, count: int) -> FloatArray:

@@ -204,7 +204,10 @@ class Sums:
 
 
 def inverse(w: Array) -> Array:
-    """Return 1/w of complex numbers, rounded once: a step of Newton's method with an exact residual."""
+    """Return 1/w of complex numbers w, any shape: a rounded quotient improved by one step of Newton's method.
+
+    The residual is summed from halves of 26 digits, so that only the last step rounds.
+    """
     places_near = w.conj() / (w.real * w.real + w.imag * w.imag)
     (a, a_low), (b, b_low) = _halves(w), _halves(places_near)
     product_re, second = a.real * b.real, -a.imag * b.imag

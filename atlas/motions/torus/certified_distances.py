@@ -268,7 +268,10 @@ class Cell:
                 yield [x - sum(less, acb(0)) for x, *less in zip(changes, *divisions, strict=True)]
 
     def _products(self, S: tuple[int, ...]) -> list[acb_mat]:
-        """Return three matrices of coefficients at S: of all products f g, and of f' g - f g' along each flow."""
+        """Return three matrices of coefficients at S, of products of any two functions f and g.
+
+        They are those of f g, of f' g - f g' along the flow of H, and of the same along that of F/2.
+        """
         places = self._places(np.array(S) / 2)
         lefts = list(zip(*(self._terms(place) for place in places), strict=True))
         rights = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])

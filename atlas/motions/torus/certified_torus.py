@@ -56,7 +56,7 @@ class Period:
     angle: arb
 
     def least(self) -> "Period":
-        """Return the period with its angle less whole turns, at most half a turn."""
+        """Return the same `Period` with its angle in rad reduced by whole turns, to at most half a turn either way."""
         turn = 2 * arb.pi()
         return replace(self, angle=self.angle - turn * nearest(self.angle / turn))
 

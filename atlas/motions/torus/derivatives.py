@@ -154,7 +154,10 @@ class Neighbours:
         self.constants = [np.array([complex_of(x) for x in kind]) for kind in self.exact]
 
     def slopes(self, places: Sequence[int]) -> list[Array]:
-        """Return four arrays (places, n): derivatives of weights, ways, frequencies and frame in inputs at `places`."""
+        """Return four arrays (places, n): derivatives of weights, ways, frequencies and frame in inputs at ``places``.
+
+        They are difference quotients; for the largest input of a group they follow from the others by homogeneity.
+        """
         # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
         to_laboratory = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
         slopes_by_place = {place: self._by_step(place) for place in set(places) - to_laboratory}

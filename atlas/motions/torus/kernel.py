@@ -217,7 +217,7 @@ def _single(*row: Any) -> SingleAsymmetric:
 
 
 def forget() -> None:
-    """Clear the cache of motions."""
+    """Clear the cache of single motions, the evaluators that `AsymmetricMotion` keeps."""
     _single.cache_clear()
 
 

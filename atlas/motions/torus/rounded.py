@@ -80,7 +80,7 @@ class Certified:
         return self._filled(self.exact.field_in_body, t, (3,), self.size, out)
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
-        """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
+        """Write R at the exact numbers start + i step into ``out`` (count, 3, 3), rounded from balls."""
         start_time, interval = rational(start, "The start"), rational(step, "The step")
         self._fill(self.exact.rotation, [start_time + i * interval for i in range(len(out))], 1.0, out)
 

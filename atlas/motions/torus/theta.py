@@ -159,7 +159,10 @@ class ThetaKernel:
         return evaluate(real(t, "The time"), (3, 3), out, lambda _: self._attitude(self.entries))
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,)."""
+        """Return column j = 1, 2 or 3 of R(t), the body's axis j in the laboratory, shape t.shape + (3,).
+
+        It is written into ``out``, if given. Raises DomainError for times that are not finite numbers.
+        """
         return evaluate(real(t, "The time"), (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
