@@ -119,7 +119,9 @@ class Crowd:
             turn = -np.linalg.solve(damped, ((J @ (w * bend)[..., None])[..., 0] / size)[..., None])[..., 0] / size / 2
             much = np.linalg.norm(turn * size, axis=-1) > BEND * np.linalg.norm(step * size, axis=-1)
             new = self._back(Y + step + np.where(much[:, None], 0.0, turn))
-            new_slopes = self._slopes(new, places)
+            new_slopes = problem.apart(new, places) if problem.is_closed_form else r, J
+            if not problem.is_closed_form or (self._cost(new_slopes[0]) < self.costs).any():
+                new_slopes = self._slopes(new, places)
             costs = self._cost(new_slopes[0])
             is_better = costs < self.costs
             self.X = np.where(is_better[:, None], new, self.X)

@@ -13,6 +13,7 @@ from atlas.errors import AtlasError
 from atlas.fitting.data import STEP, left_jacobian
 from atlas.fitting.flow import Flow
 from atlas.motions.any_body import motion as of_any
+from atlas.motions.derivatives import of as derivatives
 from atlas.motions.elementary.kernel import ElementaryMotion
 from atlas.motions.nutation.kernel_elliptic import EllipticMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
@@ -172,16 +173,19 @@ class Model:
         """Whether field and angular velocity are both parameters without a condition."""
         return {*B, *OMEGA} <= set(self.names)
 
-    def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
+    def vectors(
+        self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any, *, certified: bool = True
+    ) -> FloatArray:
         """Return the vectors v (N, P, 3) with dR/dp = [v]x R, of the P named parameters at times t (N,).
 
         They are exact, by `Motion.sensitivity`, or central differences of R for families without exact derivatives, and
-        where `sensitivity` raises an error, as on a separatrix. `units` has the natural unit of each parameter.
+        where `sensitivity` raises an error, as on a separatrix; unless `certified`, also where only balls have eight
+        digits. `units` has the natural unit of each parameter.
         """
         if self.exact:
             with suppress(AtlasError, ZeroDivisionError):
                 inputs, chain = self._inputs(p, names)
-                return np.asarray(chain @ motion.sensitivity(t, inputs))
+                return np.asarray(chain @ derivatives(motion, t, inputs, "rotation", certified=certified))
         out = np.empty((t.size, len(names), 3))
         for j, name in enumerate(names):
             h = STEP * units[name]

@@ -142,7 +142,7 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
     params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
-    elementary = Problem(model, data, params, problem.loss, problem.rate)
+    elementary = Problem(model, data, params, problem.loss, problem.rate).alone()
     axis, e3 = vector(values, B) / values["b"], np.array([0.0, 0.0, 1.0])
     rates = float(motion.precession_rate), float(motion.spin_rate)
     if not np.isfinite(rates).all():

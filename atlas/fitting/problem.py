@@ -59,7 +59,7 @@ class Problem:
         self.followed = model.slow and float(np.ptp(data.t)) * rate < LONG
         """Whether motions are integrated, not in closed form."""
         self.together = True
-        """Whether motions are sought, many at once, by integrations."""
+        """Whether motions are sought, many at once, by integrations; if not, derivatives need eight digits only."""
         self._latest: tuple[Any, Any] = (None, None)
         self._latest_slopes: tuple[Any, Any] = (None, None)
 
@@ -135,6 +135,11 @@ class Problem:
             return self.model.make(values)
         return flow(self.model, {name: np.array([values[name]]) for name in self.model.names}, self.error)
 
+    @property
+    def is_closed_form(self) -> bool:
+        """Whether motions are evaluated in closed form, one at a time: derivatives then cost more than values."""
+        return not (self.together or self.followed)
+
     def alone(self) -> "Problem":
         """Return a copy that evaluates one motion at a time, in closed form where that is fast."""
         copy = self.shifted(0.0, self.rate)
@@ -143,7 +148,7 @@ class Problem:
 
     def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
         """Return the residuals (M, N k) of M motions, in standard errors; HUGE where there is no motion."""
-        if not (self.together or self.followed):
+        if self.is_closed_form:
             return np.stack([self.residuals(x, places) for x in X])
         return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.part(places))
 
@@ -159,7 +164,7 @@ class Problem:
         The derivatives are forward differences of integrations, or those of `jacobian` for motions in closed form.
         """
         M, n = X.shape
-        if not (self.together or self.followed):
+        if self.is_closed_form:
             r = self.apart(X, places)
             return r, np.stack([self._jacobian(x, row, places) for x, row in zip(X, r, strict=True)])
         h, data = STEP * self.units_of_free, self.data.part(places)
@@ -276,9 +281,10 @@ class Problem:
     def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
         """Return the vectors v (N, P, 3) with dR/dp = [v]x R; for angular velocities the time derivatives dv/dt."""
         if self.data.kind != "angular_velocity":
-            return self.model.vectors(values, names, t, self.units, motion)
+            return self.model.vectors(values, names, t, self.units, motion, certified=self.together)
         h = 1e-4 / self.rate
-        vectors = self.model.vectors(values, names, np.concatenate([t + h, t - h]), self.units, motion)
+        times = np.concatenate([t + h, t - h])
+        vectors = self.model.vectors(values, names, times, self.units, motion, certified=self.together)
         return np.asarray((vectors[: t.size] - vectors[t.size :]) / (2 * h))
 
     def _field_by(self, name: str, values: Values) -> FloatArray:
@@ -322,16 +328,19 @@ class Problem:
         return 1.0 if is_known else chi / (self.data.t.size * self.width - len(self.names))
 
 
-def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[FloatArray, FloatArray]:
+def minimum(
+    problem: Problem, x: FloatArray, *, steady: bool = False, ftol: float = 1e-5, count: int = 60
+) -> tuple[FloatArray, FloatArray]:
     """Return SciPy's least-squares solution (n,) from a start x (n,), and the Jacobian (N k, n) there.
 
-    If `steady`, SciPy stops at the start. With a robust loss SciPy weights the Jacobian.
+    SciPy stops when a step lowers chi square by less than the fraction `ftol`, after `count` steps, or if `steady` at
+    the start. With a robust loss SciPy weights the Jacobian.
     """
     from scipy.optimize import least_squares
 
     with np.errstate(invalid="ignore"):  # for combinations that are not determined
         solution = least_squares(
             problem.residuals, x, problem.jacobian, problem.bounds, loss=problem.loss, x_scale="jac",
-            ftol=1e-5, xtol=1e-9, gtol=np.inf if steady else 1e-10, max_nfev=60,
+            ftol=ftol, xtol=1e-9, gtol=np.inf if steady else 1e-10, max_nfev=count,
         )  # fmt: skip
     return np.asarray(solution.x), np.asarray(solution.jac)

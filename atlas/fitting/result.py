@@ -136,7 +136,7 @@ class Fit:
         With a sentence `steady` on an elementary motion the minimum is not refined; `doubt` becomes the first warning.
         """
         data = problem.data
-        x, jac = minimum(problem, tried[0][1], steady=bool(steady))
+        x, jac = minimum(problem.alone() if problem.loss == "linear" else problem, tried[0][1], steady=bool(steady))
         motion = problem.model.make(problem.values(x))
         r, J = problem.residuals(x), problem.jacobian(x)
         freedom = r.size - len(x)

@@ -41,20 +41,24 @@ class Moved(NamedTuple):
     spin: float = 0.0
 
 
-def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
-    """Return derivatives of a motion, or of an array of motions, in ``names``; see `Motion.sensitivity`."""
+def of(motion: Any, t: Any, names: Any, of: str, *, certified: bool = True) -> FloatArray:
+    """Return derivatives of a motion, or of an array of motions, in ``names``; see `Motion.sensitivity`.
+
+    Without `certified` eight digits are enough, and DomainError is raised where only balls, in milliseconds a time,
+    have eight.
+    """
     names = [names] if isinstance(names, str) else list(names)
     ones = _ones(motion)
     if of not in VECTORS:
         return np.array([single.scalar(names, of) for single in ones]).reshape(*motion.shape, len(names))
     times = real(bare(t, "The time", TIME), "The time")
     if not motion.shape:
-        return ones[0].vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
+        return ones[0].vectors(times.ravel(), names, of, certified=certified).reshape(*times.shape, len(names), 3)
     shape = common_shape(motion.shape, times.shape)
     out, times = np.empty((*shape, len(names), 3)), np.broadcast_to(times, shape)
     places = np.broadcast_to(np.arange(len(ones)).reshape(motion.shape), shape)
     for i, single in enumerate(ones):
-        out[places == i] = single.vectors(times[places == i], names, of)
+        out[places == i] = single.vectors(times[places == i], names, of, certified=certified)
     return out
 
 
@@ -172,7 +176,7 @@ class One:
             ]
         return np.asarray(finite(np.array(values), f"A derivative of the {of}"))
 
-    def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
+    def vectors(self, t: FloatArray, names: Sequence[str], of: str, *, certified: bool) -> FloatArray:
         """Return derivatives at times t (m,) in ``names``, shape (m, len(names), 3), see `Motion.sensitivity`.
 
         Raises DomainError for rates beyond `MAX_RATE`.
@@ -186,7 +190,7 @@ class One:
         varied, weights, turns, spins, cached = self._weighted(moving)
         v = slopes = np.broadcast_to(turns, (t.size, *turns.shape))
         if varied:
-            v, *rest = varied.vectors(t, faster, self.left, weights, turns, spins, cached)
+            v, *rest = varied.vectors(t, faster, self.left, weights, turns, spins, cached, certified=certified)
             slopes = rest[0] if rest else v
         elif faster:
             slopes = np.zeros_like(v)

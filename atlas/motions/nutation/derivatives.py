@@ -17,6 +17,7 @@ from flint import acb
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.lazy import cached_property
+from atlas.errors import DomainError
 from atlas.motions.nutation.certified_derivatives import Variation
 from atlas.motions.nutation.certified_differences import Differences
 from atlas.motions.nutation.derivatives_pair import Array, VariedPair
@@ -26,6 +27,9 @@ BLOCK = 2048
 
 LARGE_TERM, LOST_TERM = 256.0, 4096.0
 """Sizes of terms in v, beside 1 and beside 1 + |v|, from which they may cancel, and from which they do too much."""
+
+LOST_TERM_OF_FITS = 2.0**26
+"""The latter size where eight digits are enough."""
 
 
 class Weighted:
@@ -196,11 +200,12 @@ class Varied:
     def vectors(
         self, t: FloatArray, slopes: bool, to_lab: FloatArray, names: FloatArray, turns: FloatArray,
         spins: FloatArray,
-        combinations: list[Weighted],
+        combinations: list[Weighted], *, certified: bool,
     ) -> list[FloatArray]:  # fmt: skip
         """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
-        Raises DomainError at a time where the motion is too near a special case.
+        Raises DomainError at a time where the motion is too near a special case, and, unless ``certified``, where
+        fewer than eight digits remain.
         """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
@@ -216,7 +221,10 @@ class Varied:
                         x[block] = y.transpose(2, 1, 0)
             if not np.any(terms):
                 continue
-            singles = ~(terms <= LOST_TERM * (1 + abs(out[0][block]).max(2).T)).all(0)
+            largest = LOST_TERM if certified else LOST_TERM_OF_FITS
+            singles = ~(terms <= largest * (1 + abs(out[0][block]).max(2).T)).all(0)
+            if singles.any() and not certified:
+                raise DomainError("The terms of these derivatives cancel.")
             for j in (i + np.flatnonzero(singles)).tolist():
                 v, faster, axis, rate = self.differences.at(float(t[j]))
                 out[0][j] = names @ v @ to_lab.T + turns + np.outer(spins, to_lab @ axis)

@@ -77,8 +77,9 @@ class TorusVaried:
         """Return None: nothing is cached for combinations of inputs."""
 
     def vectors(
-        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, *_: Any
-    ) -> list[FloatArray]:
+        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, *_: Any,
+        certified: bool,  # noqa: ARG002  floats have the digits, or the derivatives are refused
+    ) -> list[FloatArray]:  # fmt: skip
         """Return [v], or [v, R dOmega/dp] if ``slopes``, at times t (m,), shape (m, names, 3), in the laboratory.
 
         v is the rotation vector with dR/dp = [v]x R; ``names`` (names, inputs) are weights of the inputs, ``turns``
