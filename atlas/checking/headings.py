@@ -36,7 +36,8 @@ QUESTIONS = {
     r"(roll|pitch|yaw|phi|theta|psi|euler).*": "of Euler angles SciPy makes x, y, z, w = Rotation.from_euler(...)"
     ".as_quat()",
     "[xyz]": "of a gyroscope x, y, z are called gyro_x, gyro_y, gyro_z, and a quaternion has a scalar w beside them",
-    r"t([mnuµ]?s(ec)?|\d*|sim)|.*(time|sec|elapsed|clock).*": "the time is called t, with its unit, as t [ms]",
+    r"t([mnuµ]?s(ec)?|\d*|sim)|.*(time|sec|elapsed|clock|millis|micros|zeit|temps|tempo).*": ""
+    "the time is called t, with its unit, as t [ms]",
 }
 """Patterns of misspelt names of columns, with the sentence on each."""
 
@@ -75,7 +76,8 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
     hints = "; ".join(dict.fromkeys(filter(None, map(_hint, unknown))))
     ask = f" ({hints})" if hints else ""
     if "t" not in places:
-        raise AtlasError(f"{source}: there is no column t; name the times t{ask}.")
+        remedy = "; begin lines above the names of columns with #" * (not columns)
+        raise AtlasError(f"{source}: there is no column t; name the times t{ask}{remedy}.")
     if not places.keys() - {"t", "sigma"}:
         remark = f" There is {', '.join(map(repr, unknown))}{ask}." if unknown else ""
         raise AtlasError(

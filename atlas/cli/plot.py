@@ -137,7 +137,7 @@ def numbers_of(columns: Mapping[str, "Column"], name: str, table: Path) -> "NDAr
         numbers = [number_of(cell, name) for cell in cells] if cells.dtype.kind == "U" else cells
         return np.asarray(numbers, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise AtlasError(f"{table}: the column {name} has text: choose a column of numbers.") from error
+        raise AtlasError(f"{table}: the column {name} has text or an infinity: choose a column of numbers.") from error
 
 
 def labelled(name: str, units: Mapping[str, str]) -> str:

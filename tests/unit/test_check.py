@@ -223,6 +223,8 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
         (HEAD + "t,R11\n0,5,1,0\n", "line 3: 4 cells where the line of names has 2; separate cells with decimal"),
         (HEAD + "t,R11\n0,nan\n", "no row with all its numbers: 1 lack one"),
         (HEAD + "t,R11\n0,1\N{NO-BREAK SPACE}000\n", r"'1\\xa0000' is not a number; it has a no-break space"),
+        ("log of today\nt,R11\n0,1\n", "line 1: there is no column t; .* begin lines above the names of columns"),
+        ("millis,R11\n0,1\n", r"the time is called t, with its unit, as t \[ms\]"),
         ("timestamp,R11\n0,1\n", r"timestamp has no unit; call it t \[s\], t \[ms\]"),
         (HEAD + "t,R11\ninf,1\n", "line 3, column t: the cell is inf"),
         ("# field = 1\nt,R11\n0,1\n", "line 1: field takes 2 or 3 numbers, not 1"),
