@@ -26,7 +26,7 @@ from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.pictures.sample import flat
 
 ROW = "its axis"
-SEEN = "A disk that spins along the field tips over."
+SEEN = "A disk that spins along the field tips over if its rate lies in the unstable band."
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
 STEP = 2.5
 RANGES = {"count": (2, 24)}
