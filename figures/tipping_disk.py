@@ -26,7 +26,7 @@ from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.pictures.sample import flat
 
 ROW = "its axis"
-SEEN = "A disk that spins along the field tips over if its rate lies in the unstable band."
+SEEN = "A disk that spins along the field tips over in its unstable band."
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
 STEP = 2.5
 RANGES = {"count": (2, 24)}
@@ -64,7 +64,7 @@ def scene(
                 if omega3 == -B3
                 else rf"Its axis reaches {largest_angle:.0f} degrees and comes back. "
             )
-            + f"(a) {count} moments of half a period. (b) The angle of axis and field, with these moments as "
+            + f"(a) {count} moments of half a period. (b) The angle of axis and field, these moments as "
             rf"numbered dots. $I={tex(quotient(ratio))}$, $B'_3={tex(B3)}$, $\omega_3={tex(omega3)}$; "
             rf"$D={tex(D)}<0$, and a push $\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$."
         ),
