@@ -145,9 +145,11 @@ def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
 
 
 def level(value: float, one_less: float, view: Window) -> list[FloatArray]:
-    """Return the pieces of the curve nu^2 = value B2^2 in the plane (tau, |x|), from x = 0 to tau = 0.
+    """Return the visible pieces of the curve nu^2 = value B2^2, each (N, 2) with columns tau and |x|.
 
-    For I > 1 it runs to infinity on both sides of x^2 = I - 1.
+    ``one_less`` is 1 - I. Each piece runs from small to large |x|; points far outside ``view`` are left out. Where
+    value > 2 (I - 1) > 0 the curve has two pieces, below and above |x| = sqrt(I - 1), where tau is infinite, else one.
+    The list is empty where value <= I - 1, since there is no curve, and where no piece is in ``view``.
     """
     if value + one_less <= 0:
         return []

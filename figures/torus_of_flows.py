@@ -78,7 +78,11 @@ def scene(
 def periods(
     inertia: tuple[float, ...], field: tuple[float, ...], omega: tuple[float, ...]
 ) -> list[tuple[float, float]]:
-    """Return two pairs (T_H, T_F) that generate all times after which M and K are back, the least T_H first."""
+    """Return two pairs (T_H, T_F) that generate all times after which M and K are back, as floats, by rising |T_H|.
+
+    ``inertia``, ``field`` and ``omega`` have three components each, along the principal axes. The periods are
+    approximate. Raises DomainError unless the motion is on a torus, and NotCertifiedError where no periods are found.
+    """
     from atlas.motions.torus.certified import AsymmetricMotion
     from atlas.motions.torus.certified_torus import Torus
 

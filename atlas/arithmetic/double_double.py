@@ -319,7 +319,11 @@ def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
 
 
 def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
-    """Return an array broadcast to a shape and flattened, to be read by slices."""
+    """Return the elements of an array broadcast to a shape, in C order, without a copy.
+
+    The result is a view (n,), or, for an array that is broadcast or not contiguous, a `numpy.flatiter`: only its
+    slices, such as ``result[2:5]``, are arrays.
+    """
     return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
 
 

@@ -160,7 +160,10 @@ class Phases:
 
     @cached_property
     def radians(self) -> FloatArray:
-        """Half the frequency in radians, (2, n, 1): a head of 26 digits and the rest."""
+        """Half of each of n frequencies, in rad per unit of time, (2, n, 1): a head of 26 binary digits, and the rest.
+
+        Where `exponents` is not None, the numbers are scaled by 2^-exponents.
+        """
         with workprec():
             return _columns([_head(p * QUARTER)[:2] for p in self._small])
 

@@ -200,7 +200,11 @@ def digits(number: str) -> int:
 
 
 def ascii_name(head: str) -> str:
-    """Return a column's heading as an ASCII name: Greek letters spelt out, other signs replaced by "_"."""
+    """Return a column's heading as a name of ASCII letters, digits and "_", maybe empty: "E′ (1/s)" is E_prime_1_s.
+
+    Greek letters are spelt out, primes become "_prime", superscripts and subscripts plain digits: "ω_2" is omega2. A
+    run of other ASCII signs becomes one "_", none at the ends; other signs outside ASCII are dropped.
+    """
     letters = []
     for letter in unicodedata.normalize("NFKC", head).replace("′", "_prime").replace("'", "_prime"):
         matched = _LETTER.match(unicodedata.name(letter, ""))

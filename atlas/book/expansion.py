@@ -115,7 +115,10 @@ def sentence_of(error: Exception) -> str:
 
 
 def line_of(error: BaseException) -> int:
-    """Return the line of a template on which an error came up, from 1."""
+    """Return the line of a template, counted from 1, on which an error came up; 1 if the error names none.
+
+    The innermost frame of the template in the traceback counts, else the error's attribute ``lineno``.
+    """
     line = getattr(error, "lineno", None) or 1
     trace = error.__traceback__
     while trace is not None:

@@ -124,9 +124,10 @@ def templated(name: str, template: str, head: Mapping[str, Any], values: Mapping
 
 
 def headed(name: str, content: str, command: str) -> str:
-    """Return a file's content below a comment with its digest and the command that makes it.
+    """Return a file's content with two comment lines (#): the command that makes it, its digest, how to build it.
 
-    A head of TOML stays first.
+    `name` is the report in the command to build. The lines stand above the content, but in a head of TOML below
+    its opening +++. The digest (12 hex digits) is of all that follows the two lines and a blank one.
     """
     start = f"{RULE}\n" * content.startswith(RULE)
     content = content.removeprefix(start)

@@ -72,7 +72,7 @@ def link_to(row: Row) -> str:
 
 
 def as_words(text: str) -> str:
-    """Return a text as Markdown without markup."""
+    """Return a text with backslashes before all signs of Markdown's markup, so that a page shows it as typed."""
     return re.sub(r"([\\`*_{}\[\]#$<>|@^~]|-(?=-))", r"\\\1", text)
 
 

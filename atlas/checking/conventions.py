@@ -54,9 +54,10 @@ def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
-    """Yield (words, rotation matrices (N, 3, 3)) for each order and sign of quaternions q (N, 4).
+    """Yield (words, rotation matrices (N, 3, 3)) for each of the six readings of quaternions q (N, 4).
 
-    Nothing is yielded where a quaternion is zero.
+    The readings are those of `quaternion_readings`: three orders of the components, each also conjugate. Quaternions
+    of any length are normalised. If any quaternion is zero, nothing is yielded at all.
     """
     from scipy.spatial.transform import Rotation
 

@@ -79,7 +79,11 @@ def along_principal_axes(motion: Any, unit: str = "") -> Principal:
 
 
 def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
-    """Return the request of an object of a family."""
+    """Return the `Principal` of an object: its family, options of a command, and values by parameter.
+
+    `arguments` are the parameters of `family` by name; those that are missing or None give no option. `axes` (3, 3) has
+    the axes as rows, in terms of the given ones. `unit`, such as "rad/s" or "", is written behind each rate.
+    """
     from atlas.arithmetic.given import Given
 
     words, values = list[str](), dict[str, tuple[float | Fraction, ...]]()

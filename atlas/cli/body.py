@@ -71,7 +71,11 @@ body_options: Callable[[F], F] = stack(
 
 
 def field_options_of(components: str, axes: str) -> Callable[[F], F]:
-    """Return the options of the field; `components` is the metavar, `axes` names the axes in the help."""
+    """Return a decorator that adds the options of the field to a command.
+
+    The options are --field, --magnetic, --mass, --charge, --mu and --units. `components`, as "B2 B3", is the metavar of
+    --field and --magnetic, and so their number of values; `axes` names the axes in the help.
+    """
     return stack(
         numbers("field", f"Components of B' = mu B/(2c) along {axes} at t = 0, in 1/time.", components),
         numbers("magnetic", f"Components of the magnetic field B along {axes} at t = 0; needs --mu, or --mass and "

@@ -218,7 +218,12 @@ class _Modes(NamedTuple):
 
 
 class _Steady:
-    """An elementary motion with its field's direction, cosine and sine of theta, and rate of precession."""
+    """An elementary motion at t = 0, from which its small nutations follow.
+
+    `axis` is the field's unit vector in the laboratory, `omega` the angular velocity along the body's axes; `cosine`
+    and `sine` are those of the angle theta between axis and field; `rate` is the rate of precession about the field,
+    in rad/time, not finite where the sine is zero. `values` are all parameters by name, "b" among them.
+    """
 
     def __init__(self, motion: Any, values: Values) -> None:
         self.motion, self.values, self.R = motion, values, attitude(values)

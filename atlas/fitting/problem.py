@@ -219,7 +219,10 @@ class Problem:
             return np.zeros((len(x), r.size))
 
     def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return I3 and M3 - I3 omega3 at t = 0, each of shape (M,)."""
+        """Return I3/I2 and (M3 - I3 omega3)/I2 at t = 0, each (M,), for M sets of varied parameters X (M, n).
+
+        The second, in 1/time, is the momentum that the field adds: I3 K3/I2, or k3 cos theta for a top.
+        """
         motions = flow(self.model, self.values_of_all(X), self.error)
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 

@@ -85,7 +85,10 @@ class Recipe:
         return replace(scene, title=title, caption=caption, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:
-        """Return the annotations of the recipe's parameters by name; its file is executed."""
+        """Return the evaluated annotations of `scene` by name, of its result too, as `typing.get_type_hints` does.
+
+        The recipe's file is executed. Raises AtlasError, with the line if that is known, where it fails.
+        """
         try:
             return _function(self.source)[1]
         except Exception as error:

@@ -88,7 +88,10 @@ class TopQuadric(Quadric):
         return fmpq(0), second.value, third.value
 
     def residual(self, omega: Any) -> Real:
-        """Return -nu'' at t = 0 for a start at this point."""
+        """Return -nu'' at t = 0, in 1/time^2, for a start with omega, three numbers in rad/time; 0 on the surface only.
+
+        Floats are taken as exact. Raises AtlasError for anything but three finite numbers.
+        """
         residual: Surd = top.residual(*self.top, *map(self.top[3].of, rationals(omega, "omega", 3)))
         return residual.value
 

@@ -70,7 +70,11 @@ def sizes(setup: SizeParameters) -> Data:
 
 
 def radiation(setup: SizeParameters) -> Data:
-    """Return the table of times, energy over power, in which such balls radiate energy by flight and by rotation."""
+    """Return the table of times, energy over power, in which the balls of `sizes` radiate their energy, in years.
+
+    A row has the radius in m, then the times for flight (electric dipole) and for rotation (magnetic dipole, electric
+    quadrupole). Raises AtlasError unless there are radii and all parameters are positive.
+    """
     _check(setup)
     rows = []
     for r in setup.radii:
@@ -168,7 +172,12 @@ def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, 
 
 
 def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
-    """Return the table of coefficients of nu^2 in the energy of bodies: by the charge, and by the induced moment."""
+    """Return the table of the coefficients of nu^2 in the energy of each body, in J, nu being cos theta.
+
+    A row has the body's title, the coefficient by its charge, (I3 - I2) b^2/2, and that by its induced moment. Raises
+    AtlasError for a density that is not positive, for a body without shape or mass, and for a field without a
+    charge-to-mass ratio.
+    """
     if setup.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []

@@ -108,7 +108,11 @@ def _power(value: Any) -> int | None:
 
 
 def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> Number:
-    """Return the proven digits of a number; an exact zero has no decimals."""
+    """Return the proven digits of a ball, rational or float (taken as exact); an exact zero has no decimals.
+
+    `digits` counts decimals if `layout` is "fixed", significant digits if it is "scientific". Fewer proven digits give
+    a `Number` that is not proven, without digits if there are none. A Number is returned as it is.
+    """
     from flint import fmpq
 
     from atlas.arithmetic.certified_digits import INFINITE, MARK, NOT_CERTIFIED, ZERO_WITHIN, printed

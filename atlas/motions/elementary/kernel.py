@@ -397,7 +397,11 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
 
 class Free(DoubleRotation):
-    """Evaluator of one free body."""
+    """Evaluator of R(t) = R_m(k t) R_z(phi t) of one free body: m its angular momentum, z its axis.
+
+    I2 and I3 are the moments in one unit; `omega` are the three components of Omega(0) along the body's axes, in
+    rad/time. All are numbers taken as exact. `vectors` has "Omega", as floats.
+    """
 
     def __init__(self, I2: Any, I3: Any, *omega: Any) -> None:
         self.vectors = {"Omega": tuple(floats(exact(*omega)).tolist())}

@@ -74,12 +74,12 @@ class GeneralMotion(Nutating):
 
     @property
     def B2(self) -> fmpq:
-        """Second component of the field in the body at t = 0."""
+        """Second component of B' along the body's axes at t = 0, exact, in 1/time."""
         return self.field[1]
 
     @property
     def B3(self) -> fmpq:
-        """Third component of the field in the body at t = 0."""
+        """Third component of B' along the body's axes at t = 0, exact, in 1/time."""
         return self.field[2]
 
     @by_precision

@@ -129,7 +129,10 @@ class TorusVaried:
 
     @staticmethod
     def _waves(orders: FloatArray, x: Array) -> Array:
-        """Return exp(i n x) for each of ``orders`` n and x (m,), shape (orders, m)."""
+        """Return exp(i n x), shape (k, m), for the integers n of ``orders`` (k,) and phases x (m,) in radians.
+
+        ``orders`` must have an integer dtype; x may be complex.
+        """
         least = int(orders.min())
         powers = np.exp(1j * np.arange(least, int(orders.max()) + 1)[:, None] * x)
         return np.asarray(powers[orders - least])

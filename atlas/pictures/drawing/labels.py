@@ -125,9 +125,10 @@ def _doubt(
 
 
 def _gap(centres: FloatArray, half: FloatArray, ink: FloatArray) -> FloatArray:
-    """Return the distances (N,) from boxes of half extent `half` about centres (N, 2) to the nearest ink (M, 2).
+    """Return the distances (N,), in points, from N equal boxes to the nearest of the points `ink` (M, 2).
 
-    Distances are cut at `_SIGHT`.
+    The boxes have half the width and half the height `half` (2,) and the centres (N, 2). A distance is 0 where a point
+    is in the box, and `_SIGHT` where none is nearer.
     """
     reach = half + _SIGHT
     is_near = ((ink > centres.min(axis=0) - reach) & (ink < centres.max(axis=0) + reach)).all(axis=1)
