@@ -41,7 +41,8 @@ FOLLOWED = 0.2
 HEAVY, MANY = 3.0, 20
 """Ratio of the root mean square of residuals to their median, and count of numbers, above which there are outliers.
 
-Normal residuals have the ratio 1.5; with fewer numbers the ratio reaches 3 by chance now and then.
+Normal residuals have the ratio 1.5; with fewer numbers the ratio reaches 3 by chance now and then. An
+outlier is also larger than `HEAVY` standard errors.
 """
 
 FARTHEST = 1e9
@@ -492,7 +493,7 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
             f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / freedom):.2g} is expected: {reason}."
         )
     lengths = np.linalg.norm(r, axis=1)
-    uneven = np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
+    uneven = np.max(lengths) > HEAVY and np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
     if problem.loss == "linear" and uneven and r.size >= MANY:
         out.append("Some residuals are far larger than most: if they are outliers, loss='soft_l1' (--loss) bears them.")
     correlation = problem.correlation(x)

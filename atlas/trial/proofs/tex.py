@@ -391,9 +391,9 @@ class _Formula:
         return indices
 
     def power(self) -> ast.expr:
-        """Read a factor with what follows it: powers, T for the transpose, indices, and an argument (t) or (0).
+        """Read a factor with what follows it: powers, T for the transpose, indices, and an argument t or 0 in brackets.
 
-        The argument (t) is dropped, (0) becomes at0(factor).
+        The argument t is dropped, the argument 0 becomes at0(factor).
         """
         bold, self.bold = self.bold, False
         base = self.atom()
