@@ -79,7 +79,7 @@ def opened_table(
                 separator = separator or max(",;\t", key=re.sub('"[^"]*"', "", line).count)
                 separator = separator if separator in line else " "
                 joined = re.sub(r"\s+(?=[\[(])", "", line) if separator == " " else line  # t [s] is one cell
-                names = split_cells(joined, separator, f"{path.name}, line {number}")
+                names = split_cells(joined, separator, path.name, number)
                 if len(names) == 1:
                     separator, names = ",", [line.strip()]
                 while len(names) > 1 and not names[-1].strip():
@@ -91,15 +91,18 @@ def opened_table(
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
 
 
-def split_cells(line: str, separator: str, place: str) -> list[str]:
-    """Return the cells of a line, without quotes. Raises AtlasError, which begins with `place`, for too long a cell."""
+def split_cells(line: str, separator: str, file: str, number: int) -> list[str]:
+    """Return the cells of a line of a file, without quotes. Raises AtlasError for too long a cell."""
     if '"' not in line:
-        return line.split() if separator == " " else [cell.strip() for cell in line.split(separator)]
+        if separator == " ":
+            return line.split()
+        has_spaces = " " in line or not line.isascii() or (separator != "\t" and "\t" in line)
+        return [cell.strip() for cell in line.split(separator)] if has_spaces else line.split(separator)
     try:
         line = " ".join(line.split()) if separator == " " else line
         return next(csv.reader([line], delimiter=separator, skipinitialspace=True))
     except csv.Error as error:
-        raise AtlasError(f"{place} cannot be read as CSV: {error}.") from error
+        raise AtlasError(f"{file}, line {number} cannot be read as CSV: {error}.") from error
 
 
 def number_of(cell: str, place: str) -> float:
@@ -144,10 +147,10 @@ def _rows(
         if line.startswith("#"):
             if remark:
                 remark(number, line.lstrip("# "), False)
-        elif line.strip():
-            cells = split_cells(line, separator, f"{file}, line {number}")
-            while len(cells) > width and not cells[-1].strip():
-                del cells[-1]  # a separator at the end
+        elif not line.isspace():
+            cells = split_cells(line, separator, file, number)
+            if len(cells) != width and not "".join(cells[width:]).strip():
+                del cells[width:]  # separators at the end
             if len(cells) != width:
                 remedy = "; separate cells with decimal commas by ;" * (separator == "," and len(cells) == 2 * width)
                 raise AtlasError(

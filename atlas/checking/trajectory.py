@@ -16,7 +16,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -88,7 +89,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
         (*head, names), columns = head_and_columns(path)
         for line in head:
             parameters |= _parameters(line.lstrip("# "), path.name)
-        title = headed(split_cells(names, ",", path.name), path.name, extra_names)
+        title = headed(split_cells(names, ",", path.name, len(head) + 1), path.name, extra_names)
         yield Trajectory(
             path.name, title.written, parameters, _sliced(columns, title, path.name), title.left_out, title.units
         )
@@ -223,7 +224,8 @@ def _numbers(rows: Sequence[tuple[int, list[str]]], title: Heading, file: str) -
     Cells are decoded as JSON if possible, else one by one. Raises AtlasError for a cell without a number.
     """
     places = title.places.items()
-    text = ",".join([cells[i] for _, cells in rows for _, i in places])
+    used = itemgetter(*title.places.values())  # t and another, so of tuples
+    text = ",".join(chain.from_iterable([used(cells) for _, cells in rows]))
     try:
         numbers = np.array(_DECODER.decode(f"[{text}]"))
         if numbers.size == len(rows) * len(places):  # not for cells with a comma

@@ -76,7 +76,7 @@ def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure
     Raises
     ------
     AtlasError, click.UsageError
-        For a file that cannot be read, and a column that is not there or has text.
+        For a file that cannot be read, and a column that is not there, has text, or has no number beside one of x.
     """
     import numpy as np
     from matplotlib.figure import Figure
@@ -89,6 +89,8 @@ def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure
     for name in y:
         ordinates = numbers_of(columns, name, table)
         known = np.isfinite(abscissae) & np.isfinite(ordinates)
+        if not known.any():
+            raise AtlasError(f"{table} has no row with numbers in both {x} and {name}: choose other columns.")
         is_ordered = bool((np.diff(abscissae[known]) > 0.0).all())
         errors = numbers_of(columns, f"{name}_sigma", table)[known] if f"{name}_sigma" in columns else None
         mark = "-" if is_ordered else "." if known.sum() <= MAX_DOTS else ","
