@@ -6,6 +6,7 @@ pixel is a row of a table of turning points.
 """
 
 from collections.abc import Mapping, Sequence
+from math import ceil
 
 import numpy as np
 from contourpy import contour_generator
@@ -22,7 +23,7 @@ from atlas.sweeps.plan import Range, Tabulation
 
 ROW = "its map"
 SEEN = "On the hyperbola alone there is no nutation."
-WIDTH, HEIGHT, PANEL = 152.0, 144.0, 60.0
+WIDTH, HEIGHT, PANEL = 152.0, 72.0, 60.0
 NARROWEST = 139.0
 WIDER = 3.0
 """How much wider than high a word is."""
@@ -71,11 +72,11 @@ def scene(
             "dark along the two branches of the hyperbola; for the smallest I with sharp steps."
         ),
         panels=panels,
-        columns=2,
+        columns=min(2, len(panels)),
         named={"white": "map_curve", "dotted": "map_border", "Open dot": "rest", "diamond": "special"},
         commands=(table.command("motions.csv"),),
         spare=(0, 2)[: len(panels) // 2],
-        size=(WIDTH, HEIGHT),
+        size=(WIDTH, HEIGHT * ceil(len(panels) / 2)),
     )
 
 

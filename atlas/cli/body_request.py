@@ -262,7 +262,12 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
 
 
 def best(words: Words) -> str:
-    """Return the name of the command that fits the options: with fewest unknown, then fewest missing options."""
+    """Return the name of the command that fits the options: with fewest unknown, then fewest missing options.
+
+    Raises click.UsageError for two starts, --omega2 and --omega or --spin.
+    """
+    if "--omega2" in words.names and words.names & {"--omega", "--spin"}:
+        family_of(words)
     known = {name for one in COMMANDS.values() for param in one.params for name in param.opts}
     option_by_name = {next(iter(get_close_matches(x.name, known, 1)), x.name): x for x in words.options}
 
