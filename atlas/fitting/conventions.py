@@ -16,8 +16,8 @@ from atlas.fitting.problem import Problem
 from atlas.fitting.search import follow_data, rate_of, tries_about
 
 HELD = (
-    "The direction of the field is held at (0, 0, 1), and the data are followed where it is free: give "
-    'params={"n1": {"vary": True}, "n2": {"vary": True}}, or data along axes whose third is the field.'
+    "The direction of the field is held at (0, 0, 1), and the data are followed where it is free: give, "
+    'in Python, params={"n1": {"vary": True}, "n2": {"vary": True}}, or data along axes whose third is the field.'
 )
 
 
