@@ -113,6 +113,11 @@ def dot(a: Vector, b: Vector) -> Number:
     return sum(other_products, first_product)
 
 
+def applied(matrix: Sequence[Vector], vector: Vector) -> list[Number]:
+    """Return a matrix, by its rows, times a vector."""
+    return [dot(row, vector) for row in matrix]
+
+
 def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ...], ...]:
     """Return the matrix 4 q_i q_j, four rows, of the quaternion q = (x, y, z, w) of a rotation matrix.
 

@@ -4,9 +4,7 @@ The cubic and the quartic are for exact rationals, and for floats where no value
 `pseudo_oscillator` and `nutation.roots` write them from the state at t = 0, in forms that don't.
 """
 
-from collections.abc import Sequence
-
-from atlas.arithmetic.numbers import Number, Vector, cross, dot
+from atlas.arithmetic.numbers import Number, Vector, applied, cross, dot
 
 NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 """Names of the conserved quantities of an elementary motion, in order."""
@@ -47,13 +45,9 @@ def clebsch(*numbers: Number) -> tuple[Number, ...]:
     """
     J, Omega, K = (numbers[0:3], numbers[3:6], numbers[6:9]), numbers[9:12], numbers[12:15]
     W = [w + k for w, k in zip(Omega, K, strict=True)]
-    M, cofactors = _times(J, W), (cross(J[1], J[2]), cross(J[2], J[0]), cross(J[0], J[1]))
-    F = dot(M, M) - dot(K, _times(cofactors, K))
-    return dot(M, W) + dot(K, _times(J, K)), F, dot(M, K), dot(K, K), dot(Omega, _times(J, Omega))
-
-
-def _times(matrix: Sequence[Vector], vector: Vector) -> list[Number]:
-    return [dot(row, vector) for row in matrix]
+    M, cofactors = applied(J, W), (cross(J[1], J[2]), cross(J[2], J[0]), cross(J[0], J[1]))
+    F = dot(M, M) - dot(K, applied(cofactors, K))
+    return dot(M, W) + dot(K, applied(J, K)), F, dot(M, K), dot(K, K), dot(Omega, applied(J, Omega))
 
 
 def cubic(

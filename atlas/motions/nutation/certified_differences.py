@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from flint import arb, fmpq
 
-from atlas.arithmetic.numbers import dot, rational, workprec
+from atlas.arithmetic.numbers import applied, dot, rational, workprec
 from atlas.errors import DomainError
 from atlas.motions.nutation.certified_derivatives import (
     MAX_RADIUS,
@@ -91,4 +91,4 @@ class Differences:
         _, slopes, bends = zip(*neighbours, strict=True)
         change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))
         spin = [[dot(change[3 * i : 3 * i + 3], R[j]) for j in range(3)] for i in range(3)]
-        return [spin[2][1], spin[0][2], spin[1][0]], [dot(row, change[9:]) for row in R], sizes_of(bend[:9]).max()
+        return [spin[2][1], spin[0][2], spin[1][0]], applied(R, change[9:]), sizes_of(bend[:9]).max()

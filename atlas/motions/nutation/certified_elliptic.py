@@ -19,7 +19,7 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rational, rationals
-from atlas.arithmetic.numbers import by_precision, dot, nearest, root
+from atlas.arithmetic.numbers import applied, by_precision, nearest, root
 from atlas.bodies.formula_integrals import clebsch
 from atlas.errors import DomainError
 from atlas.motions.nutation.certified import Nutating
@@ -273,7 +273,7 @@ class EllipticMotion(Nutating):
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m = R II Omega in the laboratory, three balls in inertia/time."""
         m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
-        return [dot(row, m) for row in self.rotation(t)]
+        return applied(self.rotation(t), m)
 
     def from_frame(self, a: acb, b: acb) -> list[arb]:
         """Return the quaternion (w, x, y, z) of (a, b), along the principal axes in the order of the moments."""
@@ -321,7 +321,7 @@ class EulerTop(EllipticMotion):
 
 def check_moments(moments: tuple[fmpq, ...]) -> None:
     """Raise DomainError unless three moments are positive and the largest is at most the sum of the others."""
-    listed = ", ".join(str(nearest(I)) for I in moments)
+    listed = ", ".join(map(str, map(nearest, moments)))
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {listed}: all three are positive.")
     if max(moments) * (2 - ROUNDING) > sum(moments):

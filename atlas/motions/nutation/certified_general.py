@@ -15,7 +15,7 @@ from flint import acb, arb, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rationals
 from atlas.arithmetic.lazy import cached_property
-from atlas.arithmetic.numbers import by_precision, dot, root
+from atlas.arithmetic.numbers import applied, by_precision, root
 from atlas.bodies.certified_body import ratio_of
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import Solution, steady
@@ -204,7 +204,7 @@ class GeneralMotion(Nutating):
         """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory, three balls in rad/time."""
         w1, w2, w3 = self.angular_velocity(t) if any(self.field) else self.omega
         m = [w1, w2, self.I * w3]
-        return [dot(row, m) for row in self.rotation(t)] if any(self.field) else m
+        return applied(self.rotation(t), m) if any(self.field) else m
 
     @property
     def invariants(self) -> dict[str, fmpq]:

@@ -15,7 +15,7 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rationals
-from atlas.arithmetic.numbers import by_precision, dot, length
+from atlas.arithmetic.numbers import applied, by_precision, length
 from atlas.motions.nutation import certified_top_steady as top_steady
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import Solution
@@ -192,4 +192,4 @@ class TopMotion(Nutating):
         """Return the canonical momentum (I Omega + k b)/I2 in the laboratory, three balls."""
         (w1, w2, w3), b, (k2, k3) = self.angular_velocity(t), self.field_in_body(t), self.coupling
         M = w1 + k2 * b[0], w2 + k2 * b[1], self.I * w3 + k3 * b[2]
-        return [dot(row, M) for row in self.rotation(t)]
+        return applied(self.rotation(t), M)

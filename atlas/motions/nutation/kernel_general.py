@@ -84,7 +84,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         I, *vectors = plain(I3), tuple(map(plain, B)), tuple(map(plain, omega))
         vectors_given = {"field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega))}
-        rounded, exact = (kept_ratio(ratio, x) for x in (I, I3))
+        rounded, exact = kept_ratio(ratio, I), kept_ratio(ratio, I3)
         super().__init__(standing, I2, I3, *[0.0] * (3 - len(B)), *B, *omega)
         self.ratio, (self.field, self.omega), self.arguments = rounded, vectors, {"ratio": exact, **vectors_given}
 

@@ -18,7 +18,7 @@ from flint import arb, arb_poly, ctx, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rational, rationals
 from atlas.arithmetic.certified_rotation import AXES, identity, product, turn
-from atlas.arithmetic.numbers import dot, workprec
+from atlas.arithmetic.numbers import applied, dot, workprec
 from atlas.arithmetic.numbers import nearest as nearest_float
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.motions.nutation.certified_cayley_klein import matrix
@@ -438,7 +438,7 @@ class AsymmetricMotion:
         """Return m = R II Omega in the laboratory, three balls in inertia/time; exact without a field."""
         Omega = self.angular_velocity(t) if any(self.field) else self.omega
         m = [I * w for I, w in zip(self.inertia, Omega, strict=True)]
-        return [dot(row, m) for row in self.rotation(t)] if any(self.field) else m
+        return applied(self.rotation(t), m) if any(self.field) else m
 
 
 def _power(x: fmpq) -> fmpq:

@@ -24,7 +24,7 @@ from flint import arb, ctx, fmpq
 
 from atlas.arithmetic.certified_inputs import Real, rational, rationals
 from atlas.arithmetic.certified_rotation import Matrix, identity, product
-from atlas.arithmetic.numbers import dot, quaternion_products, workprec
+from atlas.arithmetic.numbers import applied, dot, quaternion_products, workprec
 from atlas.bodies.certified_inertia import principal_axes
 from atlas.bodies.formula_integrals import clebsch
 from atlas.errors import DomainError, NotCertifiedError
@@ -55,11 +55,6 @@ def transposed(M: Sequence[Sequence[Any]]) -> list[list[Any]]:
     return [list(row) for row in zip(*M, strict=True)]
 
 
-def times(M: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Any]:
-    """Return a matrix times a vector, as a list."""
-    return [dot(row, v) for row in M]
-
-
 class PlacedMotion:
     """Motion of a body from the attitude of a quaternion (x, y, z, w), in the field B' of the laboratory.
 
@@ -71,7 +66,7 @@ class PlacedMotion:
         x, y, z, w = rationals(attitude, "the attitude", 4)
         self.attitude: Matrix = matrix((w, x, y, z))
         self.omega = rationals(omega, "omega", 3)
-        self.field = tuple(times(transposed(self.attitude), rationals(field, "field (B1, B2, B3)", 3)))
+        self.field = tuple(applied(transposed(self.attitude), rationals(field, "field (B1, B2, B3)", 3)))
         if len(inertia) == len("123"):
             a, b, c = rationals(inertia, "inertia (I1, I2, I3)", 3)
             d = e = f = fmpq(0)
@@ -96,7 +91,7 @@ class PlacedMotion:
                     x, y, z, w = max(products, key=lambda row: max(abs(float(q.mid())) for q in row))
                     axes = matrix([q.mid().fmpq() for q in (w, x, y, z)])
                     moments = [I if isinstance(I, fmpq) else I.mid().fmpq() for I in moments]
-            motion = AsymmetricMotion(moments, times(axes, self.field), times(axes, self.omega))
+            motion = AsymmetricMotion(moments, applied(axes, self.field), applied(axes, self.omega))
             rebuilt = product(transposed(axes), [[I * x for x in row] for I, row in zip(moments, axes, strict=True)])
             pairs = zip(chain(*rebuilt), chain(*self.tensor), strict=True)
             distance = sum((abs(a - b) for a, b in pairs), fmpq(0))
@@ -113,7 +108,7 @@ class PlacedMotion:
         if distance > (MARGIN - 1) / 4 * I3:
             raise NotCertifiedError("not certified: the principal moments are of too different sizes.")
         K, W = self.field, [w + k for w, k in zip(self.omega, self.field, strict=True)]
-        energy = sum((dot(v, times(self.tensor, v)) + distance * dot(v, v) for v in (W, K)), fmpq(0)) * MARGIN
+        energy = sum((dot(v, applied(self.tensor, v)) + distance * dot(v, v) for v in (W, K)), fmpq(0)) * MARGIN
         squared = arb(energy / I2)
         steady = arb(dot(W, W)).sqrt() + arb(min((I1 - I2 + 2 * distance) / I3 * MARGIN, 1)) * t * (
             squared + arb(dot(K, K))
@@ -155,7 +150,7 @@ class PlacedMotion:
         motion, axes, error, _ = self._deviation(t)
         if rational(t, "the time") == 0:
             return list(self.omega)
-        Omega = times(transposed(axes), motion.angular_velocity(t))
+        Omega = applied(transposed(axes), motion.angular_velocity(t))
         return Omega if self.is_diagonal else [x + error for x in Omega]
 
     def __getattr__(self, name: str) -> Any:

@@ -70,7 +70,7 @@ class SingleAsymmetric:
 
     def __init__(self, exact: Balls) -> None:
         self.exact = exact
-        self.size = max(nearest(abs(x)) for x in (*exact.field, *exact.omega)) or 1.0
+        self.size = max(map(nearest, map(abs, (*exact.field, *exact.omega)))) or 1.0
         self.certified = Certified(exact, self.size)
 
     @cached_property
@@ -280,9 +280,9 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         ]
         super().__init__(_single, *columns)
         self._of_each(lambda single: single.exact.kind)  # inputs of no motion are refused here
-        self.inertia, self.field, self.omega = (tuple(plain(x) for x in columns[i : i + 3]) for i in (0, 3, 6))
-        arguments = (tuple(map(as_given, columns[i : i + 3])) for i in (0, 3, 6))
-        self.arguments = dict(zip(("inertia", "field", "omega"), arguments, strict=True))
+        rounded, exact = tuple(map(plain, columns)), tuple(map(as_given, columns))
+        self.inertia, self.field, self.omega = rounded[:3], rounded[3:6], rounded[6:]
+        self.arguments = {"inertia": exact[:3], "field": exact[3:6], "omega": exact[6:]}
 
     @kept
     def kind(self) -> NameOrArray:
