@@ -33,9 +33,11 @@ def course(
     level_name: str = "",
     pieces: int = 32,
 ) -> Plane:
-    """Return the panel from t = 0 to `stop`, of that size in millimetres, each line with its name.
+    """Return the panel of a vector's three components as curves over the time, from t = 0 to `stop`.
 
-    `level` is that of a dashed line across the panel; the lines are first cut into so many `pieces`.
+    `vector` maps times (N,) to values (N, 3); `names` (three texts) stand at the curves. `size` is the panel's
+    (width, height) in millimetres. If `level` is given, a dashed line is drawn there, with the text `level_name`. The
+    time is first cut into `pieces` equal parts, then as finely as the curves need.
     """
     rough = vector(np.linspace(0.0, stop, 8 * pieces + 1))
     marks = rough if level is None else np.append(rough, level)
@@ -69,7 +71,10 @@ _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
 
 @dataclass(frozen=True)
 class Upright:
-    """The vector drawn upright, in the laboratory: its letter in TeX and in plain words, and its role."""
+    """The laboratory vector drawn upright: components along (e1, e2, e3), letter in TeX, letter in text, role.
+
+    The role is that of the arrow's colour; "" for a vector that is not drawn as an arrow.
+    """
 
     vector: Sequence[float]
     letter: str
@@ -78,7 +83,10 @@ class Upright:
 
     @classmethod
     def of_motion(cls, motion: Any) -> "Upright":
-        """Return a top's direction, else the field; without a field the angular momentum, for a body at rest e3."""
+        """Return the `Upright` vector of a motion: the first of these that exists and is not zero.
+
+        A top's direction n, the field, the angular momentum at t = 0, and e3 for a body at rest without a field.
+        """
         if hasattr(motion, "direction"):
             return cls((0.0, *motion.direction), r"\mathbf{n}", "n", "direction")
         field = getattr(motion, "field", (abs(getattr(motion, "larmor", 0.0)),))
@@ -104,9 +112,13 @@ def picture(
 ) -> Scene:
     """Return the figure of a motion over `periods` times its `period`, at most `MAX_AXIS_TURNS` turns.
 
-    `setting` names the body and the start, for a caption and in plain words; `word` names the motion of that
-    period, empty if there is none. An infinite or zero period is replaced by one turn at the start.
-    `upright` replaces the motion's own upright vector. An axis that would not visibly move is shown for one precession.
+    `setting` names the body and the start, first for a caption in TeX, then in plain words; `word` names the motion of
+    that period, "" if there is none. A `period` that is infinite or not positive is replaced by the time of one turn
+    at the start. `upright` replaces the motion's own upright vector; `elevation` is the height of view in degrees;
+    `unit` is the word for the unit of time on the axes. An axis that would not visibly move is shown for one
+    precession.
+
+    Raises AtlasError for `periods` that is not positive.
     """
     upright = upright or Upright.of_motion(motion)
     turn_rate = turns(motion, 0.0)
@@ -171,7 +183,7 @@ def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], 
 
 
 def scene_at(motion: Any, t: float, begin: float) -> Scene:
-    """Return the `Scene` of a motion at the time t: body, axis with its path since `begin`, and field or momentum."""
+    """Return the `Scene` of a motion at the time t: body, axis e3 with its path since `begin`, upright vector."""
     R, upright = np.asarray(motion.rotation(t)), Upright.of_motion(motion)
     layers: list[Layer] = [
         *body_of(motion, R, _FINE),
@@ -219,7 +231,7 @@ def axis_period(motion: Any) -> float:
 
 
 def _number(motion: Any, name: str) -> float:
-    """Return an attribute of a motion as a float, 0 where it has no value."""
+    """Return an attribute of a motion as a float; 0.0 if it has none, or if the attribute raises DomainError."""
     try:
         return float(getattr(motion, name, 0.0))
     except DomainError:
@@ -238,5 +250,5 @@ def turns(motion: Any, stop: float) -> float:
 
 
 def pieces(count: float) -> int:
-    """Return the number of pieces into which an axis' path over `count` turns is first divided."""
+    """Return the number of equal parts, at least 32, into which an axis' path over `count` turns is first cut."""
     return max(32, ceil(min(8 * count, 2.0 * MAX_POINTS)))

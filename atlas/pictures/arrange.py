@@ -28,9 +28,9 @@ _BAR = 16.0
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Panels in `columns` columns, with the heights of the `rows` in millimetres.
+    """Panels in `columns` columns, row by row; `rows` are the heights of the rows in millimetres.
 
-    `scale` is the size of the smallest panel relative to its own size before.
+    `scale` is the least ratio, over all panels, of a panel's new size to its size in the original scene.
     """
 
     panels: tuple[Panel, ...]
@@ -110,7 +110,11 @@ def suited(scene: Scene, targets: Sequence[Target]) -> Target:
 
 
 def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrangement]:
-    """Yield the arrangements of a scene in a width and height, mm: by numbers of columns, then its `narrow` panels."""
+    """Yield the `Arrangement`s of a scene in a width and height in millimetres.
+
+    One for each number of columns that fills its rows, or is the scene's own; then its `narrow` panels in one column,
+    if it has any.
+    """
     count = len(scene.panels)
     before = scene.size[0] / scene.columns, scene.size[1] / -(-count // scene.columns)
     for columns in range(1, count + 1):
@@ -141,7 +145,10 @@ def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
 def _fitted(
     panels: Sequence[Panel], columns: int, before: tuple[float, float], room: tuple[float, float]
 ) -> Arrangement:
-    """Return the arrangement of panels in `columns` columns, in a room (width, height)."""
+    """Return the arrangement of panels in `columns` columns, in a room (width, height) in millimetres.
+
+    `before` is (width, height) of a panel in the original scene. Rows too high for the room are lowered together.
+    """
     wide = room[0] / columns
     image_width = wide - _BAR if any(map(_has_bar, panels)) else wide
     rows = [
@@ -166,7 +173,10 @@ def _has_bar(panel: Panel) -> bool:
 
 
 def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
-    """Return the preferred height of a panel of this width, in millimetres."""
+    """Return the preferred height in millimetres of a panel `wide` millimetres wide.
+
+    `before` is (width, height) of a panel in the original scene: its ratio is kept, within limits.
+    """
     high = before[1] * wide / before[0]
     if not isinstance(panel, Plane):
         width, height = extent(panel)
@@ -178,7 +188,10 @@ def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
 
 
 def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float]) -> float:
-    """Return the ratio of a panel's size in a cell to its size in the original cell, words excluded."""
+    """Return the ratio of a panel's size in a `cell` to its size in the cell `before`, words excluded.
+
+    Cells are (width, height) in millimetres. The smaller of the ratios of widths and heights counts, `_LEAST` at least.
+    """
     words = _AXES if isinstance(panel, Plane) else (0.0, 0.0)  # names go along with a drawing
     sizes = zip(cell, (before[0], _high(panel, before[0], before)), words, strict=True)
     return max(min((now - word) / (then - word) for now, then, word in sizes), _LEAST)
@@ -196,8 +209,8 @@ WIDTH = 90.0
 def narrowed(scene: Scene) -> Scene | None:
     """Return a scene laid out for a phone, 90 mm wide; None if its own arrangement serves.
 
-    The number of columns is the largest whose panels are no smaller than before. A single column of panels with two
-    axes is only made narrower. A scene with `narrow` panels gets these, in one column.
+    A scene with `narrow` panels gets these, in one column. A single column of panels with two axes is only made
+    narrower. Otherwise the number of columns is the largest whose panels are no smaller than before.
     """
     panels, (width, height) = len(scene.panels), scene.size
     rows = -(-panels // scene.columns)
@@ -217,9 +230,11 @@ def narrowed(scene: Scene) -> Scene | None:
 def stacked(
     cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0, title: str = ""
 ) -> tuple[Space, ...]:
-    """Return groups of layers, side by side in space, as panels at one scale in `rows` rows; the first has the title.
+    """Return groups of layers, side by side in space, as panels `Space` at one scale in `rows` rows.
 
-    Each group has at least ``room`` to the right.
+    Each of `cells` is one group, already at its place; a panel has all groups of its row. `azimuth` and `elevation` are
+    those of the view in degrees, `title` stands over the first panel only. `room` is the least width of a group, in the
+    unit of the coordinates.
     """
     row_count = -(-len(cells) // rows)
     panels = [
@@ -231,5 +246,5 @@ def stacked(
 
 
 def extent(panel: Space) -> FloatArray:
-    """Return width and height, shape (2,), of a panel's layers in the plane of view."""
+    """Return width and height, an array (2,), of a panel's layers as seen, in the unit of the coordinates."""
     return np.asarray(np.ptp(cloud(panel) @ frame(panel)[:2].T, axis=0))

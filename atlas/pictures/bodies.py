@@ -30,7 +30,10 @@ def proportions(I: float, *, solid: bool = False) -> tuple[float, float]:
 
 
 def row(count: int, step: float, azimuth: float) -> FloatArray:
-    """Return centres (count, 3) at equal steps on a line that runs to the right for an eye at ``azimuth`` (degrees)."""
+    """Return centres (count, 3) with distances `step` on a line about the origin, which runs to the right as seen.
+
+    ``azimuth`` is that of the view in degrees.
+    """
     rightward = frame(Space((), azimuth=azimuth))[0]
     return np.asarray(step * (np.arange(count) - (count - 1) / 2)[:, None] * rightward)
 
@@ -65,7 +68,10 @@ def drawn_body(
 
 
 def body_of(motion: Any, R: FloatArray, tolerance: float) -> list[Layer]:
-    """Return the layers of a motion's body, rotated by R: a shell with its I, or a brick with its three moments."""
+    """Return the layers of a motion's body, rotated by the matrix R (3, 3), with its farthest point at the distance 1.
+
+    A symmetric body is a cylindrical shell with the same I3/I2, a body with three moments a brick with these.
+    """
     inertia = getattr(motion, "inertia", None)
     if inertia is None or np.ndim(inertia) == 0:
         return drawn_body(quotient(getattr(motion, "ratio", 1.0)), R, _CENTRE, 1.0, tolerance)

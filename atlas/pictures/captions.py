@@ -49,13 +49,16 @@ def listed(items: Sequence[str], conjunction: str = "and") -> str:
 
 
 def quotient(ratio: Any) -> float:
-    """Return I = I3/I2, (33), of a number or a body, rounded to a float for use in a sentence."""
+    """Return I = I3/I2, (33), of a number or a body, as a float rounded from the exact quotient."""
     I2, I3 = moments(ratio)
     return float(I3 / I2)
 
 
 def body_name(ratio: Any) -> str:
-    """Return the paper's name for a body: loop, ball, short or long solenoid, by an exact comparison of I3 and I2."""
+    """Return "loop" for I3 = 2 I2, "ball" for I3 = I2, else "short solenoid" (I3 > I2) or "long solenoid".
+
+    `ratio` is I = I3/I2 or a body; the comparison is exact.
+    """
     I2, I3 = moments(ratio)
     if I3 == 2 * I2:
         return "loop"

@@ -57,7 +57,10 @@ def section(
 def _spans(
     point: Callable[[FloatArray], FloatArray], start: float, stop: float, half_spaces: FloatArray
 ) -> list[tuple[float, float]]:
-    """Return the intervals of the parameter in which the curve ``point`` lies in every half space."""
+    """Return the intervals (a, b) between `start` and `stop` in which the curve ``point`` lies in every half space.
+
+    `point` maps parameters (N,) to points (N, 3); a row of `half_spaces` is (n1, n2, n3, d) for n . x <= d.
+    """
     normals, distances = half_spaces[:, :3], half_spaces[:, 3]
     s = np.linspace(start, stop, _LOOKS)
     inside = point(s) @ normals.T <= distances

@@ -53,7 +53,10 @@ def _heading(scene: Scene) -> Iterator[str]:
 
 
 def _pieces(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:
-    """Yield the pieces of a layer: (name, rows of x, y, z, value)."""
+    """Yield (name, rows) for each piece of a layer: names such as "tail" or "wire 1", "" for a layer of one piece.
+
+    Each row is [x, y, z, value].
+    """
     match layer:
         case Curve() | Points() | Region():
             yield "", _rows(layer.points)
@@ -80,6 +83,9 @@ def _pieces(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:
 
 
 def _rows(points: FloatArray) -> list[list[Any]]:
-    """Return points (N, 2), (N, 3) or a single one as rows of x, y, z, value."""
+    """Return points (N, 2), (N, 3) or a single one as lists [x, y, z, value], with "" for the value.
+
+    In a plane z is "" too, and so is any coordinate that is not finite.
+    """
     rows = points.reshape(-1, points.shape[-1]).tolist()
     return [[*(x if math.isfinite(x) else "" for x in row), *[""] * (4 - len(row))] for row in rows]

@@ -26,9 +26,10 @@ Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit: str = "length") -> Scene:
-    """Return the figure of a flight, over `turns` turns of its centre of mass or until `stop`.
+    """Return the figure of a flight, over `turns` turns of its centre of mass or, if given, until the time `stop`.
 
-    Raises AtlasError for several flights at once, DomainError where the centre of mass moves without turns.
+    `unit` is the word for the unit of length on the axes. Raises AtlasError for several flights at once, DomainError
+    where the centre of mass moves without turns.
     """
     particle = flight.particle
     if particle.shape or flight.point.ndim > 1 or flight.motion.rotation(0.0).ndim > 2:
@@ -51,9 +52,13 @@ def picture(
     stop: float | None,
     unit: str,
 ) -> Scene:
-    """Return the figure of a flight; `setting` says whose it is, for a caption and in plain words.
+    """Return the figure of a flight until `stop`, or, if that is None, over `turns` turns of its centre of mass.
 
-    `rate` is how often at most the body turns in a unit of time.
+    `point` is the body point drawn, `setting` names the body and the fields, first in TeX, then in plain words. `rate`
+    is the body's largest rate of rotation, in turns per unit of time; `unit` is the word for the unit of length.
+
+    Raises AtlasError for `turns` or `stop` that is not positive; DomainError without a charge or a magnetic field, and
+    for more than `MAX_TURNS` turns.
     """
     particle = flight.particle
     cyclotron_frequency = float(particle.cyclotron_frequency)
@@ -125,9 +130,10 @@ def side_view(flight: Flight, stop: float) -> Space:
 
 
 def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
-    """Return the paths of the centre of mass and of the point, and arms between them, (M, 2, 3), for both panels.
+    """Return paths of the centre of mass (N, 3) and of the point (N', 3), and 33 arms between them (33, 2, 3).
 
-    The sampling is as fine as the larger panel requires.
+    The sampling from t = 0 to `stop` is as fine as the larger of both panels requires: `axes` (3, 2) are the columns of
+    panel (b), `view` is panel (a).
     """
     rough = flight.position(np.linspace(0.0, stop, 257))
     extents = (np.ptp(rough @ plane, axis=0) / [WIDTH / 2, HEIGHT] for plane in (frame(view)[:2].T, axes))
@@ -184,7 +190,10 @@ def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) 
 
 
 def bundle(centre: FloatArray, point: FloatArray, arms: FloatArray, suffix: str = "") -> list[Layer]:
-    """Return the layers of both paths and the arms."""
+    """Return a panel's layers: arms, paths of the centre of mass and of the point, and a moving mark on each path.
+
+    The marks ride on the paths "point" and "centre", followed by `suffix`.
+    """
     return [
         *(Curve(arm, "guide") for arm in arms),
         Curve(centre, "fourth"),

@@ -73,10 +73,11 @@ def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
 
 
 def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, float]) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2) of the curve (67) in the window, which is drawn ``millimetres`` wide and high.
+    """Return the pieces (N, 2) of the curve (67) in the window `view`, as (omega2, omega3), a tuple.
 
-    With x = (omega2 + B2)/B2 each branch (71) is sampled in log |x| from the edge of the window to the pole. For
-    B2 = 0 the curve is the line omega2 = 0, for I = 1 or B3 = 0 a sloping or level line and the pole.
+    `millimetres` are (width, height) of the panel on paper. With x = (omega2 + B2)/B2 each branch (71) is sampled in
+    log |x| from the edge of the window to the pole. For B2 = 0 the only piece is the line omega2 = 0; for I = 1 or
+    B3 = 0 the pieces are a sloping or level line and the pole omega2 = -B2. Raises DomainError without a field.
     """
     B2, B3 = components(field)
     I, one_less, _ = shape_factors(ratio)

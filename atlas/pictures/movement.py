@@ -29,7 +29,7 @@ def scene_at(scene: Scene, t: float) -> Scene:
 
 
 def rotations_about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the rotations ``turns`` (N, 3, 3) about a point (3,) as pairs x -> R x + d: R, and d (N, 3)."""
+    """Return the rotations R = `turns` (N, 3, 3) about a point (3,) as maps x -> R x + d: the pair R, d (N, 3)."""
     return turns, centre - turns @ centre
 
 

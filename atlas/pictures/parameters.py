@@ -53,11 +53,11 @@ COUNTS = {2: "two", 3: "three", 4: "four"}
 
 
 def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tuple[float, float]] = RANGES) -> Any:
-    """Return the value of a parameter converted to its annotation, or to the type of its default.
+    """Return a parameter's value converted to the annotation `hint`, or if that is None to its default's type.
 
     A list becomes a tuple, an integer a float, one number a tuple of one where any length is allowed, and a flat list
-    is divided into tuples of the annotated length. `hint` is the annotation or None, `ends` are limits by name. Raises
-    AtlasError, which names the parameter and the expected value, for another type and beyond the limits.
+    is divided into tuples of the annotated length. `ends` are (least, greatest) by name. Raises AtlasError, which names
+    the parameter and the expected value, for another type and beyond the limits.
     """
     kind = _kind(default) if hint is None else hint
     try:

@@ -46,7 +46,8 @@ def in_plane(second: float, third: float) -> FloatArray:
 def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) -> Scene:
     """Return a scene with one panel, seen from `view` = (azimuth, elevation) in degrees, with room for names.
 
-    It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
+    The figure is at most 120 x 98 mm, and no side is below 50 mm; the projection decides the ratio of the sides.
+    `words` are further arguments of `Scene`.
     """
     panel = Space(tuple(layers), *view)
     points = cloud(panel)
@@ -79,9 +80,10 @@ def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
 
 
 def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str = "both") -> list[Surface]:
-    """Return the drawn sheets of a hyperboloid or cone (51), one surface each: 'both', or only that of the 'origin'.
+    """Return the drawn sheets of a hyperboloid or cone (51), one `Surface` each, the one on the origin's side first.
 
-    ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
+    ``field`` is (B2, B3) of B', of which neither vanishes. `choice` is "both", or "origin" for only the first sheet. A
+    hyperboloid of one sheet and a cone are one surface.
     """
     high, low = extent(quadric, field)
     sag = tolerance(high if choice == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre

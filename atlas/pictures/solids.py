@@ -40,9 +40,9 @@ def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable
 def around(
     quadric: FloatArray, centre: FloatArray, east: FloatArray, north: FloatArray, tolerance: float
 ) -> FloatArray:
-    """Return the angles s (N,) of the meridians of a round surface.
+    """Return the angles s (N,), in rad from 0 to 2 pi, of the meridians at which a round surface's mesh is divided.
 
-    Its widest section is the ellipse about `centre` through centre + east and centre + north.
+    The surface's widest section is the ellipse centre + east cos s + north sin s; `tolerance` is as for `sample.cuts`.
     """
     return sample.cuts(quadric, [ellipse(centre, east, north)], 0.0, TURN, tolerance)
 
@@ -141,6 +141,6 @@ def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str
 
 
 def extent(surfaces: Sequence[Surface], direction: FloatArray) -> tuple[float, float]:
-    """Return the least and the largest coordinate of surfaces along the unit vector ``direction`` (3,)."""
+    """Return least and largest coordinate of the surfaces' mesh points along the unit vector ``direction`` (3,)."""
     heights = np.concatenate([np.ravel(grid @ direction) for surface in surfaces for grid in surface.grids])
     return float(heights.min()), float(heights.max())

@@ -51,11 +51,12 @@ def is_known(sheet: str) -> bool:
 
 @dataclass(frozen=True)
 class Style:
-    """The look of a role.
+    """The look of a role: `colour` as "#rrggbb", `width` of lines, `marker` of Matplotlib and its `size`, in points.
 
-    ``dash`` is on, off, on, off, ... in points. ``fill`` is the opacity of areas and surfaces, ``glass`` that of
-    surfaces in shaded pictures, ``back`` the colour of a surface's inner side. ``hidden`` says whether parts behind a
-    surface are drawn (dashed). ``tube`` is the diameter in shaded pictures.
+    ``dash`` is on, off, on, off, ... in points, () for a solid line. ``fill`` is the opacity of areas and surfaces from
+    0 to 1, ``glass`` that of surfaces in shaded pictures, ``back`` the colour of a surface's inner side ("" for the
+    same). ``hidden`` says whether parts behind a surface are drawn (dashed). ``tube`` is the diameter in points of
+    lines and marks in shaded pictures.
     """
 
     colour: str
@@ -160,7 +161,10 @@ STYLES: Mapping[str, Style] = MappingProxyType(
 
 
 def contrast(colour: str, ground: str = WHITE) -> float:
-    """Return the contrast of two colours, (Y + 0.05)/(Y' + 0.05) with their relative luminances Y > Y' (WCAG 2)."""
+    """Return the contrast of two colours "#rrggbb", from 1 to 21 (WCAG 2).
+
+    It is (Y + 0.05)/(Y' + 0.05) with the relative luminances Y >= Y'.
+    """
     darker, lighter = sorted(map(_luminance, (colour, ground)))
     return (lighter + 0.05) / (darker + 0.05)
 
@@ -180,9 +184,9 @@ def is_dark(ground: str) -> bool:
 
 @cache
 def readable(colour: str, ground: str = WHITE) -> str:
-    """Return a colour for text that is readable on a ground: the given colour, darkened or lightened if needed.
+    """Return a colour "#rrggbb" for text on a ground: the given one, darkened or lightened until its contrast suffices.
 
-    White stands for the ink.
+    White is replaced by the ink first.
     """
     if colour == WHITE:
         colour = INK

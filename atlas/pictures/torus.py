@@ -12,7 +12,7 @@ GRAZE = 1e-9
 
 
 def on_torus(u: FloatArray, v: FloatArray) -> FloatArray:
-    """Return points (..., 3) of the torus at angles u around its axis e3 and v around its tube."""
+    """Return points (..., 3) of the torus at angles u around its axis e3 and v around its tube, in rad."""
     distance = RADII[0] + RADII[1] * np.cos(v)
     return np.stack([distance * np.cos(u), distance * np.sin(u), RADII[1] * np.sin(v)], axis=-1)
 
@@ -33,7 +33,10 @@ def hidden(points: FloatArray) -> FloatArray:
 
 
 def visible(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
-    """Return the visible parts of a line on the torus, and the hidden parts in the role `behind` if given."""
+    """Return a line (N, 3) on the torus as `Curve` layers: visible parts, and hidden parts in the role `behind`.
+
+    Hidden parts are left out if `behind` is "".
+    """
     gone = hidden(points)
     pieces = np.split(np.arange(len(points)), np.flatnonzero(np.diff(gone)) + 1)
     roles = [behind if gone[piece[0]] else role for piece in pieces]

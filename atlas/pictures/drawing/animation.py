@@ -98,7 +98,10 @@ class Moving(FuncAnimation):
 
 
 def _extents(scene: Scene) -> Iterator[Extent]:
-    """Yield the extent of each panel, which determines its view; open limits are set by Matplotlib."""
+    """Yield for each panel the extent that fixes its view: a `Space` of few points, or the limits (x, y) of a `Plane`.
+
+    Limits that the panel leaves open are those that Matplotlib chooses.
+    """
     is_open = any(isinstance(plane, Plane) and not (plane.x_limits and plane.y_limits) for plane in scene.panels)
     all_axes = [axes for axes, _ in laid_out(scene)[1]] if is_open else [None] * len(scene.panels)
     for panel, axes in zip(scene.panels, all_axes, strict=True):
@@ -230,7 +233,11 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
 
 
 def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
-    """Return (function that makes frame k of a moving scene, number of frames)."""
+    """Return (function of k that makes the scene of frame k, number of frames) of a scene with paths.
+
+    `times` are those of the frames, by default `FRAMES` equal steps over the scene's duration. Raises AtlasError for a
+    scene without paths.
+    """
     if not scene.paths:
         raise AtlasError(
             f"the figure {recipe.name!r} has no time t; say which of its parameters moves, and through which values "

@@ -169,7 +169,7 @@ def _write_pgf(figure: "Figure", path: Path) -> None:
 
 @contextmanager
 def _formulas_parsed_once() -> Iterator[None]:
-    """Context in which Matplotlib parses each formula once, not again for every file."""
+    """Context in which Matplotlib's parser keeps each formula that it has parsed, so that it serves for all files."""
     import matplotlib as mpl
     from matplotlib.mathtext import MathTextParser
 

@@ -49,8 +49,8 @@ def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[
 def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
     """Return triangles (T, 3, K) cut so that each lies entirely in front of or behind every quadric.
 
-    The first three of the K numbers of a corner are a point of the quadric with index ``owner``; the others are
-    interpolated.
+    The first three of the K numbers of a corner are a point of the quadric with index ``owner`` in `forms`; the others
+    are interpolated. `towards` (3,) is the unit vector to the eye.
     """
     for number, form in enumerate(forms):
         corners = _cut(corners, lambda x, form=form: facing(form, x, towards))
@@ -79,7 +79,10 @@ def _snapped(heights: FloatArray) -> FloatArray:
 
 
 def _cut(corners: FloatArray, field: Field) -> FloatArray:
-    """Return triangles (T, 3, K) cut along the zeros of a function of their points, at most quadratic."""
+    """Return triangles (T, 3, K) cut along the zeros of `field`, so that it has one sign on each.
+
+    `field` maps points (..., 3), the first three of the K numbers, to values (...); it is at most quadratic.
+    """
     height = _snapped(field(corners[..., :3]))
     above, below = height > 0.0, height < 0.0
     split = (above[:, 0] | above[:, 1] | above[:, 2]) & (below[:, 0] | below[:, 1] | below[:, 2])
@@ -121,9 +124,10 @@ _ON_TOP = 0.25
 
 
 def glass(view: View, pixel: float) -> Triangles:
-    """Return the translucent surfaces of a panel as triangles in painting order.
+    """Return the translucent surfaces of a panel as triangles in painting order, the farthest first.
 
-    ``pixel`` is the size of a pixel in the panel's unit. The visible side of a triangle has its corners anticlockwise.
+    The result is (points (3 T, 3), normals (3 T, 3), colours (3 T, 4) as bytes red, green, blue, opacity); each three
+    rows are one triangle, anticlockwise as seen. ``pixel`` is the size of a pixel in the panel's unit.
     """
     forms, numbers = distinct_forms(view.surfaces)
     painted, ranks = [], []
@@ -150,7 +154,10 @@ def distinct(points: FloatArray) -> FloatArray:
 
 
 def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
-    """Return a polyline thinned in three passes: every second point within `tolerance` of the chord is dropped."""
+    """Return a polyline (N, D) with fewer points: in each of three passes every second one may be dropped.
+
+    A point is dropped if it is within `tolerance` of the chord of its neighbours, in the unit of the points.
+    """
     for _ in range(3):
         before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
         chord = after - before

@@ -33,9 +33,9 @@ _MARGIN = 0.02
 
 
 def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[tuple[FloatArray, bool]]:
-    """Return the pieces of a polyline (N, 3), each with whether it is visible.
+    """Return the pieces of a polyline (N, 3) as pairs (points (M, 3), is visible), in order; [] for no length.
 
-    ``towards`` is the unit vector to the eye; points nearer than 1e-7 count as touching.
+    ``towards`` is the unit vector to the eye; a surface nearer than 1e-7 to a point does not hide it.
     """
     start, step = points[:-1], np.diff(points, axis=0)
     if len(start) == 0:
@@ -220,7 +220,10 @@ def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> Floa
 
 
 def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
-    """Return (is near, is outer side seen, edge) for the surface's two parts that exist, the far part first."""
+    """Return (is near, is outer side seen, edge) for the surface's two parts that exist, the far part first.
+
+    `edge` is (points (K, 3), Matplotlib's path codes (K,)); `towards` is the unit vector to the eye.
+    """
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
     sides = []
     for sign in (1.0, -1.0):
@@ -232,9 +235,10 @@ def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]
 
 
 def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:
-    """Return, for each level, the edge of the near part where the cosine of the ``light`` is below the level.
+    """Return, for each of `levels`, the edge of the near part where the cosine of the angle to the light is below it.
 
-    The light falls on the side that the reader sees.
+    ``light`` and ``towards`` are the unit vectors to the light and to the eye; the light falls on the side that is
+    seen. An edge is (points (K, 3), Matplotlib's path codes (K,)), both empty where no part is so dark.
     """
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
     bands: list[list[Edge]] = [[] for _ in levels]

@@ -32,11 +32,12 @@ Ink: TypeAlias = tuple[FloatArray, float, int]
 
 @dataclass(frozen=True)
 class Tag:
-    """A text of known ``extent`` (width, height) that belongs at ``anchor``; all in printer's points.
+    """A text of known ``extent`` (width, height) that belongs at ``anchor``; all lengths in printer's points.
 
-    ``offset`` is where it would like to stand as seen from the anchor; (0, 0) means centred there, always. It
-    may stand ``elsewhere`` too, the less gladly the later the place. It is the name of the ink of its ``owner``, and
-    should be nearer to that than to the ink of others.
+    ``offset`` is the preferred place of the text from the anchor; with (0, 0) the text is centred there and not moved.
+    ``elsewhere`` has further anchors, each at a higher cost than the one before. ``owner`` is the index of the layer
+    that the text names, -1 for none: the text should be nearer to that layer's lines and marks than to others. ``size``
+    is that of the type, ``colour`` that of the text.
     """
 
     text: str
@@ -68,9 +69,10 @@ def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: 
 
 
 def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
-    """Return the centre of each tag: the cheapest candidate, in two rounds, deterministically.
+    """Return the centre (2,) of each tag's text, in points: the cheapest candidate, in two rounds, deterministically.
 
-    Tags keep clear of the ``inks``; ``window`` is (left, bottom, right, top).
+    ``inks`` are (points (N, 2), cost of covering one, index of the layer): lines and marks to be kept free. ``window``
+    is (left, bottom, right, top); texts should not leave it.
     """
     point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
     ink, counts = np.concatenate(point_sets), list(map(len, point_sets))

@@ -41,7 +41,7 @@ class Texts(RendererBase):
 
 
 def unreadable(figure: Figure) -> str:
-    """Return a sentence on two overlapping texts of a figure, or on a text outside the page; "" without any."""
+    """Return a sentence on two overlapping texts of a figure, or on a text outside the page; "" if all can be read."""
     page_texts = Texts(figure)
     for (lower_text, a), (upper_text, b) in combinations(page_texts.texts, 2):
         size = page_texts.points_to_pixels(min(lower_text.get_fontsize(), upper_text.get_fontsize()))

@@ -56,7 +56,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
 
 
 def _riders(panel: Any) -> Iterator[Any]:
-    """Yield the layers of a panel that ride on a path."""
+    """Yield the layers of a panel whose attribute `rides` names a path."""
     yield from (layer for layer in panel.layers if getattr(layer, "rides", ""))
 
 
@@ -133,7 +133,11 @@ def _kinds(layer: Layer, view: View) -> Iterator[str]:
 
 
 def _marks(axes: Axes, panel: Plane, scene: Scene, times: FloatArray) -> Iterator[list[Any]]:
-    """Yield colour, diameter in points and positions in the figure of each moving mark of a plane panel."""
+    """Yield [colour, diameter in points, positions] for each moving mark of a panel with two axes.
+
+    The positions at the `times` are packed as text in base 64: x from the left and y from the top, in fractions of the
+    figure.
+    """
     to_figure = axes.transData - axes.figure.transFigure
     for layer in (rider for rider in _riders(panel) if isinstance(rider, Points)):  # a label stays in its place
         R, s = scene.paths[layer.rides](times)

@@ -176,9 +176,10 @@ def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = Non
 def laid_out(
     scene: Scene, figure: Figure | None = None, boxes: Sequence[Bbox] = ()
 ) -> tuple[Figure, list[tuple[Axes, Panel]]]:
-    """Return a figure (the given empty one, or a new one), and pairs (axes in position, panel).
+    """Return (figure, list of pairs (axes in position, panel)); the figure is the given empty one, or a new one.
 
-    The axes of panels in space are still empty. Without ``boxes`` the positions leave room for all texts.
+    Panels with two axes have their layers, but not their names; axes of panels in space are still empty. ``boxes`` are
+    the positions of the axes, in fractions of the figure; without them the positions leave room for all texts.
     """
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
@@ -261,7 +262,11 @@ def write_names(axes: Axes, panel: Plane) -> None:
 def _requests(
     size: tuple[float, float], layer: Layer, places: Places, keyed: bool
 ) -> Iterator[tuple[str, FloatArray, tuple[float, float], str]]:
-    """Yield (text, positions (N, 2), offset, role) for each name of a layer to be written; `keyed` names are not."""
+    """Yield (text, positions (N, 2), offset, role) for each name of a layer to be written, in printer's points.
+
+    `size` is the panel's (width, height), `places` maps coordinates to positions. If `keyed`, labels of curves, points
+    and regions are left to the legend.
+    """
     if isinstance(layer, Label):
         yield layer.text, places(layer.at), layer.offset, layer.role
     elif isinstance(layer, Arrow) and layer.label:

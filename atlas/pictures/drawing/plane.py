@@ -126,7 +126,10 @@ def gid(layer: Layer, panel: int, place: int, piece: int = 1) -> str:
 
 
 def marker(role: str, ring: str = "") -> dict[str, Any]:
-    """Return a role's marker as keywords of `Axes.plot`, with a `ring` colour on a map."""
+    """Return a role's marker as keywords of Matplotlib's `Axes.plot`.
+
+    `ring` is the colour of the marker's edge, by default that of the marker (the ink for a white one).
+    """
     look = style_of(role)
     edge = INK if look.colour == WHITE else ring or look.colour
     shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
@@ -134,7 +137,7 @@ def marker(role: str, ring: str = "") -> dict[str, Any]:
 
 
 def _map(axes: Axes, image: Image) -> Any:
-    """Draw an `Image` as pixels, with a colorbar if it has a label, and return its artist."""
+    """Draw an `Image` as pixels, with a colorbar if it has a label, and return Matplotlib's artist of the pixels."""
     low, high = image.limits or (np.nanmin(image.values), np.nanmax(image.values))
     norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
     ends = [(edges[0], edges[-1]) for edges in (image.x, image.y)]
@@ -167,7 +170,10 @@ def _factor(axis: Axis) -> str:
 
 
 def _threshold(panel: Plane, column: int) -> float:
-    """Return the end of the linear part of a symmetric logarithm: the power of ten below the smallest value."""
+    """Return the end of a symmetric logarithmic axis' linear part, a power of ten at or below the least magnitude.
+
+    `column` is 0 for x and 1 for y. Zeros and values that are not finite do not count; 1.0 if no others are left.
+    """
     columns = [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
     sizes = np.abs(np.concatenate([np.empty(0), *columns]))
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]

@@ -106,7 +106,10 @@ def zoom() -> float:
 
 
 def stroke(width: float) -> float:
-    """Return the width on paper, in points, of a line of this width: enlarged, within the target's limits."""
+    """Return a line's width on paper from its width in the style, in points: enlarged and limited by the target.
+
+    Without a target the width is returned as it is.
+    """
     target = _TARGET.get()
     return width if target is None else min(max(target.zoom * width, target.lines[0]), target.lines[1])
 
@@ -176,7 +179,12 @@ def _use(styles: Sequence[Any]) -> None:
 
 
 def ground(face: Any = None) -> str:
-    """Return this ``face`` if it is not transparent, else the colour behind the panels."""
+    """Return the first of these colours that is not transparent: ``face``, the panels' ground, the figure's.
+
+    The result is "#rrggbb".
+
+    ``face`` is by default the panels' ground. White is returned if all are transparent.
+    """
     faces = mpl.rcParams["axes.facecolor"] if face is None else face, mpl.rcParams["figure.facecolor"]
     return next((to_hex(colour) for colour in faces if to_rgba(colour)[3]), WHITE)
 

@@ -13,7 +13,7 @@ from atlas.pictures.style import Style, readable
 
 
 def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
-    """Return the panel in the coordinates y = (x - centre)/size; the largest coefficient of each form is one."""
+    """Return the panel in the coordinates y = (x - centre)/size, each quadric divided by its largest coefficient."""
     return replace(panel, layers=tuple(_scaled(layer, centre, size) for layer in panel.layers))
 
 
@@ -142,7 +142,11 @@ def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, 
 
 
 def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
-    """Return the largest scale at which points `flat` (N, 2) and names' `boxes` fit `inside` (width, height)."""
+    """Return the largest scale, in points per unit, at which a drawing and its names fit a room, by bisection.
+
+    `flat` (N, 2) are points at scale 1, `boxes` is as from `_boxes`, `inside` (2,) is (width, height) in points. Where
+    even the smallest scale does not fit, the largest that the drawing alone allows is returned.
+    """
     span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
     corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
     low, high = 0.0, float(np.min(inside / span))
@@ -160,7 +164,10 @@ def _boxes(tags: list[Tag]) -> FloatArray:
 
 
 def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest and the highest corner, (2,) each, of drawing and names at this scale."""
+    """Return the lowest and the highest corner, (2,) each, of drawing and names at a scale.
+
+    `flat` (N, 2) are points at scale 1, `boxes` is as from `_boxes`.
+    """
     anchors, middles, half = boxes
     centres = scale * anchors + middles
     low = np.concatenate([scale * flat, centres - half]).min(axis=0)

@@ -47,9 +47,11 @@ def deep(scene: Scene) -> bool:
 
 
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
-    """Return a dict of a scene for the viewer: "wide" and "narrow", the panels in space, and all "texts".
+    """Return a dict of a scene for the viewer, with the keys "wide", "narrow" and "texts".
 
-    `figures` are the wide and the narrow figure if they are already drawn.
+    "wide" has the panels in space of the figure, "narrow" those for a narrow screen (None where the figure serves), and
+    "texts" all names, each [width, height, outline as SVG path data]. `figures` are the wide and the narrow figure if
+    they are already drawn.
     """
     small = narrowed(scene)
     with context(style):
@@ -64,7 +66,10 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
 def _laid_out(
     scene: Scene, figures: Sequence[Figure], texts: dict[tuple[str, float], int], *, same: bool = False
 ) -> dict[str, Any]:
-    """Return the boxes of a figure's panels in space, and their layers unless `same` as in the wide figure."""
+    """Return a dict of the panels in space: "places", lists as from `_place`, and "panels", dicts as from `_panel`.
+
+    "panels" is left out where they are the `same` as in the wide figure. `texts` numbers the names, and grows.
+    """
     boxes = [axes.get_position() for figure in figures for axes in figure.axes] or places(scene)
     size = _POINT * np.array(scene.size)
     views = [
@@ -127,7 +132,10 @@ def _surface(surface: Surface) -> list[Any]:
 
 
 def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
-    """Yield (kind, data) for the lines, wires, arrows and dots of a layer."""
+    """Yield (kind, data) for the lines, wires, arrows and dots of a layer.
+
+    The kind is "lines", "wires", "arrows" or "dots"; data begin with the colour and the diameter in points.
+    """
     if isinstance(layer, Surface):
         yield from (
             ("wires", [style_of("wire").colour, style_of("wire").tube, _packed(thinned(wire, _NEAR / view.scale))])
@@ -158,7 +166,7 @@ def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, li
 
 
 def _packed(curve: FloatArray) -> str:
-    """Return a line's points as 16-bit integers in base 64, without consecutive repetitions."""
+    """Return a line's points (N, 3) as 16-bit integers round(`STEPS` x) in base 64, without consecutive repetitions."""
     steps = np.round(STEPS * curve).astype("<i2")
     new = np.concatenate([[True], np.any(np.diff(steps, axis=0), axis=1)])
     return b64encode(steps[new].tobytes()).decode()
