@@ -93,9 +93,10 @@ class Machine(Item, frozen=True):
 
 
 class Run(Item, frozen=True):
-    """One method on one case up to one horizon: largest error and computing time, or None and a note on the reason.
+    """One method on one case up to the time `horizon`: largest error and computing time, or None and a reason.
 
-    ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up.
+    ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up;
+    ``note`` is the reason where they are None.
     """
 
     case: str
@@ -210,7 +211,8 @@ def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tu
 def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
     """Return a `Plane` of layers on logarithmic axes whose limits hold the points of all layers in `every`.
 
-    `labels` are the texts of both axes, `name` is the title. `room` has two pairs of decades, of margins in x and in y.
+    `labels` are the texts of both axes, `name` is the title. `room` is ((below, above) in x, (below, above) in y), the
+    margins in powers of ten.
     """
     x, y = np.concatenate([layer.points for layer in every]).T
     return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
@@ -231,7 +233,7 @@ def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: 
 
 
 def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
-    """Return a sentence on machine, date and versions of the measurement."""
+    """Return a sentence on machine, date and versions of a record; only `libraries` that the record has are named."""
     here = record.machine
     vector = "with" if here.avx512 else "without"
     versions = ", ".join(f"{name} {record.versions[name]}" for name in libraries if name in record.versions)

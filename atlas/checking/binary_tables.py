@@ -14,7 +14,7 @@ Columns = dict[str, FloatArray]
 
 
 def _npz(path: Path) -> tuple[str, Columns]:
-    """Return the comment of an NPZ file, and its arrays."""
+    """Return the comment of an NPZ file as text, and its arrays by name."""
     with zipfile.ZipFile(path) as archive:
         head = archive.comment.decode()
     with np.load(path) as arrays:
@@ -22,7 +22,10 @@ def _npz(path: Path) -> tuple[str, Columns]:
 
 
 def _parquet(path: Path) -> tuple[str, Columns]:
-    """Return the head in the metadata of a Parquet file, and its columns, NaN where they are null."""
+    """Return the text "head" in the metadata of a Parquet file, "" without one, and its columns by name.
+
+    Null values become NaN.
+    """
     table = of_sweeps("pyarrow.parquet", "Parquet").read_table(path)
     head = (table.schema.metadata or {}).get(b"head", b"").decode()
     return head, {name: table[name].to_numpy() for name in table.column_names}

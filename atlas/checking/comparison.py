@@ -59,7 +59,10 @@ class Comparison:
         )
 
     def _panel(self, group: str) -> Plane:
-        """Return a panel with the errors of one group of columns against time."""
+        """Return a panel with the errors against time, one curve for each trajectory that has them.
+
+        `group` is "R", "Omega" or "quaternion". Errors outside 10^-17 to 10^17 are drawn at these limits.
+        """
         limits = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
         curves = tuple(
             Curve(np.column_stack([check.times, np.clip(check.errors[group], *limits)]), role, check.file)
@@ -70,5 +73,5 @@ class Comparison:
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Return names as a list in words."""
+    """Return names, one or more, as a list in words: "a", "a and b", "a, b and c"."""
     return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))

@@ -18,7 +18,10 @@ from atlas.motions.nutation.certified_top import TopMotion
 
 @dataclass(frozen=True)
 class Drift:
-    """Relative deviation of a conserved quantity from its initial value: the largest, its time, and the last."""
+    """Relative deviation of a conserved quantity from its initial value: the largest, its time, and the last.
+
+    `name` is the symbol, `says` its meaning in words, `label` its equation; both deviations are magnitudes.
+    """
 
     name: str
     says: str
@@ -58,10 +61,11 @@ class Drifts:
 
 
 def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield the deviations that a block's columns determine, from the values of a motion of a symmetric body.
+    """Yield (name, meaning, equation, deviations (m,)) of a motion of a symmetric body, as a block's columns determine.
 
-    First the norm of the quaternion and the orthogonality of R, then the integrals of motion; those with the field need
-    R, those with Omega its three components.
+    Deviations from the motion's exact values are relative to the sum of the magnitudes of the terms. First come the
+    norm of the quaternion and the orthogonality of R, then the integrals of motion; those with the field need R, those
+    with Omega its three components.
     """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
@@ -102,7 +106,7 @@ class AnyBody:
         self._start = start
 
     def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-        """Yield the deviations that a block of columns determines; of integrals only if it has R and Omega.
+        """Yield (name, meaning, equation, deviations (m,)) of a block; integrals only if it has R and Omega.
 
         Without `start` the first row of the first block becomes the start.
         """
@@ -118,9 +122,9 @@ class AnyBody:
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield a top's deviations: of orthogonality, of the norm, and of the constants h, M3, p in units of I2.
+    """Yield (name, meaning, equation, deviations (m,)) of a top: orthogonality, norm, and the constants h, M3, p.
 
-    The constants need R, or a quaternion, and Omega among the columns of the block.
+    The constants, in units of I2, need R, or a quaternion, and Omega among the columns of the block.
     """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
@@ -155,7 +159,10 @@ def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
 
 
 def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
-    """Yield the deviations (m,) of the quaternion's norm and of R^T R, each only if the columns determine it."""
+    """Yield (name, meaning, equation, deviations (m,)) of the quaternion's norm and of R^T R from 1.
+
+    Each is yielded only if the columns determine it; of R^T R the largest entry of the difference counts.
+    """
     if QUATERNION[0] in columns:
         norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
         yield "|q|", "norm of the quaternion", "(12)", norm - 1
@@ -191,7 +198,10 @@ def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> 
 
 
 def _matrices(columns: Mapping[str, Any], count: int) -> Any:
-    """Return the matrices (N, 3, 3) of the columns R11 to R33, else of the quaternion, else None."""
+    """Return the matrices (count, 3, 3) of the columns R11 to R33, else of the quaternion, None without both.
+
+    The quaternion is not normalised.
+    """
     if set(MATRIX) <= set(columns):
         return np.stack([columns[name] for name in MATRIX], axis=-1).reshape(count, 3, 3)
     if QUATERNION[0] not in columns:

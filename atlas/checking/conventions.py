@@ -93,9 +93,10 @@ def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: floa
 
 
 def _of_rates(rates: FloatArray, R: FloatArray, Omega: FloatArray, limit: float) -> list[str]:
-    """Return [sentence] on the first frame and unit in which the rates (N, 3) equal Omega.
+    """Return [sentence] on the first frame and unit in which the rates (N, 3) equal Omega, (N, 3) in the body.
 
-    Returns [] if the rates agree as given, and if no frame and unit fits.
+    `limit` is the largest median error, in units of the largest component. Returns [] if the rates agree as given, and
+    if no frame and unit fits.
     """
     size = float(np.abs(Omega).max()) or 1.0
     if _median_error(rates / size, Omega / size) <= limit:

@@ -168,7 +168,7 @@ class Grade:
 
 
 class Envelope:
-    """Largest error of each group of columns over consecutive rows, grouped so that the points stay few."""
+    """Largest error of each group of columns over consecutive rows, so grouped that at most `2 POINTS` remain."""
 
     def __init__(self) -> None:
         self.rows = 1

@@ -44,7 +44,10 @@ QUESTIONS = {
 
 @dataclass(frozen=True)
 class Heading:
-    """Columns of a table by canonical name: their indices, their names in the file, and factors to s and rad/s."""
+    """Columns of a table by canonical name: indices, names in the file, and factors to s and rad/s.
+
+    `places` has the indices, `written` the names, `sizes` the factors (1 without a unit), `units` the units as written.
+    """
 
     places: Mapping[str, int]
     written: Mapping[str, str]
@@ -115,9 +118,9 @@ def _hint(name: str) -> str:
 
 
 def _size(name: str, unit: str, place: str) -> Fraction:
-    """Return the unit in a column's heading divided by s or rad/s, exactly; 1 where no unit is given.
+    """Return the factor from the unit in a column's heading to s or rad/s, exactly; 1 where no unit is given.
 
-    Raises AtlasError for an unknown unit.
+    Raises AtlasError, which begins with `place`, for an unknown unit.
     """
     if unit in PLAIN:
         return Fraction(1)

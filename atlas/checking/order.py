@@ -53,7 +53,11 @@ class Convergence:
         return f"order of convergence of {len(self.steps)} runs, case {self.case}: {', '.join(order_text)}"
 
     def table(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows: of each run its step, the largest errors, and the order from the previous run."""
+        """Return (heading, rows) of a table of texts, a row for each run, the longest step first.
+
+        A row has the step and, for each quantity, the largest error and the order from the previous run ("-"
+        without one).
+        """
         heading = ["step", *(x for name in self.errors for x in (f"error of {name}", "order"))]
         rows = []
         for i, step in enumerate(self.steps):
@@ -92,9 +96,10 @@ class Convergence:
 
 
 def convergence(checks: Sequence[Any]) -> Convergence:
-    """Return the `Convergence` of runs, each a `Check`, sorted by step.
+    """Return the `Convergence` of two or more runs, each a `Check`, in any order.
 
-    Raises AtlasError for fewer than two runs, equal steps, other columns or motions, and different final times.
+    Raises AtlasError for fewer than two runs, for equal steps, and for runs whose columns, motions or final times
+    differ.
     """
     runs = sorted(checks, key=lambda run: -run.step)
     steps = tuple(run.step for run in runs)

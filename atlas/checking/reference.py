@@ -32,9 +32,10 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 
 @dataclass(frozen=True)
 class Reference:
-    """A certified `motion` with the `unit` of Omega's errors; None for a body of which only integrals are known.
+    """Reference of a trajectory: a certified `motion`, None for a body of which only integrals are known.
 
-    `deviations` maps a block of columns to the deviations of the conserved quantities.
+    `unit`, in rad/time, divides the errors of Omega. `deviations` maps a block of columns to tuples (name, meaning,
+    equation, deviations (m,)) of the conserved quantities. `case` names the type of motion.
     """
 
     case: str

@@ -173,7 +173,7 @@ def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
 
 
 def whole_rows(block: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], int]:
-    """Return the rows of a block without missing numbers, and the count of the other rows."""
+    """Return (block of the rows without missing numbers, count of the rows left out)."""
     is_whole = np.all([np.isfinite(x) for x in block.values()], axis=0)
     return {name: x[is_whole] for name, x in block.items()}, int(is_whole.size - is_whole.sum())
 

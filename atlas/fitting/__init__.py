@@ -237,10 +237,11 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
 
 
 def _is_followed(problem: Problem, x: Any) -> bool:
-    """Return whether residuals at the varied parameters x (n,) are no larger than noise.
+    """Return whether the residuals at the varied parameters x (n,) are no larger than noise.
 
-    With given `sigma` the reduced chi square is compared with its expected value; else the median misfit must be below
-    `FOLLOWED` times the spread, and the correlation of neighbouring residuals below `SURE` standard deviations.
+    With given `sigma` the reduced chi square is compared with its expected value, and with a robust loss with `ROBUST`.
+    Without `sigma` the median misfit must be below `FOLLOWED` times the data's spread, and the correlation of
+    neighbouring residuals below `SURE` standard deviations.
     """
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
     if problem.data.known:

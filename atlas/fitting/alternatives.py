@@ -82,7 +82,7 @@ class Alternative(NamedTuple):
     family: str
 
     def sentence(self, family: str, parameters: Parameters) -> str:
-        """Return a sentence on how this alternative differs from the fitted `parameters` of the family `family`."""
+        """Return a sentence on how this alternative differs from a fit with `parameters`, of the family `family`."""
         if self.equal:
             return f"Equal by symmetry: {', '.join(_differences(parameters, self.values))}."
         if self.family == family:
@@ -134,7 +134,7 @@ def warnings_of(
 
 @dataclass(frozen=True)
 class _Turned:
-    """Motion S R S' for the rotations `left` S and `right` S', both (3, 3), known at the times of the data only.
+    """Motion S R S' for the constant rotations `left` S and `right` S', both (3, 3), at the times of the data only.
 
     `seen` holds the arrays of R (N, 3, 3), or of Omega or the field in the body (N, 3), by name.
     """
@@ -196,9 +196,9 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
 
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
-    """Yield the parameters with B and omega2 reversed if that elementary motion has the same axis R e3.
+    """Yield the parameters with B and omega2 reversed, if that elementary motion has the same axis R e3 at all times t.
 
-    Nothing is yielded for other families, and for data other than axes.
+    Nothing is yielded otherwise, for other families, and for data other than axes.
     """
     if not problem.model.is_on_hyperbola or problem.data.kind != "axis":
         return
@@ -240,7 +240,10 @@ def _turned_parameters(
 
 
 def _same(problem: Problem, values: Values, others_values: Values) -> bool:
-    """Return whether two sets of parameters are equal up to `SAME_VALUES`; attitudes are compared as matrices."""
+    """Return whether two sets of parameters are equal up to `SAME_VALUES`, relative to |value| plus the natural unit.
+
+    Attitudes are compared as rotation matrices.
+    """
     names = [name for name in problem.model.names if name not in ATTITUDE]
     off = max(abs(values[name] - others_values[name]) / (problem.units[name] + abs(values[name])) for name in names)
     return bool(max(off, abs(attitude(values) - attitude(others_values)).max()) < SAME_VALUES)

@@ -24,9 +24,10 @@ HELD = (
 def other_conventions(
     problem: Problem, parameters: Callable[[Data], tuple[Parameters, Values]], *, quaternions: bool
 ) -> Iterator[tuple[str, Problem]]:
-    """Yield (sentence, problem): first with a top's direction set free, then for rotations in other conventions.
+    """Yield (sentence, problem) to be tried: a top's direction set free, then rotations read in other conventions.
 
-    `parameters` maps data to the pair (parameters, start values); `quaternions` says how the rotations were given.
+    A direction is freed only if all of it is held and the data are rotations or axes. `parameters` maps `Data` to the
+    pair (parameters, start values); `quaternions` says that the rotations were given as quaternions.
     """
     data = problem.data
     is_held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
@@ -41,7 +42,10 @@ def other_conventions(
 
 
 def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatArray]]:
-    """Yield (words, rotations (N, 3, 3)) for each other convention of matrices, or of quaternions."""
+    """Yield (words, rotations (N, 3, 3)) for each other reading of the rotations R (N, 3, 3), as given.
+
+    Of matrices the only one is the transposed; of quaternions there are five, in other orders and conjugate.
+    """
     if not quaternions:
         yield "as matrices that are transposed, for R takes the body to the laboratory", R.swapaxes(1, 2)
         return
@@ -51,7 +55,10 @@ def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatA
 
 
 def minima_of(problem: Problem) -> Iterator[FloatArray]:
-    """Yield the varied parameters (n,) reached from each of the first starts; starts without a motion are skipped."""
+    """Yield the varied parameters (n,) of the motion reached from each start about the first place of the data.
+
+    Starts that lead to no motion are skipped.
+    """
     for centre, near_centre, start, count in tries_about(problem, 0):
         try:
             x = follow_data(near_centre, start, count)

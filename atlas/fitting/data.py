@@ -64,7 +64,10 @@ class Entries:
 
 @dataclass(frozen=True)
 class Data:
-    """Data `values` (N, ...) of one kind at times `t` (N,), ascending, with standard errors `sigma` (N, 1)."""
+    """Data `values` (N, ...) of one `kind` at times `t` (N,), ascending, with standard errors `sigma` (N, 1).
+
+    `kind` is a key of `KINDS`, or "signal", of which `function` maps rotations (M, 3, 3) to values.
+    """
 
     kind: str
     t: FloatArray
@@ -245,10 +248,11 @@ def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[
 
 
 def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.int_]) -> FloatArray:
-    """Return the nearest rotations to matrices, rotations for quaternions, axes scaled to length 1; others unchanged.
+    """Return the data of a kind made exact: rotation matrices (N, 3, 3), axes of length 1; other kinds unchanged.
 
-    `rows` are the numbers of the data's rows for the error. Raises AtlasError for a matrix or a length farther than
-    `NEAR` from a rotation or from 1.
+    Matrices become the nearest rotations, quaternions (scalar first if `scalar_first`) rotation matrices. `rows` are
+    the numbers of the data's rows for the error. Raises AtlasError for a matrix or a length farther than `NEAR` from a
+    rotation or from 1.
     """
     if kind == "rotation":
         U, size, V = np.linalg.svd(values)

@@ -32,11 +32,11 @@ TURNING = 0.3
 
 
 def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
-    """Return the minima, and a sentence on the free body put before them, or "".
+    """Return (minima, sentence on the free body that was put first, or "").
 
-    Minima are pairs (chi square, varied parameters). The minimum of a free body comes first if chi square rises by less
-    than `BEYOND` times the noise without a field. The minima are unchanged where the field is not varied, where the
-    angular momentum changes, and where no free body has the motion.
+    Minima are pairs (chi square, varied parameters (n,)). The minimum of a free body comes first if chi square rises by
+    less than `BEYOND` times the noise without a field. The minima are unchanged where the field is not varied, where
+    the angular momentum changes, and where no free body has the motion.
     """
     if not set(B) <= set(problem.names):
         return tried, ""

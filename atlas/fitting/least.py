@@ -56,9 +56,10 @@ class Crowd:
         self.spin = problem.names.index("omega3") if is_free and "omega3" in problem.names else None
 
     def _straight(self, X: FloatArray) -> FloatArray:
-        """Return the parameters X (..., n) with M3 in the place of omega3 for data of axes and signals, else X.
+        """Return a copy of the parameters X (..., n) with M3 in the place of omega3, for axes and signals; else X.
 
-        Such data determine the momentum M3 along the axis, but omega3 only together with I3.
+        Such data determine the momentum along the axis over I2, M3 = I3 omega3 plus the field's part, but omega3 only
+        together with I3.
         """
         if self.spin is None:
             return X
@@ -78,7 +79,10 @@ class Crowd:
         return np.asarray(self.problem.inner(X))
 
     def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
-        """Return residuals (M, N k) and their derivatives (M, n, N k) in the coordinates of `_straight`."""
+        """Return residuals (M, N k) and their derivatives (M, n, N k) in the coordinates of `_straight`.
+
+        `places` are the indices of the N data, or a slice.
+        """
         r, J = self.problem.turned(X, places)
         if self.spin is not None:
             M, n = X.shape

@@ -58,7 +58,7 @@ def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
 
 
 def _started(p: Values) -> dict[str, FloatArray]:
-    """Return the derivatives (3,) of Omega at the start of an elementary motion, by name of the parameter.
+    """Return the derivatives (3,) of Omega in the body at t = 0 of an elementary motion, by name of the parameter.
 
     Raises AtlasError where the derivatives are infinite, on a vertical line of the hyperbola.
     """
@@ -143,7 +143,10 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 
 @dataclass(frozen=True)
 class Model:
-    """A family in a fit: parameter `names`, `fixed` default values, `make` the function from values to a motion."""
+    """A family in a fit: its parameters' `names`, the function `make` from values by name to a motion.
+
+    `fixed` are the values at which parameters are held by default.
+    """
 
     name: str
     names: tuple[str, ...]
@@ -165,7 +168,7 @@ class Model:
 
     @property
     def is_on_hyperbola(self) -> bool:
-        """Whether omega2 alone gives the angular velocity, on the hyperbola (67)."""
+        """Whether omega2 alone, with field and attitude, gives the angular velocity, on the hyperbola (67)."""
         return "omega2" in self.names and "omega1" not in self.names
 
     @property

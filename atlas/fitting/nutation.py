@@ -71,9 +71,10 @@ def with_small_nutations(
 ) -> tuple[list[tuple[float, Any]], str, str]:
     """Return (minima, sentence on undetermined parameters or "", sentence on a second body or "").
 
-    Minima are pairs (chi square, varied parameters). Small nutations that were found are added; if they lower chi
-    square by no more than noise does, some 2 log N for N frequencies, an elementary motion is put first. The minima are
-    returned unchanged for a nutation that is not small, without a field, and where no elementary motion is near.
+    Minima are pairs (chi square, varied parameters), the lowest first. Small nutations about an elementary motion are
+    sought, and added to the minima. If the best nutation lowers chi square by no more than noise does, some 2 log N for
+    N frequencies, the elementary motion is put first. The minima are returned unchanged for a nutation that is not
+    small, without a field, and where no elementary motion is near.
     """
     (_, x), data = tried[0], problem.data
     motion, values = problem.motion(x)
@@ -135,10 +136,11 @@ def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tup
 
 
 def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
-    """Return the problem of elementary motions, and its minimum (n,) near a motion that hardly nutates.
+    """Return (problem of elementary motions, its varied parameters (n,) at the minimum nearest to `motion`).
 
-    The start has the mean rates of precession and spin of `motion`, and the mean of its attitudes with both rotations
-    undone. For data of axes a second start is the circle through the data. Raises AtlasError on a separatrix.
+    The given motion hardly nutates. The start has its mean rates of precession and spin, and the mean of its attitudes
+    with both rotations undone. For data of axes a second start is the circle through the data. Raises AtlasError on a
+    separatrix.
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
     params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
@@ -167,9 +169,9 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
 
 
 def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
-    """Return the normal (3,) of the circle through axes (N, 3), the rate on the circle, and the attitude at t = 0.
+    """Return (normal (3,) of the circle through axes (N, 3), rate on the circle in rad/time, attitude at t = 0).
 
-    The attitude is the rotation of the smallest angle from e3 to the point of the circle at t = 0.
+    The attitude, a SciPy `Rotation`, is the one of the smallest angle from e3 to the point of the circle at t = 0.
     """
     n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
     e1 = np.cross(np.cross(n, axes[0]), n)
@@ -201,7 +203,11 @@ def _nutation(problem: Problem, x: FloatArray) -> float:
 
 
 class _Modes(NamedTuple):
-    """Small nutations about one elementary motion, of bodies of several ratios or spins omega3, each (M,)."""
+    """Small nutations about one elementary motion, of bodies of several ratios or spins omega3, each an array (M,).
+
+    `ratio` is I3/I2; `omega3`, the `frequency` of the nutation, and the derivatives `precession` and `spin` of both
+    rates in the angle theta are in rad/time, `field` in 1/time.
+    """
 
     ratio: FloatArray
     omega3: FloatArray
@@ -247,7 +253,7 @@ class _Steady:
         return _Modes(r, w, b, frequency, precession, b * s - u * precession + s * k)
 
     def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
-        """Return the rotation vectors v of nutations of unit size at times t, shape (N, 2 M, 3).
+        """Return the rotation vectors v (N, 2 M, 3), in the laboratory, of nutations of 1 rad at times t (N,).
 
         First the M nutations that begin as cos(nu t), then the M that begin as sin(nu t).
         """

@@ -20,7 +20,11 @@ KEYS = ("value", "vary", "min", "max", "expr")
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter with the attributes of lmfit's; `stderr` and `correl` are None if the data leave it undetermined."""
+    """A parameter with the attributes of lmfit's; `stderr` and `correl` are None if the data leave it undetermined.
+
+    `vary` says whether the fit varies the parameter, between `min` and `max`; `expr` is an expression of others, or
+    None.
+    """
 
     value: float
     vary: bool = True

@@ -125,7 +125,7 @@ class Problem:
         return self._latest[1]  # type: ignore[no-any-return]
 
     def carried(self, x: Vector, time: float) -> dict[str, float]:
-        """Return the parameters by name with which the motion at x starts at `time` instead of 0."""
+        """Return the parameters by name that make the state of the motion at x at the time `time` the start."""
         motion, values = self.motion(list(x))
         R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
         return state(self.model, self.data.kind, values, R.reshape(3, 3), omega.reshape(3))
@@ -147,7 +147,10 @@ class Problem:
         return copy
 
     def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
-        """Return the residuals (M, N k) of M motions, in standard errors; HUGE where there is no motion."""
+        """Return the residuals (M, N k) of the motions X (M, n) at the data `places`, in standard errors.
+
+        Entries are HUGE where there is no motion.
+        """
         if self.is_closed_form:
             return np.stack([self.residuals(x, places) for x in X])
         return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.part(places))
@@ -301,7 +304,7 @@ class Problem:
         return np.zeros(3)
 
     def reduced(self, r: FloatArray) -> float:
-        """Return the reduced chi square of residuals r; with a robust loss the median of r^2 over `MEDIAN`."""
+        """Return chi square over degrees of freedom of residuals r; with a robust loss median(r^2) over `MEDIAN`."""
         if self.loss == "linear":
             return float((r * r).sum() / (r.size - len(self.names)))
         return float(np.median(r * r)) / MEDIAN
@@ -336,8 +339,8 @@ def minimum(
 ) -> tuple[FloatArray, FloatArray]:
     """Return SciPy's least-squares solution (n,) from a start x (n,), and the Jacobian (N k, n) there.
 
-    SciPy stops when a step lowers chi square by less than the fraction `ftol`, after `count` steps, or if `steady` at
-    the start. With a robust loss SciPy weights the Jacobian.
+    SciPy stops when a step lowers chi square by less than the fraction `ftol`, and after `count` evaluations of the
+    residuals, converged or not; with `steady` it stops at the start. With a robust loss SciPy weights the Jacobian.
     """
     from scipy.optimize import least_squares
 

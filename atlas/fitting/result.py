@@ -468,7 +468,8 @@ class Fit:
 def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, freedom: int) -> list[str]:
     """Return warnings, one sentence each: a motion off the data, a surprising chi square, outliers, correlation.
 
-    `r` (N, k) are the residuals in standard errors, given or found.
+    `r` (N, k) are the residuals in standard errors, given or found; `redchi` is chi square over the degrees of
+    `freedom`. Without a fault the list is empty.
     """
     out = []
     data, wider = problem.data, problem.model.wider

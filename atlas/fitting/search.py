@@ -47,7 +47,10 @@ PARTS, BEST = (0.5, 0.25, 0.75), 3
 
 
 def turns(data: Data, i: Any, j: Any) -> FloatArray:
-    """Return the change from data i to data j, indices (M,): in rad for rotations, else relative to the spread."""
+    """Return how much the data with indices `j` (M,) differ from those with indices `i` (M,), shape (M,).
+
+    For rotations the angle in rad, for other kinds the length of the difference over the data's standard deviation.
+    """
     x = data.values
     if data.kind == "rotation":
         return np.asarray(np.linalg.norm(difference(x[j], x[i]), axis=-1))
@@ -73,7 +76,10 @@ def rate_of(data: Data, least: float = TURN) -> float:
 
 
 def centre_of(data: Data, rate: float, share: float) -> float:
-    """Return the time of a datum with many others within about 1/`rate`, near the fraction `share` of the data."""
+    """Return the time of a datum with many others within about 1/`rate` of it.
+
+    Among these times it is the one whose index is nearest to the fraction `share` of the data; `rate` is in rad/time.
+    """
     t, count = data.t, np.zeros(data.t.size)
     for width in (WINDOW / rate, 2 * ARC / rate):
         count += np.searchsorted(t, t + width, "right") - np.searchsorted(t, t - width)
@@ -109,9 +115,9 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
 
 
 def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str, FloatArray]:
-    """Return arrays (count,) of random parameters by name, with attitude and rates near those of the data at t = 0.
+    """Return arrays (count,) of random start parameters by name, near the attitude and rates of the data at t = 0.
 
-    `largest` is the size of the largest field, in units of the problem's rate.
+    `seed` makes them reproducible; `largest` is the length of the largest field, in units of the problem's rate.
     """
     data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
     size = rng.permuted(np.geomspace(0.05, largest, count))[:, None] * rate
@@ -180,7 +186,7 @@ def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple
 
 
 def _unit_across(K: FloatArray) -> FloatArray:
-    """Return the unit vectors along the parts of fields across e3, (..., 3)."""
+    """Return the unit vectors (..., 3) along the parts across e3 of fields K (..., 3); zero without such a part."""
     flat = K * [1.0, 1.0, 0.0]
     return np.asarray(flat / np.maximum(np.linalg.norm(flat, axis=-1, keepdims=True), 1e-300))
 
@@ -211,9 +217,10 @@ def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, Floa
 def motions_of_arc(
     problem: Problem, starts: int, seed: int, largest: float, *, is_last: bool
 ) -> Iterator[tuple[FloatArray, int]]:
-    """Yield pairs (x, count) of the best motions on the last arc about t = 0, and its number of data.
+    """Yield pairs (x (n,), count): the best motions on the last arc of data about t = 0, and its number of data.
 
-    Nothing is yielded if all motions lose their phase, unless `is_last`.
+    `starts` random motions, made with `seed` and fields up to `largest`, are refined on arcs that grow. Nothing is
+    yielded if all motions lose their phase, unless `is_last`.
     """
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate
@@ -261,7 +268,8 @@ def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
 def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
     """Return the number of data, in the `order` of their distance from t = 0, that the motion follows; `least` or more.
 
-    The phase counts as lost where the root mean square of neighbouring residuals exceeds `_allowed` and 1.7 `misfit`.
+    The phase counts as lost where the root mean square of neighbouring residuals, in standard errors, exceeds both
+    `_allowed` and 1.7 `misfit`.
     """
     problem, n = crowd.problem, len(order)
     if least >= n:

@@ -21,7 +21,10 @@ NULL = 1e-7
 
 
 class Seen:
-    """Covariance of the parameters, and the combinations that are not determined, by singular values of J."""
+    """Standard errors of the varied parameters, and the combinations that the data do not determine.
+
+    Both follow from the singular values of the Jacobian J.
+    """
 
     def __init__(
         self,
@@ -113,7 +116,10 @@ class Seen:
 
 
 def _separated(directions: FloatArray) -> FloatArray:
-    """Return combinations (n, count) that span the same space, each with a parameter that no other one has."""
+    """Return combinations (n, count) that span the same space as the columns of `directions` (n, count), of length 1.
+
+    Each has a parameter that no other one has.
+    """
     if directions.shape[1] < 2:
         return directions
     _, _, order = qr(directions.T, mode="economic", pivoting=True)
