@@ -9,6 +9,7 @@ from atlas import files
 from atlas.cli.figure import parameters_of, setting
 from atlas.cli.options import choice, examples, out_option, several, style_option
 from atlas.cli.present import bar
+from atlas.cli.typed import TypedRange
 from atlas.cli.words import Command
 
 
@@ -92,19 +93,16 @@ def through(text: str) -> tuple[str, list[Any]]:
     from atlas.pictures.drawing.animation import MAX_FRAMES
 
     key, _, values = text.partition("=")
-    parts = values.split(":")
-    if parts == [values] and "," in values:
+    if (typed := TypedRange.of(values, MAX_FRAMES)) is None and "," in values:
         return key, [float(setting(f"{key}={value}")[1]) for value in values.split(",")]
-    if len(parts) != 3 or not (parts[2].isascii() and parts[2].isdecimal()):
+    if typed is None or typed.is_log:
         raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
-    if len(parts[2]) > len(str(MAX_FRAMES)) or int(parts[2]) > MAX_FRAMES:  # before there is a list of them
-        raise click.UsageError(f"an animation has from 2 to {MAX_FRAMES} frames, not {parts[2]:.30}.")
-    (_, start), (_, stop) = (setting(f"{key}={bound}") for bound in parts[:2])
+    ends = [setting(f"{key}={end}")[1] for end in typed[:2]]
     try:
-        steps = np.linspace(start, stop, int(parts[2])) if np.shape(start) == np.shape(stop) else None
-    except (TypeError, ValueError):
-        steps = None
-    if steps is None:
-        complaint = f"not from {parts[0]!r} to {parts[1]!r}."
-        raise click.UsageError(f"--over goes from a number to a number, or from a list to one as long, {complaint}")
+        steps = np.linspace(*np.asarray(ends, dtype=float), typed.count)
+    except (TypeError, ValueError) as error:
+        raise click.UsageError(
+            "--over goes from a number to a number, or from a list to one as long, not from "
+            f"{typed.start!r} to {typed.stop!r}."
+        ) from error
     return key, [tuple(map(float, value)) if np.ndim(value) else float(value) for value in steps]

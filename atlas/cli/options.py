@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.typed import REAL, Steps, Typed, check_units
+from atlas.cli.typed import MAX_RANGE_LENGTH, REAL, Steps, Typed, check_units
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -160,8 +160,8 @@ def chosen_times(options: dict[str, Any]) -> Sequence[float]:
         raise click.UsageError("give --times or --grid, not both.")
     start, step, count = options["grid"]
     check_units("--grid", (start, step))
-    if count != int(count) or not 0 < count <= 1e6:
-        raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
+    if count != int(count) or not 0 < count <= MAX_RANGE_LENGTH:
+        raise click.UsageError(f"the count of --grid is a whole number from 1 to {MAX_RANGE_LENGTH}, not {count.text}.")
     denominator = start.exactly().denominator * step.exactly().denominator
     first_step, by = int(start.exactly() * denominator), int(step.exactly() * denominator)
 

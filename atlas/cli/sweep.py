@@ -1,6 +1,5 @@
 """``atlas sweep``: quantities over a grid or a list of parameters, as a table in a file."""
 
-import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -17,7 +16,7 @@ from atlas.cli.family import is_short, of_rounding
 from atlas.cli.options import Place, examples, given, jobs_option_of, numbers, pair, several, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
-from atlas.cli.typed import REAL, Typed, check_units
+from atlas.cli.typed import REAL, Typed, TypedRange, check_units
 from atlas.cli.uncertain import UncertainAnswer, uncertain
 from atlas.cli.words import Command, check_bare_numbers
 from atlas.families.family import TIME
@@ -39,9 +38,6 @@ or an address such as s3://bucket/table.parquet (and the package of fsspec for i
 which pandas and Dask read as one table. A file that you edited or made yourself is kept: the new table is then
 OUT.new.csv, and the exit status is 2.
 """
-
-MAX_RANGE_LENGTH = 10**7
-"""Values of one parameter that a range may have."""
 
 MAX_RECIPE_SIZE = 10**7
 """Bytes of a file of a sweep."""
@@ -387,7 +383,8 @@ def _numbers(name: str, option_name: str, text: str) -> tuple[Typed, ...]:
     """
     option = click.Option([f"--{option_name}"])  # which says the unit
     option.opts = [name]
-    words = text.split(":")[:2] if ":" in text else text.split(",")
+    typed = TypedRange.of(text)
+    words = text.split(",") if typed is None else typed[:2]
     numbers = tuple(REAL.convert(x.strip(), option, click.get_current_context()) for x in words)
     check_units(name, numbers)
     return numbers
@@ -396,11 +393,11 @@ def _numbers(name: str, option_name: str, text: str) -> tuple[Typed, ...]:
 def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
     """Return the values of a parameter: a number, a list of numbers, or an array of START:STOP:COUNT[:log].
 
-    `numbers` are those in the text. Raises click.UsageError for a range without a count, or that has no logarithm.
+    `numbers` are those in the text. Raises click.UsageError for a range whose ends have no logarithm.
     """
     from atlas.sweeps.plan import Range
 
-    if ":" not in text:
+    if (typed := TypedRange.of(text)) is None:
         if not any(x.sigma for x in numbers):
             return [*map(float, numbers)]
         if len(numbers) > 1:
@@ -408,14 +405,6 @@ def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
         from uncertainties import ufloat
 
         return ufloat(float(numbers[0]), numbers[0].sigma)
-    words = text.split(":")[2:]
-    if not words or words[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", words[0], re.ASCII):
-        raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {text!r}.")
     start, stop = map(float, numbers)
-    if len(words) == 2 and start * stop <= 0:
-        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {text!r}.")
-    # no more digits are read than a count can have
-    count = int(words[0]) if len(words[0].strip().lstrip("0")) < 9 else MAX_RANGE_LENGTH + 1
-    if count > MAX_RANGE_LENGTH:
-        raise click.UsageError(f"a range of {name} has at most {MAX_RANGE_LENGTH} values, not {words[0].strip()}.")
-    return Range(start, stop, count, log=len(words) == 2).values
+    typed.check(start, stop)
+    return Range(start, stop, typed.count, log=typed.is_log).values

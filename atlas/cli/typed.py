@@ -6,15 +6,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import click
 
 from atlas.errors import AtlasError
 from atlas.measured import WANTED, in_si, split
 
-MAX_RANGE_LENGTH = 1_000_000
+MAX_RANGE_LENGTH = 10**7
 """Numbers in a range."""
+
+RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*0*(?P<count>\d+)\s*(?P<log>:log)?", re.ASCII)
+"""A range START:STOP:COUNT, or with :log at its end."""
 
 LONGEST = 2000
 """Characters of a number that is typed: beyond it, arithmetic with all digits takes its time."""
@@ -83,6 +86,40 @@ class Typed(float):
         return self.exact
 
 
+class TypedRange(NamedTuple):
+    """A range as typed, START:STOP:COUNT: the texts of its ends, its count, and whether its steps are of the logarithm.
+
+    Both ends belong to it.
+    """
+
+    start: str
+    stop: str
+    count: int
+    is_log: bool
+
+    @classmethod
+    def of(cls, text: str, longest: int = MAX_RANGE_LENGTH) -> "TypedRange | None":
+        """Return the range in a text, None for a text without a colon.
+
+        Raises click.UsageError for another text with a colon, and for a count below 2 or above `longest`.
+        """
+        if ":" not in text:
+            return None
+        if not (match := RANGE.fullmatch(text)):
+            raise click.UsageError(f"ranges are START:STOP:COUNT, COUNT a whole number, or end in :log; not {text!r}.")
+        start, stop, count, log = match.groups()
+        if len(count) > len(str(longest)) or not 2 <= int(count) <= longest:
+            raise click.UsageError(f"a range has at least 2 and at most {longest} values, not {count:.30}.")
+        return cls(start, stop, int(count), log is not None)
+
+    def check(self, start: float, stop: float) -> None:
+        """Raise click.UsageError for steps of the logarithm between these ends, if that has no value on the way."""
+        if self.is_log and not start * stop > 0:
+            raise click.UsageError(
+                f"even steps of the logarithm need ends of one sign that are not zero, not {self.start}:{self.stop}."
+            )
+
+
 @dataclass(frozen=True)
 class Steps(Sequence[Typed]):
     """Numbers of a range, each computed by `number` from its place when it is asked for."""
@@ -139,19 +176,12 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
 
     def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> Sequence[Typed]:
         """Return the numbers of START:STOP:COUNT[:log], ends included, as `Steps`; of a single number a tuple."""
-        fields = word.split(":")
-        log = fields[3:] == ["log"]
-        if len(fields) != 3 + log:
+        if (typed := TypedRange.of(word)) is None:
             return (self._single(word, param, ctx),)
-        start, stop, count = (self._single(item, param, ctx) for item in fields[:3])
+        start, stop = (self._single(item, param, ctx) for item in typed[:2])
         check_units(param.opts[0], (start, stop))
-        if not count.is_integer() or not 2 <= count <= MAX_RANGE_LENGTH:
-            raise click.UsageError(f"the count of {word} is a whole number from 2 to {MAX_RANGE_LENGTH}.")
-        if log and start * stop <= 0:
-            raise click.UsageError(
-                f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}."
-            )
-        name, places = str(param.name), range(int(count))
+        typed.check(start, stop)
+        name, places = str(param.name), range(typed.count)
         unit, last_place = str(WANTED[name]) if start.unit or stop.unit else "", places[-1]
         ends = start.exactly(), stop.exactly()
         denominator = math.lcm(*(end.denominator for end in ends)) * last_place
@@ -159,7 +189,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         step = (last - first) // last_place  # whole, so that each place is one division, rounded once
 
         def number(i: int) -> Typed:
-            if log and i not in (0, last_place):
+            if typed.is_log and i not in (0, last_place):
                 low, high = math.log10(abs(start)), math.log10(abs(stop))
                 x = math.copysign(10.0 ** (low + (high - low) * i / last_place), start)
             else:
