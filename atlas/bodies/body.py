@@ -68,7 +68,7 @@ def excess(I2: Any, I3: Any) -> Any:
 
 
 def kept_ratio(ratio: Any, I3: Any) -> Any:
-    """Return the ratio for storage: the body, or the I3 of its moments, never an array of the user's."""
+    """Return what an object stores as its ratio: the body itself, or for a number I3/I2 the copy `I3` of the number."""
     return ratio if isinstance(ratio, SymmetricBody) else I3
 
 
@@ -571,7 +571,10 @@ def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density
 
 
 def _frame(axis: FloatArray) -> FloatArray:
-    """Complete the symmetry axis to a right-handed frame whose rows are e1, e2, e3 = axis."""
+    """Return the right-handed frame (3, 3) with the rows e1, e2, e3, and e3 the unit vector `axis` (3,) or -axis.
+
+    The largest component of e3 is positive.
+    """
     e3 = axis * np.sign(axis[np.argmax(np.abs(axis))])
     e1 = np.eye(3)[np.argmin(np.abs(e3))]
     e1 = e1 - (e1 @ e3) * e3

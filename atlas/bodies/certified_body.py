@@ -11,7 +11,7 @@ from atlas.errors import DomainError
 
 
 class Moments(NamedTuple):
-    """Moments I2 and I3, given instead of their ratio."""
+    """Moments of inertia I2 and I3 of a symmetric body, across and along its axis, given instead of their ratio."""
 
     I2: Any
     I3: Any

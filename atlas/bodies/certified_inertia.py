@@ -8,7 +8,10 @@ from atlas.arithmetic.numbers import cross, dot
 
 
 def principal_axes(matrix: Any) -> tuple[list[Any], list[list[Any]]]:
-    """Return principal values of a symmetric matrix of rationals, ascending, and the rows of a rotation, as balls."""
+    """Return (values, axes) of a symmetric matrix (3, 3) of rationals, in balls: three values, ascending, three rows.
+
+    The rows are the principal axes, in the order of the values, and a rotation.
+    """
 
     def unit(v: Any) -> list[arb]:
         return [x / dot(v, v).sqrt() for x in v]

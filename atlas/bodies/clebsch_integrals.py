@@ -83,7 +83,11 @@ def clebsch(inertia: BodyLike, Omega: RealArrayLike, K: RealArrayLike) -> Clebsc
 
 
 def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
-    """Return the integrals of states, each rounded once, of nine entries of J, which broadcast with Omega and K."""
+    """Return the integrals of states, each rounded once, as `Clebsch`.
+
+    `J` are the nine entries of the inertia tensor row by row, numbers or arrays that broadcast with `Omega` and `K`
+    (..., 3), both in the body and in 1/time.
+    """
     unit = -int(np.frexp(max(np.abs(x).max(initial=0.0) for x in J))[1])
     inputs = (*(np.ldexp(x, unit) for x in J), *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
     integrals = over(formulas.clebsch, *inputs, unit=slice(9, None), degree=(2,) * 5)
@@ -92,7 +96,10 @@ def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
 
 
 def body_tensor(inertia: Any) -> FloatArray:
-    """Return the inertia tensor (3, 3), checked, of itself, principal moments (3,), a SymmetricBody or a ratio."""
+    """Return the inertia tensor (3, 3), checked, of a tensor, principal moments (3,), a SymmetricBody or a ratio I3/I2.
+
+    Of a ratio it is (1, 1, I). Raises DomainError for a tensor that no body has.
+    """
     if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
         I2, I3 = map(float, moments_of_one(inertia))
         inertia = (I2, I2, I3)

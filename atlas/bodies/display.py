@@ -139,7 +139,7 @@ class Shown(CarriesUncertainty):
 
 
 def _key(value: Any) -> Any:
-    """Return what tells a value of an argument from another: numbers by value, in arrays and sequences alike."""
+    """Return a hashable value that is equal for equal arguments: numbers by value, in arrays and sequences alike."""
     if isinstance(value, Shown):
         return type(value).__name__, value.made_by, *((name, _key(x)) for name, x in value.arguments.items())
     if isinstance(value, np.ndarray | np.generic):
@@ -157,7 +157,7 @@ def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
 
 
 def called(name: str, arguments: Mapping[str, Any]) -> str:
-    """Return a call as text; arguments that are None are left out."""
+    """Return a call as text, "NAME(key=value, ...)"; arguments that are None are left out."""
     given = ", ".join(f"{key}={_typed_text(value)}" for key, value in arguments.items() if value is not None)
     return f"{name}({given})"
 
@@ -177,7 +177,7 @@ def _typed_text(value: Any) -> str:
 
 
 def _kind(shown: Shown) -> str:
-    """Return in words of which kind an object is; of several their shape, and how many there are of each kind."""
+    """Return the type of an object in words; of an array its shape, and how many objects there are of each type."""
     found = []
     for name in ("case", "kind"):
         with suppress(AtlasError):

@@ -26,12 +26,15 @@ NO_SUCH_BODY = "since g3 = (2 I2 - I3)/2 is a sum of m x^2"
 
 
 def holds(where: Any) -> bool:
-    """Whether a condition holds, for an array anywhere."""
+    """Return whether a condition is true; of an array, whether any of its elements is."""
     return bool(where.any() if hasattr(where, "any") else where)
 
 
 def refuse(where: Any, sentence: str, *values: Any) -> None:
-    """Raise DomainError where a condition holds; each {} in the sentence is the first value for which it holds."""
+    """Raise DomainError with `sentence` where a condition holds, for a number or anywhere in an array.
+
+    Each {} in the sentence is replaced by one of `values`, of arrays the first element for which the condition holds.
+    """
     if not holds(where):
         return
     if getattr(where, "shape", ()):

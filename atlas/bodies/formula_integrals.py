@@ -26,22 +26,23 @@ def integrals(
 
 
 def along_field(I: Number, Omega: Vector, K: Vector) -> Number:
-    """Return (m, B')/I2, (88); with Omega + K in the place of Omega (M, B')/I2."""
+    """Return (m, B')/I2, (88), in 1/time^2, of Omega and K in the body; with Omega + K for Omega it is (M, B')/I2."""
     w1, w2, w3 = Omega
     return dot((w1, w2, I * w3), K)
 
 
 def constants(I2: Number, I3: Number, *state: Number) -> tuple[Number, ...]:
-    """Return E', K^2, c3, c5 and (M, B')/I2 of a state, the components of Omega and of K."""
+    """Return E', K^2, c3, c5 and (M, B')/I2 of a state of six numbers: Omega1 to Omega3, K1 to K3."""
     I, Omega, K = I3 / I2, state[:3], state[3:]
     factors = (I2 - I3) / I2, (I2 + I2 - I3) / I2
     return *integrals(I, Omega, K, factors), along_field(I, [w + k for w, k in zip(Omega, K, strict=True)], K)
 
 
 def clebsch(*numbers: Number) -> tuple[Number, ...]:
-    """Return 2 H, F, (M, K), K^2 and twice the kinetic energy, theorem-clebsch.
+    """Return 2 H, F, (M, K), K^2 and twice the kinetic energy, theorem-clebsch, of fifteen numbers.
 
-    Of nine entries of the inertia tensor J, three components of Omega and three of K; M = J (Omega + K).
+    The numbers are the nine entries of the inertia tensor J row by row, then the components of Omega, then those of K,
+    both in the body. The canonical momentum is M = J (Omega + K).
     """
     J, Omega, K = (numbers[0:3], numbers[3:6], numbers[6:9]), numbers[9:12], numbers[12:15]
     W = [w + k for w, k in zip(Omega, K, strict=True)]

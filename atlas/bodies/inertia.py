@@ -148,7 +148,10 @@ def rational_matrix(matrix: FloatArray) -> list[list[fmpq]]:
 
 
 def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:
-    """Return diagonals (3,) or symmetric matrices (..., 3, 3) and their trace, shaped to broadcast."""
+    """Return (diagonal (3,) or symmetric matrices (..., 3, 3), their trace shaped to broadcast with them).
+
+    Raises AtlasError for another shape and for matrices that are not symmetric, DomainError for entries too large.
+    """
     tensor = real(value, name)
     if tensor.shape != (3,) and tensor.shape[-2:] != (3, 3):
         raise AtlasError(f"{name} must be a diagonal (3,) or matrices (..., 3, 3), not of shape {tensor.shape}.")

@@ -46,15 +46,19 @@ def greatest_charge(radius: Any, surface_field: float) -> float:
 
 
 def greatest_ratio(radius: Any, density: Any, surface_field: float) -> float:
-    """Charge-to-mass ratio 3 eps0 E/(rho r), in C/kg, of a ball with surface field E; the density in kg/m^3."""
+    """Charge-to-mass ratio 3 eps0 E/(rho r), in C/kg, of a ball whose charge makes the field E at its surface.
+
+    `radius` r is in m, `density` rho in kg/m^3, `surface_field` E in V/m.
+    """
     r, rho = positive(radius, "The radius"), positive(density, "The density")
     return 3 * ELECTRIC_CONSTANT * positive(surface_field, "The surface field") / (rho * r)
 
 
 def damping_of_flight(mu: Any, mass: Any, rate: Any) -> float:
-    """Rate, in 1/s, at which a charge mu m that circles with the frequency ``rate`` (rad/s) loses energy.
+    """Rate, in 1/s, at which a charge mu m that circles with the frequency ``rate`` (rad/s) radiates its energy.
 
-    By Larmor's formula P = e^2 a^2/(6 pi eps0 c^3), over m v^2/2 with a = v omega: mu^2 m omega^2/(3 pi eps0 c^3).
+    `mu` is in C/kg, `mass` m in kg. By Larmor's formula P = e^2 a^2/(6 pi eps0 c^3), over m v^2/2 with a = v omega:
+    mu^2 m omega^2/(3 pi eps0 c^3).
     """
     e_squared_over_m = number(mu, "mu") ** 2 * positive(mass, "The mass")
     return e_squared_over_m * number(rate, "The rate") ** 2 / (3 * pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**3)
@@ -70,11 +74,12 @@ def magnetic_power(mu: Any, across: Any, rate: Any) -> float:
 
 
 def quadrupole_power(mu: Any, moments: tuple[float, float], angle: Any, rate: Any) -> float:
-    """Power, in W, of the electric quadrupole of a body with ``moments`` (I2, I3) whose axis goes round a cone.
+    """Power, in W, of the electric quadrupole of a body with ``moments`` (I2, I3) whose axis runs on a cone.
 
-    The cone has the half-angle ``angle`` and is run with the frequency ``rate`` k. With D = mu (I2 - I3)(3 n n - 1)
-    the power is |d^3 D/dt^3|^2/(720 pi eps0 c^5) = mu^2 (I2-I3)^2 k^6 s^2 (16 s^2 + c^2)/(40 pi eps0 c_0^5), s and c
-    the sine and cosine of the angle and c_0 the speed of light. A ball has none.
+    `mu` is in C/kg, the moments in kg m^2. The cone has the half-angle ``angle`` in rad and is run with the frequency
+    ``rate`` k in rad/s. With D = mu (I2 - I3)(3 n n - 1) the power is |d^3 D/dt^3|^2/(720 pi eps0 c_0^5) =
+    mu^2 (I2-I3)^2 k^6 s^2 (16 s^2 + c^2)/(40 pi eps0 c_0^5), with s and c the sine and cosine of the angle and c_0 the
+    speed of light. A ball has none.
     """
     I2, I3 = moments
     s, c = sin(angle), cos(angle)
@@ -133,7 +138,10 @@ def demagnetization_difference(aspect: float) -> float:
 
 
 def gas_drag(radius: float, moment: float) -> float:
-    """Return the damping rate of the spin of a sphere in thin nitrogen at 300 K over the pressure, in 1/(s Pa)."""
+    """Return the damping rate of a sphere's spin in thin nitrogen at 300 K, divided by the pressure, in 1/(s Pa).
+
+    `radius` is in m, `moment`, the moment of inertia, in kg m^2.
+    """
     speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
     return 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * radius**4 / moment
 
@@ -163,7 +171,7 @@ class Spinning:
 
     @property
     def aspect(self) -> float:
-        """Height by width of the spheroid that a solid body is taken for where fields inside it matter."""
+        """Height over width of the spheroid that stands for a body where fields inside matter; 1 without a height."""
         size = self.sizes
         if "polar" in size:
             return size["polar"] / size["equatorial"]
@@ -180,8 +188,9 @@ class Spinning:
 class Disturbance:
     """An effect that a motion leaves out: the number that decides, in a unit, and the formula as TeX.
 
-    `value` is that of the body, or the value of `letter` from which on the effect outweighs what is shown;
-    `least` and `greatest` are shares of the shown effect, at the ends of the values that `usual` names.
+    `value`, called `letter`, is the body's own number, or where `usual` names usual values the number from which on the
+    effect outweighs what is shown. `least` and `greatest` are the ratios of the effect to what is shown, at the ends of
+    the usual values.
     """
 
     says: str
@@ -195,7 +204,7 @@ class Disturbance:
 
     @property
     def outweighs(self) -> bool:
-        """Whether the effect is larger than what is shown, at whatever value of its kind."""
+        """Whether the effect is larger than what is shown for all usual values."""
         return self.least > 1
 
     @property
@@ -265,6 +274,9 @@ def disturbances(body: Spinning) -> Iterator[Disturbance]:
 def _from(
     says: str, letter: str, value: float, unit: str, formula: str, ends: tuple[float, float], usual: str, power: int
 ) -> Disturbance:
-    """Return the disturbance that outweighs what is shown from a value on, and grows as a power of it."""
+    """Return the disturbance that outweighs what is shown from `value` on, and grows as its power `power`.
+
+    `ends` are the least and greatest usual value; the other arguments are those of `Disturbance`.
+    """
     low, high = ((x / value) ** power for x in ends)
     return Disturbance(says, letter, value, unit, formula, usual, low, high)

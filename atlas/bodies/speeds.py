@@ -26,12 +26,16 @@ RIM = np.linspace(0.0, 2 * np.pi, 64, endpoint=False)
 
 
 def speed_of_light(units: System) -> float:
-    """Return the speed of light in the unit of length of a system by the second."""
+    """Return the speed of light in a system's unit of length per second: m/s in SI, cm/s in Gaussian units."""
     return SPEED_OF_LIGHT if units.c == 1 else units.c
 
 
 def check_drift(E: Any, B: Any, units: System) -> None:
-    """Warn if the drift in fields (3,) exceeds a tenth of the speed of light c. Raises DomainError at c and above."""
+    """Warn with RelativisticWarning if the drift c [E, B]/B^2 exceeds a tenth of the speed of light.
+
+    `E` and `B` (3,) are in `units`. Without one of them there is no drift. Raises DomainError for a drift at the speed
+    of light or above.
+    """
     e, n = (np.array(x, dtype=float) for x in (E, B))
     if not (n.any() and e.any()):
         return
@@ -60,7 +64,10 @@ def warn_of(speed: str, part: float) -> None:
 
 
 def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
-    """Return the largest speed |[Omega, x]| of points x of a shape about e3, one of `SHAPES`, from its dimensions."""
+    """Return the largest speed |[Omega, x]| of the points x of a shape about e3, in the unit of length times rad/time.
+
+    `shape` is one of `SHAPES`, `sizes` are its dimensions by name, `omega` (3,) in rad/time.
+    """
     w, r = np.array(omega, dtype=float), float(sizes.get("radius", 0.0))
     if shape in ELLIPSOIDS:
         axes = [float(sizes.get(name, r)) for name in ("equatorial", "equatorial", "polar")]
@@ -71,5 +78,5 @@ def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
 
 
 def fastest_of(points: FloatArray, omega: Any) -> float:
-    """Return the largest speed |[Omega, x]| of some points (..., 3)."""
+    """Return the largest speed |[Omega, x]| of points x (..., 3) for omega (3,)."""
     return float(np.linalg.norm(np.cross(np.array(omega, dtype=float), points), axis=-1).max())

@@ -53,9 +53,9 @@ def moments_of_one(body: Any) -> tuple[Any, Any]:
 
 
 def along(field: tuple[float, float], weight: Any) -> fmpq:
-    """Return the weight along the field, with its sign, in 256 digits.
+    """Return the component of the weight (w2, w3) along the field (B2, B3), rounded to 256 digits.
 
-    Raises DomainError where it is not parallel to the field.
+    Raises DomainError where the weight is not parallel to the field.
     """
     w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight", ENERGY))
     (B2, B3), size = field, float(np.hypot(w2, w3))

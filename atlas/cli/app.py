@@ -45,7 +45,7 @@ class LazyCommand(click.Command):
         return command
 
     def make_context(self, *arguments: Any, **settings: Any) -> click.Context:
-        """Return the context of the imported command for its arguments."""
+        """Return click's context of the imported command, with its arguments parsed."""
         return self.loaded().make_context(*arguments, **settings)
 
 
@@ -99,7 +99,10 @@ class Atlas(click.Group):
         return super().resolve_command(ctx, args)
 
     def invoke(self, context: click.Context) -> Any:
-        """Run a command. Raises click.ClickException for a library that is not installed."""
+        """Run a command and return its result; a closed pipe ends the process quietly.
+
+        Raises click.ClickException for a library that is not installed.
+        """
         try:
             return super().invoke(context)
         except BrokenPipeError as error:
@@ -180,7 +183,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def explained(error: click.ClickException) -> str:
-    """Return the message of an error; to an error of click's parser are added the option's help and "see --help"."""
+    """Return the message of an error as one line.
+
+    To an error of click's own parser the help of a missing option and "see `COMMAND --help`" are added.
+    """
     message = error.format_message()
     if not isinstance(error, click.UsageError) or error.ctx is None or not message.startswith(CLICK):
         return message

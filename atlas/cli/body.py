@@ -287,7 +287,7 @@ def mass_of(options: Mapping[str, Any]) -> Any:
 
 
 def system_of(options: Mapping[str, Any]) -> str:
-    """Return the system of units: --units, or by default "si" with a charge or a typed unit, else "natural".
+    """Return the system of units: --units, or by default "si" with --charge, --points or a typed unit, else "natural".
 
     Raises click.UsageError for a typed unit with another system.
     """
@@ -312,7 +312,7 @@ def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return {"time": "s", "1/time": ...} as `SECONDS` if a unit or a system of units is known, else {}."""
+    """Return `SECONDS`, such as {"time": "s", "1/time": "1/s"}, if a unit or a system of units is known, else {}."""
     has_units = options.get("magnetic") is not None and system_of(options) != "natural"
     return SECONDS if has_units or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
@@ -410,7 +410,7 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
 
 
 def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
-    """Return the largest speed of a charge at t = 0 and at its times, without its gyration, and the time."""
+    """Return (largest speed of a charge, its time), at t = 0 and its times, without gyration, in the typed units."""
     velocity, E, B = ([*map(float, options[name] or (0, 0, 0))] for name in ("velocity", "electric", "magnetic"))
     square = hypot(*B) ** 2
     pull = sum(x * y for x, y in zip(E, B, strict=True)) / square if square else 0.0

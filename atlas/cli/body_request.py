@@ -142,7 +142,7 @@ COMMANDS: dict[str, click.Command] = {one.page: command_of(one) for one in FAMIL
 
 
 def _without(args: list[str], names: Collection[str]) -> list[str]:
-    """Return the words of a command without some options and their values."""
+    """Return the words of a command without the options `names` and their values."""
     words = Words(args)
     kept = ((one.typed, *one.values[one.typed != one.name :]) for one in words.options if one.name not in names)
     return [*words.loose, *(word for option in kept for word in option)]
@@ -262,9 +262,9 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
 
 
 def best(words: Words) -> str:
-    """Return the name of the command that fits the options: with fewest unknown, then fewest missing options.
+    """Return the name of the command that fits the options: with fewest unknown, then with fewest missing options.
 
-    Raises click.UsageError for two starts, --omega2 and --omega or --spin.
+    Raises click.UsageError for --omega2 beside --omega or --spin.
     """
     if "--omega2" in words.names and words.names & {"--omega", "--spin"}:
         family_of(words)
@@ -342,7 +342,7 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
 
 
 def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
-    """Return the words of each option among `names` that was typed, by the option's name without dashes."""
+    """Return the words typed for each option among `names`, by its name without dashes; others are left out."""
     context = click.get_current_context()
     words_by_option: dict[str, tuple[str, ...]] = {}
     for param in context.command.params:

@@ -44,7 +44,7 @@ graded_options: Callable[[Any], Any] = stack(
 @body.spin_option
 @graded_options
 def three_moments(files: tuple[Path, ...], **options: Any) -> int:
-    """Grade against the motion of a body with three moments of inertia."""
+    """Grade files against the motion of a body with three moments of inertia; return 1 if a column fails, else 0."""
     J = body.given_tensor(options)
     inertia = body.chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
     return _graded(files, options, {"inertia": inertia, "attitude": options["attitude"]})

@@ -156,14 +156,17 @@ def _command_of(family: Family, described: Described) -> click.Command:
 
 
 class Best(dict[tuple[str, Any], Any]):
-    """Values certified at the highest precision reached, by name and time; `reason` says why no higher one."""
+    """Values certified at the highest precision reached so far, by (name of the function, time).
+
+    `reason` says why no higher precision was reached.
+    """
 
     reason = ""
 
 
 @dataclass(frozen=True)
 class Question:
-    """Request to the command of a family: the options of an object, and times of its samples."""
+    """Request to the command of a family: its `options`, which define an object, and the `times` of its samples."""
 
     family: Family
     described: Described
@@ -198,7 +201,11 @@ class Question:
             return [None for _ in self.times]
 
     def balls(self, times: Sequence[float], quantities: Family) -> dict[str, Any]:
-        """Return the record of the object in balls: the family's quantities, and samples at some of the times."""
+        """Return the record of the object in balls, a dict by name: quantities, and samples at these times.
+
+        `quantities` is the family with the quantities that are wanted. Raises NotCertifiedError if no sample at all
+        can be certified.
+        """
         motion, options, best = _balls(self.family, self.options), self.options, self.best
         moments = [exactly(t, options) for t in times]
         values = {s.name: [sample(s, motion, t, best) for t in moments] for s in self.sampled if not s.uncertified}
@@ -233,7 +240,10 @@ class Question:
             show_lines(spectrum_of(motion, options), _units(family, options).get(RATE, RATE))
 
     def digits(self, spare: int, times: Sequence[float]) -> Any:
-        """Return the records of some times, dicts with certified digits as texts."""
+        """Return the samples at some times as a list of dicts by name, with certified digits as texts.
+
+        Beyond `spare` bits of further precision a number is called undecided.
+        """
         from atlas.arithmetic.certified_digits import certified
 
         block = partial(self.balls, times, replace(self.family, quantities=()))
@@ -351,9 +361,9 @@ class Question:
 
 
 def later(times: Sequence[float], recorded_at: Callable[[Sequence[float]], Any]) -> Iterator[dict[str, Any]]:
-    """Yield the records of the times after the first `AT_ONCE`, which `recorded_at` returns for a block of times.
+    """Yield the records of the times after the first `AT_ONCE`, one for each time.
 
-    So a table prints while the next block is computed.
+    `recorded_at` returns those of a block of times, so that a table prints while the next block is computed.
     """
     for start in range(AT_ONCE, len(times), AT_ONCE):
         yield from recorded_at(times[start : start + AT_ONCE])
@@ -467,13 +477,16 @@ def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> tu
 
 
 def _rates(options: dict[str, Any]) -> list[float]:
-    """Return the rates of a start and a field that are given as rates; an infinite one for other options."""
+    """Return the numbers, in 1/time, that bound a motion's rates: of --field, --omega, --omega2 and --spin.
+
+    [inf] for a field given as --magnetic and for tops, whose rates are not known from these.
+    """
     rates = [x for name in ("field", "omega", "omega2", "spin") for x in parts_of(options.get(name) or 0.0)]
     return rates if options.get("magnetic") is None and options.get("linear") is None else [inf]
 
 
 def is_short(rates: Iterable[float], times: Iterable[float]) -> bool:
-    """Whether a motion of these rates is too short for the rounding of inputs to matter."""
+    """Return whether |rate t| is below `SHORT` for all rates and times, so that rounded inputs do not matter."""
     return max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
 
 
@@ -591,9 +604,10 @@ def value_of(family: Family, p: Parameter, options: dict[str, Any]) -> Any:
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
-    """Return a matrix or a vector at time t; if the current precision is out of reach, the best one so far.
+    """Return a matrix or a vector at time t in balls; if the current precision fails, the best one so far from `best`.
 
-    So one time, whose numbers may be too small or too far away, never spoils the other times.
+    Without any, its entries are the text `NOT_CERTIFIED`. So a time out of reach does not keep the others from
+    printing.
     """
     try:
         best[s.name, t] = s.method_of(motion)(t)

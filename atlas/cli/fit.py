@@ -103,7 +103,7 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """Return the predictions at the times --predict and the horizon: a dict for JSON, and lines of text."""
+    """Return (dict for JSON, lines of text): the predictions at the times --predict, and the horizon."""
     record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):
         value, error = result.predict(time)

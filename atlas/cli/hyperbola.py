@@ -76,9 +76,9 @@ def curve_of(options: dict[str, Any]) -> Any:
 
 
 def sampled(curve: Any, count: int) -> list[float]:
-    """Return `count` or more values of omega2 on both branches of (67); for B3 = 0 on the line omega3 = 0.
+    """Return values of omega2 in 1/time on the curve (67), without the pole: for B3 = 0 on the line omega3 = 0.
 
-    The pole is left out.
+    Otherwise they are on both branches. They are `count` or more.
     """
     if curve.B3:
         return [float(x) for x in curve.sample(count)[0]]

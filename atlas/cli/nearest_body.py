@@ -21,9 +21,10 @@ LENGTH, ROUNDED = 1e-3, 1e-6
 
 
 def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio; those of a plane body if within their last digits.
+    """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio, moved to those of a plane body if they exceed these.
 
-    Each moves in proportion to the unit of its last digit, and by less than that.
+    They are moved only if each moves by less than the unit of its last digit, in proportion to it, and a line on
+    standard error says so; otherwise they are returned unchanged, and refused later. None is returned as it is.
     """
     if value is None:
         return None
@@ -52,9 +53,11 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
 
 
 def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed tensor I11 I22 I33 I12 I13 I23; that of a plane body if within its last digits.
+    """Return a typed tensor I11 I22 I33 I12 I13 I23, moved to that of a plane body if just beyond it.
 
-    Raises click.UsageError for a tensor of no body that another order or sign of the numbers makes that of a body.
+    It is moved only if each number changes by less than the unit of its last digit; None and other tensors are returned
+    unchanged. Raises click.UsageError for a tensor of no body that another order or sign of the numbers makes that of a
+    body.
     """
     if value is None:
         return None

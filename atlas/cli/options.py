@@ -35,7 +35,10 @@ class Place(click.Path):
 
 
 def pair(text: str, takes: str) -> tuple[str, str]:
-    """Return (key, value) of KEY=VALUE. Raises click.UsageError for another text, and for several in one word."""
+    """Return (key, value) of KEY=VALUE; `takes` names this form in the message.
+
+    Raises click.UsageError for another text, and for several in one word.
+    """
     key, equals, value = text.partition("=")
     if not (key and equals and value):
         raise click.UsageError(f"--set takes {takes}, not {text!r}.")
@@ -50,7 +53,7 @@ def examples(*commands: str) -> str:
 
 
 def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
-    """Apply several decorators, the first one outermost."""
+    """Return one decorator that applies several, the first one outermost."""
 
     def apply(function: F) -> F:
         for decorator in reversed(decorators):

@@ -23,9 +23,9 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 
 
 class Masses(NamedTuple):
-    """Point masses, positions (N, 3), mass matrix (3, 3) about the centre of mass, and charges or None.
+    """Point masses (N,), positions (N, 3) from the centre of mass, mass matrix (3, 3), charges (N,) or None.
 
-    `exact` is the mass matrix in rational numbers.
+    `exact` is the mass matrix as nested lists of rational numbers.
     """
 
     masses: Any
@@ -43,10 +43,9 @@ class Masses(NamedTuple):
 
 
 def point_masses(path: Path) -> Masses:
-    """Read point masses from columns x, y, z, mass and optionally charge; return `Masses`.
+    """Return the `Masses` of a CSV file with the columns x, y, z, mass and optionally charge.
 
-    Positions (N, 3) are relative to the centre of mass; `charges` is None without that column. Raises click.UsageError
-    for a missing or any other column.
+    Raises click.UsageError for a missing or any other column.
     """
     import numpy as np
 
@@ -103,7 +102,7 @@ def oblique_tensor(path: Path) -> Any:
 
 
 def exact_inertia(path: Path) -> list[Any]:
-    """Read the inertia tensor I11 I22 I33 I12 I13 I23 of points as rational numbers."""
+    """Return the inertia tensor of points about their centre of mass, six rationals I11 I22 I33 I12 I13 I23."""
     (a, d, e), (_, b, f), (*_, c) = point_masses(path).exact
     return [b + c, a + c, a + b, -d, -e, -f]
 

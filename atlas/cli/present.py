@@ -229,7 +229,7 @@ NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 
 def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
-    """Return the result of a kernel's method for an array of all times, in one call."""
+    """Return the result of a motion's `method` for all times in one call, an array whose first axis is the time."""
     import numpy as np
 
     return method(np.array([float(t) for t in times]))
@@ -241,7 +241,10 @@ def samples(times: Sequence[float], **columns: Any) -> list[dict[str, Any]]:
 
 
 def in_threes(records: Iterable[dict[str, Any]]) -> Iterator[list[str]]:
-    """Yield three table rows for each record of texts: the rows of its matrix, the components of its vectors."""
+    """Yield three table rows for each record of texts: the rows of its matrices, the components of its vectors.
+
+    The time stands in the first of the three, "" in the others.
+    """
     for t, *values in (record.values() for record in records):
         for i in range(3):
             cells = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)

@@ -28,9 +28,10 @@ PASSED = {"ignore_unknown_options": True}
 @jobs_option
 @click.argument("words", nargs=-1, type=click.UNPROCESSED)
 def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> int:
-    """Build a report for each row of a table, and an index of their cards; return 1 if a row failed.
+    """Build a report for each row of a table, and an index of the cards; return 1 if a row or figure failed, else 0.
 
-    After an interruption the index has the rows that were built, and lists the others.
+    `words` are options that hold for all rows. After an interruption the index has the rows that were built, and lists
+    the others.
     """
     from atlas.book.several_bodies import Row, index_of
 
@@ -92,7 +93,10 @@ def rows_of(table: Path) -> Iterator[tuple[int, list[str]]]:
 @jobs_option
 @click.argument("words", nargs=-1, type=click.UNPROCESSED)
 def against(other: str, out: Path, jobs: int | None, words: tuple[str, ...]) -> int:
-    """Put the cards of two bodies side by side, as a page and as a PDF."""
+    """Put the cards of two bodies side by side, as a page and as a PDF; return 1 if a figure failed, else 0.
+
+    `words` are the options of the first body, `other` is the second's file of inputs or name in the gallery.
+    """
     from atlas.book.several_bodies import against as compared
 
     name, sources = compared(request_of(words)[0], request_of(typed_in("--against", other))[0])

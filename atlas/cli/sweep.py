@@ -252,7 +252,7 @@ def command(**options: Any) -> None:
 
 
 def _meant(family: str, names: set[str]) -> str:
-    """Return the family: for "motion" the family that has the parameters `names`, else the name itself."""
+    """Return the family to sweep: `family` itself, or for "motion" the one that has the parameters `names`."""
     if family != "motion":
         return family
     if "I1" in names:
@@ -289,9 +289,9 @@ def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
-    """Return body, field and start of the options, by the names of a table's columns.
+    """Return (body, field and start of the options by the names of a table's columns, axes as text).
 
-    Those of a tensor are along its principal axes, which come second, as text, where they are not the axes given.
+    Those of a tensor are along its principal axes; the text describes these, "" where they are the axes given.
     """
     has_three, values = "tensor" in options, dict[str, float | Fraction]()
     if has_three and body.given_tensor(options) is not None:

@@ -122,7 +122,7 @@ class TypedRange(NamedTuple):
 
 @dataclass(frozen=True)
 class Steps(Sequence[Typed]):
-    """Numbers of a range, each computed by `number` from its place when it is asked for."""
+    """Numbers of a range, each computed by `number` from its index in `places` when it is read."""
 
     places: range
     number: Callable[[int], Typed]

@@ -41,7 +41,10 @@ class UncertainAnswer:
         return mapped(self.answer, lambda x, place: concise(x, sigma.get(place, 0.0), error.get(place, 0.0)))
 
     def rates(self, names: list[str]) -> dict[str, str]:
-        """Return the named rates, divided by 2 pi, as texts with deviations, by name; others are left out."""
+        """Return the rates among `names`, divided by 2 pi (in hertz for rad/s), as texts with deviations, by name.
+
+        Names without a number in the answer are left out.
+        """
         rates = {(name,): self.answer[name] for name in names if isinstance(self.answer.get(name), float)}
         sigma, error = self.spread.sigma, self.spread.error
         return {

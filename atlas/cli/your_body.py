@@ -106,7 +106,7 @@ def words_of(name: str, value: Any, unit: str = "") -> list[str]:
 
 
 def text_of(number: Any) -> str:
-    """Return a number as it is typed, with its standard deviation if it has one."""
+    """Return a number as it is typed: "VALUE±SIGMA" if it has a standard deviation, else its shortest digits."""
     if isinstance(number, str | int | Fraction):
         return str(number)
     if sigma := getattr(number, "std_dev", 0.0):

@@ -91,9 +91,11 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Sampled:
-    """A vector or, if `matrix`, a matrix as a function of time: a method of both classes, `name` in tables.
+    """A function of time of a family: a vector or, if `matrix`, a matrix.
 
-    `components` are the endings of its columns, 1, 2, 3 if there are none; `uncertified`, whether balls do not have it.
+    `method` is the name of the method of both classes that computes the function, `name` its name in tables.
+    `components` are the endings of its columns, 1, 2, 3 if there are none. `uncertified` says that the class in balls
+    does not have it.
     """
 
     name: str

@@ -87,7 +87,10 @@ def in_brackets(parts: Any) -> str:
 
 
 def integrals(letter: str) -> tuple[Quantity, ...]:
-    """Return the constants of a motion, with the momentum along the field, m or M = II (Omega + K)."""
+    """Return the constants of a motion as `Quantity`s; `letter`, "m" or "M", is that of the momentum along the field.
+
+    M = II (Omega + K) is the canonical momentum, m = II Omega the mechanical one.
+    """
     momentum = "II (Omega + K) along the field, over I2" if letter == "M" else "momentum along the field, over I2"
     return tuple(
         Quantity(

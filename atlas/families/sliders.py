@@ -12,7 +12,7 @@ SLIDER_STEPS = 300
 
 @dataclass(frozen=True)
 class Slider:
-    """A slider: its name, meaning, ends, step, start and, if it has one, symbol."""
+    """A slider: its name, meaning, ends, step and start, in the unit of its parameter, and its symbol or ""."""
 
     name: str
     says: str
@@ -37,7 +37,7 @@ def sliders_of(family: Family) -> list[Slider]:
 
 
 def step_of(low: float, high: float) -> float:
-    """Return the step of a slider."""
+    """Return the step of a slider from `low` to `high`: a power of ten near a `SLIDER_STEPS`-th of the range."""
     return float(10.0 ** round(log10((high - low) / SLIDER_STEPS)))
 
 

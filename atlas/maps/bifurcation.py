@@ -43,7 +43,11 @@ from atlas.motions.nutation.formula_elliptic import split
 
 @dataclass(frozen=True)
 class Conserved:
-    """A value of the map, or an array of them: `M3` and `p` in 1/time, `h` in 1/time^2."""
+    """Constants of a symmetric body in units of I2, each a number or an array.
+
+    `M3` is the canonical momentum along the axis and `p` that along the field, in 1/time; `h` is twice the Hamiltonian,
+    in 1/time^2.
+    """
 
     M3: Any
     p: Any
@@ -51,9 +55,9 @@ class Conserved:
 
 
 def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
-    """Return the `Conserved` (M3, p, h) of states, theorem-top; `Omega`, `K` (..., 3) in the body, 1/time.
+    """Return the constants M3, p, h of states as `Conserved`, theorem-top, in units of I2.
 
-    Raises DomainError for K = 0.
+    `Omega`, `K` (..., 3) are in the body and in 1/time. Raises DomainError for K = 0.
     """
     I = number(shape_factors(ratio)[0], "The ratio I")
     spin, field = vectors(Omega, "Omega"), vectors(K, "K")
@@ -85,7 +89,10 @@ MAX_BISECTIONS, STRETCH_PLACES = 60, 400
 
 @dataclass(frozen=True)
 class Stretch:
-    """Elliptic motions with z from `low` to `high` on one oval and sign `branch` of v: all stable or all unstable."""
+    """Elliptic motions with z from `low` to `high` on one oval, "bounded" or "unbounded": all stable or all unstable.
+
+    `branch`, 1 or -1, is the sign of v = branch sqrt(P(z)).
+    """
 
     oval: Oval
     branch: int
@@ -105,10 +112,11 @@ class Spin:
 
 
 class Bifurcation:
-    """The critical values of a body `inertia` (I1, I2, I3), all different, at b > 0 and c.
+    """The critical values of (F, H) of a body `inertia` (I1, I2, I3), all different, at b > 0 and c.
 
-    For c = 0, Neumann's and Weber's case, the curve is a piece of a parabola, of the bounded oval, and the `rays` of
-    the plane pendulums. Raises DomainError for moments that no body has or of which two are equal.
+    b = |B'| is in 1/time, and c = (M, K) the canonical momentum along the field times b. For c = 0, Neumann's and
+    Weber's case, the curve is a piece of a parabola, of the bounded oval, and the `rays` of the plane pendulums. Raises
+    DomainError for moments that no body has or of which two are equal.
     """
 
     def __init__(self, inertia: Any, b: float, c: float) -> None:
@@ -122,7 +130,7 @@ class Bifurcation:
         self.e2 = float(self.a.sum())
 
     def values(self, z: FloatArray, branch: int) -> FloatArray:
-        """Return F and H, shape (N, 2), of the elliptic motions at places z (N,)."""
+        """Return F and H as columns, shape (N, 2), of the elliptic motions at z (N,) with v = branch sqrt(P(z))."""
         P, slope, _ = self._cubic(z)
         v, square = branch * np.sqrt(P), self.b * self.b
         linear = -self.c * slope / v - 2 * square * z
@@ -181,11 +189,12 @@ class Bifurcation:
                         yield Stretch(oval, branch, border, end, stable)
 
     def rays(self) -> Iterator[tuple[int, float, float, bool]]:
-        """Yield axis, first and last F, and stability of the plane pendulums about the three axes, for c = 0.
+        """Yield (axis 0 to 2, first F, last F, is stable) of the plane pendulums about the three axes, for c = 0.
 
         With K across the axis i and M along it 2 H = F/I_i + (I_j + I_k) b^2, theorem-edge, from the least F on, at
-        which the body rests in Larmor's frame. By theorem-splitting the axes of the least and the middle moment change
-        stability where z = -D/I_i is a place of the parabola, to which the line is a tangent.
+        which the body rests in Larmor's frame. The last F may be infinite. By theorem-splitting the axes of the
+        least and the middle moment change stability where z = -D/I_i is a place of the parabola, to which the line
+        is a tangent.
         """
         square, order = self.b * self.b, np.argsort(self.inertia)
         for axis, before, after in zip(order, (False, True, True), (True, False, True), strict=True):

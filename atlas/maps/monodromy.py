@@ -149,9 +149,10 @@ def monodromy(
 
 
 def unstable_spin(*inputs: float) -> tuple[int, float]:
-    """Return the end of n along the spin, 1 or -1, and D < 0 over I2^2, decided exactly.
+    """Return (end, D/I2^2) of a spin about n: end is 1 along n and -1 against it, D < 0; both decided exactly.
 
-    Raises DomainError for a momentum p of no spin, and for a stable one.
+    `inputs` are I2, I3, k2, k3, linear, quadratic, M3 and p, as in `monodromy`. Raises DomainError for a momentum p of
+    no spin, and for a stable one.
     """
     if abs(inputs[-2]) != abs(inputs[-1]):
         raise DomainError(
@@ -218,7 +219,10 @@ def on_loop(
 
 
 def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
-    """Return the energy of the spin at nu = `end` less V, along GRID, without cancellation at that pole."""
+    """Return, at the distances `GRID` of nu from `end`, the energy of the spin at nu = `end` less the potential V.
+
+    No digits cancel near that pole.
+    """
     d, offset = GRID, p - end * wells.M3
     level = -D / 2 - d * (wells.A + wells.M3 * wells.M3 / (2 * (2 - d)))
     return np.asarray(d * level - offset * (offset + 2 * end * wells.M3 * d) / (d * (2 - d)))
@@ -235,7 +239,7 @@ def _room(depth: FloatArray) -> float:
 
 
 def state(wells: Wells, p: float, g: float, I: float, coupling: tuple[float, float]) -> tuple[Any, Any]:
-    """Return a direction (n2, n3) and an angular velocity (3,) of momentum p and energy g, up to rounding.
+    """Return (direction (n2, n3), angular velocity (3,)) of a state with momentum p and energy g, up to rounding.
 
     The moments are those of the wells' top in units of I2, with I = I3/I2 and `coupling` (k2/I2, k3/I2). Raises
     DomainError where no motion has these values.
@@ -321,7 +325,10 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
 
 
 def _with_values(bifurcation: Bifurcation, state: FloatArray, values_sought: FloatArray) -> FloatArray:
-    """Return (M, K) near a state with the values (H, F, K^2, (M, K)), by Newton's method to the nearest."""
+    """Return (M, K), shape (6,), near a `state` (6,), with the values sought of (H, F, K^2, (M, K)).
+
+    The result is that of `NEWTON_STEPS` steps of Newton's method, without a check of convergence.
+    """
     I, a = bifurcation.inertia, bifurcation.a
     for _ in range(NEWTON_STEPS):
         M, K = state[:3], state[3:]

@@ -32,7 +32,7 @@ def trace_map(ratio: Any, field: Any, omega: Any, ends: tuple[Any, Any] | None =
     M3, p = I * c3, ((w[..., 1] + B2) * B2 + I * c3 * B3) / b
 
     def rate(nu: Any) -> Any:
-        """Return (1 - nu^2) dpsi."""
+        """Return (1 - nu^2) dpsi, in 1/time, at nu = cos theta: its sign is that of the rate of precession."""
         return p - M3 * nu - b * (1 - nu * nu)
 
     # it is convex in nu: its sign changes at the ends or below its least value between them

@@ -26,7 +26,10 @@ END_TOLERANCE = 2.0**-48
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """Critical values of steady precessions at one M3: arrays (N,) over w, the rate plus k2 in 1/time."""
+    """Critical values of steady precessions at one M3, in units of I2: arrays (N,).
+
+    `w` is the rate of precession plus k2 in 1/time, `p` the momentum along n in 1/time, `g` the energy in 1/time^2.
+    """
 
     w: FloatArray
     r: FloatArray
@@ -39,7 +42,10 @@ class Branch:
 
 @dataclass(frozen=True)
 class Wells:
-    """The potentials V of all motions with one momentum `M3` along the axis (1/time), by A and a (1/time^2)."""
+    """The potentials V of all motions of a top with one momentum `M3` along the axis, in units of I2.
+
+    `M3` is in 1/time, the coefficients `A` and `a` in 1/time^2: V = A nu^2 + 2 a nu + (p - M3 nu)^2/(1 - nu^2).
+    """
 
     M3: float
     A: float
@@ -55,19 +61,22 @@ class Wells:
 
     @classmethod
     def at(cls, M3: float, I: float, coupling: tuple[float, float], linear: float, quadratic: float) -> "Wells":
-        """Return the potentials of a top in units of I2 at this M3."""
+        """Return the potentials of a top at this M3 in units of I2, with I = I3/I2 and `coupling` (k2/I2, k3/I2)."""
         k2, k3 = coupling
         return cls(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
 
     def potential(self, p: Any, nu: Any) -> Any:
-        """Return V <= g of motions with the momentum p, theorem-every-top; DomainError unless |nu| < 1."""
+        """Return V <= g, in 1/time^2, of motions with the momentum p along n at nu = cos theta, theorem-every-top.
+
+        Raises DomainError unless |nu| < 1.
+        """
         p, nu = real(p, "p"), real(nu, "nu")
         if (np.abs(nu) >= 1).any():
             raise DomainError("The potential is finite between nu = -1 and 1, both left out.")
         return plain(self.energy(nu, 0.0) + (p - self.M3 * nu) ** 2 / ((1 - nu) * (1 + nu)))
 
     def energy(self, nu: Any, w: Any) -> Any:
-        """Return g where theta is at rest at nu = cos theta, and the axis precesses at the rate w - k2."""
+        """Return g, in 1/time^2, where theta rests at nu = cos theta, and the axis precesses at the rate w - k2."""
         return self.A * nu * nu + w * w * (1 - nu) * (1 + nu) + 2 * self.a * nu
 
     def spin(self, end: int) -> tuple[float, float, float]:
@@ -124,19 +133,28 @@ class Wells:
                 yield Branch(np.full(points, w), r, p, self.energy(r, w), stable)
 
     def cusps(self, nu: Any, k2: float = 0.0) -> tuple[Any, Any]:
-        """Return (p, g) of the motion whose axis stops at the cosine nu, a cusp of its trace, theorem-cusp."""
+        """Return (p, g) of the motion whose axis stops at nu = cos theta, a cusp of its trace, theorem-cusp.
+
+        `k2` is the coupling across the axis over I2, in 1/time.
+        """
         return self.M3 * nu + k2 * (1 - nu) * (1 + nu), self.energy(nu, k2)
 
 
 def nutation_squared(A: Any, a: Any, w: Any, r: Any) -> Any:
-    """Nutation frequency squared of a steady precession, w not 0, theorem-top-nutation."""
+    """Nutation frequency squared, in 1/time^2, of a steady precession at the cosine r, theorem-top-nutation.
+
+    `w`, not 0, is the rate of precession plus k2, in 1/time; `A` and `a` are those of `Wells`. Negative if unstable.
+    """
     w, r = real(w, "The rate w"), real(r, "The cosine r")
     force = a + A * r
     return plain(w * w - A * (3 * r * r - 1) - 2 * a * r + (force / w) ** 2)
 
 
 def rest(M3: float, p: float, nu: FloatArray) -> FloatArray:
-    """Return a + A nu for which theta can be constant at cosine nu, theorem-top-precession: a line of (a, A)."""
+    """Return a + A nu, in 1/time^2, for which theta can be constant at nu = cos theta, theorem-top-precession.
+
+    In the plane of (a, A) this is a line. `M3` and `p` are in 1/time.
+    """
     w = (p - M3 * nu) / ((1 - nu) * (1 + nu))
     return M3 * w - nu * w * w
 

@@ -26,7 +26,10 @@ class Quadric(BodyInField):
 
     @property
     def beta(self) -> Real:
-        """The angle from e2 to I^-1 B', (53): tan beta = B3/(I B2)."""
+        """The angle from e2 to I^-1 B', (53), in rad: tan beta = B3/(I B2).
+
+        Raises DomainError for B = 0.
+        """
         check_beta(self.B2, self.B3)
         if self.B3 == 0 and self.B2 > 0:
             return fmpq(0)
@@ -34,7 +37,10 @@ class Quadric(BodyInField):
 
     @property
     def a2(self) -> Real:
-        """2 sin(beta)/(1 - sin(beta)), (54)."""
+        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54), dimensionless.
+
+        Raises DomainError for B2 = 0 with B3 > 0, where it is infinite, and where beta is undefined.
+        """
         check_a2(self.B2, self.B3)
         a2: Real = quadric.a2(*self._constants)
         return a2
@@ -51,7 +57,7 @@ class Quadric(BodyInField):
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
-        """C1, C2, C3 of (55) and (57): the roots of |1-I| B2^2 (1, |a2|, |a3|)."""
+        """C1, C2, C3 of (55), (57), in 1/time: roots of |1-I| B2^2 (1, |a2|, |a3|); zeros for I = 1 and B2 = 0."""
         if self.I == 1 or self.B2 == 0:
             return fmpq(0), fmpq(0), fmpq(0)
         C1, C2, C3 = quadric.semi_axes(*self._constants)
@@ -70,18 +76,21 @@ class Quadric(BodyInField):
         return [[unit, zero, zero], [zero, c, s], [zero, -s, c]]
 
     def _angle(self) -> tuple[Real, Real]:
-        """Return sine and cosine of beta/2 + pi/4."""
+        """Return (sine, cosine) of beta/2 + pi/4. Raises DomainError for B = 0."""
         check_beta(self.B2, self.B3)
         c, s = quadric.half_angle(*self._constants)
         return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
 
     def residual(self, omega: Any) -> fmpq:
-        """Return the left-hand side of (50) at a point."""
+        """Return the left-hand side of (50), in 1/time^3, at a point omega of three numbers in 1/time.
+
+        Zero on the surface only.
+        """
         residual: fmpq = quadric.residual(*self._constants, *rationals(omega, "omega", 3))
         return residual
 
     def canonical(self, omega: Any) -> list[Real]:
-        """Return the coordinates omega'_1..3 of a point, (53)."""
+        """Return the coordinates omega'_1..3, (53), in a list, of a point omega of three numbers, both in 1/time."""
         w1, w2, w3 = rationals(omega, "omega", 3)
         shifted = (w1, w2 + self.B2, w3 + self.B3)
         return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]

@@ -16,7 +16,7 @@ from atlas.surfaces.certified import Quadric
 def inputs_of_top(
     inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any
 ) -> tuple[fmpq, tuple[fmpq, ...], tuple[fmpq, ...], tuple[fmpq, ...]]:
-    """Return I = I3/I2, the coupling over I2, the direction as given, and the potential (a0, A0) over I2.
+    """Return (I3/I2, coupling (k2, k3)/I2, direction as given, potential (linear, quadratic)/I2), as rationals.
 
     Raises DomainError for moments that no body has and for a direction that is zero.
     """
@@ -119,12 +119,12 @@ class TopHyperbola:
         return second.value
 
     def omega3(self, omega2: Any) -> Real:
-        """Return omega3 on the curve at omega2."""
+        """Return omega3 on the curve at omega2, both in rad/time."""
         omega3: Surd = top.omega3(*self.top, self._off_the_pole(omega2))
         return omega3.value
 
     def frequencies(self, omega2: Any) -> tuple[Real, Real]:
-        """Return the rates k of precession about n and phi of the turn about the body's axis."""
+        """Return the rates (k of precession about n, phi of the turn about the body's axis) at omega2, in rad/time."""
         k, phi = top.frequencies(*self.top, self._off_the_pole(omega2))
         return k.value, phi.value
 

@@ -29,19 +29,25 @@ def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, N
 
 
 def half_angle(*inputs: Number) -> tuple[Number, Number]:
-    """Return the sizes of cos and sin of beta/2 + pi/4, (53): their squares are (1 -+ sin beta)/2."""
+    """Return the magnitudes of (cos, sin) of beta/2 + pi/4, (53).
+
+    Their squares are (1 - sin beta)/2 and (1 + sin beta)/2.
+    """
     _, h, smaller, larger = _direction(*inputs)
     return root(smaller / (h + h)), root(larger / (h + h))
 
 
 def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:
-    """Return the left-hand side of (50)."""
+    """Return the left-hand side of (50) at omega = (w1, w2, w3), in 1/time^3 for B and omega in 1/time."""
     times_I2 = B3 * (w1 * w1 + w2 * w2) * I2 + ((I2 + I2 - I3) * B3 * w2 - I3 * w3 * (w2 + B2)) * B2
     return times_I2 / I2
 
 
 def _direction(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number, Number]:
-    """Return y, h, h - y and h + y of a vector (x, y) along I^-1 B' in the plane (e2, e3), h its length."""
+    """Return y, h, h - y and h + y of the vector (x, y) = (I3 B2, I2 B3) along I^-1 B', h its length.
+
+    The components x and y are those along e2 and e3.
+    """
     x, y = I3 * B2, I2 * B3
     square = x * x
     h = root(square + y * y)

@@ -28,14 +28,17 @@ def constants(
     I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number,
     omega1: Number, omega2: Number, omega3: Number,
 ) -> tuple[Number, Number, Number]:  # fmt: skip
-    """Return twice the energy, the momentum M3 along the axis, and p = (M, n) along n, with M = I Omega + k n."""
+    """Return (twice the energy, momentum M3 along the axis, momentum p = (M, n) along n), M = I Omega + k n.
+
+    All are in units of I2, n has length 1, omega is along the body's axes.
+    """
     pull, M3 = n3 * a0, n3 * k3 + I * omega3
     energy = n3 * n3 * A0 + pull + pull + (omega1 * omega1 + omega2 * omega2 + I * omega3 * omega3)
     return energy, M3, (n2 * k2 + omega2) * n2 + M3 * n3
 
 
 def centre(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> tuple[Number, Number]:
-    """Return the centre (omega2, omega3): w = v = 0 there."""
+    """Return the centre (omega2, omega3) of the quadric of a top, where w = v = 0 (see `TopQuadric`)."""
     del a0, A0
     turn = k3 / I
     twist = k2 - turn
@@ -43,7 +46,7 @@ def centre(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number
 
 
 def excess(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> Number:
-    """Return n3 D, finite for n3 = 0 too; for the paper's body (I - 1) B3 b."""
+    """Return n3 D of `TopQuadric`, finite for n3 = 0 too; for the paper's body (I - 1) B3 b."""
     del n2
     turn = k3 / I
     return n3 * (turn * (k3 + turn - (k2 + k2)) + A0) + a0
@@ -82,7 +85,10 @@ def omega3(*top_and_omega2: Number) -> Number:
 
 
 def frequencies(*top_and_omega2: Number) -> tuple[Number, Number]:
-    """Return the rates of precession about n, omega2/n2, and of the turn about the axis, omega3 - n3 omega2/n2."""
+    """Return the rates (omega2/n2 of precession about n, omega3 - n3 omega2/n2 of the turn about the body's axis).
+
+    The arguments are I, k2, k3, n2, n3, a0, A0 in units of I2, with n of length 1 and n2 not 0, and omega2.
+    """
     *top, omega2 = top_and_omega2
     precession = omega2 / top[3]
     return precession, omega3(*top, omega2) - top[4] * precession

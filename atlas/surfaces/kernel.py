@@ -262,7 +262,7 @@ class Quadric(Shown):
 
 
 def _replaced(numbers: Any, places: Any) -> Any:
-    """Return numbers without rounding, replaced by 1 where a mask is true."""
+    """Return numbers without rounding (an array or a `Given`), with 1 at the places where the mask is true."""
     if not np.any(places):
         return numbers
     if not isinstance(numbers, Given):
@@ -340,7 +340,7 @@ class TopQuadric(Quadric):
 
     @kept
     def centre(self) -> FloatArray:
-        """Centre w = v = 0, shape (..., 3)."""
+        """Centre (0, omega2, omega3) of the surface, w = v = 0, shape (..., 3), in 1/time."""
         second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))
         return np.stack(np.broadcast_arrays(0.0, second, third), -1)
 
@@ -362,5 +362,5 @@ class TopQuadric(Quadric):
         return over(top.of_given(formula), *inputs, *points, degree=degree, alone=exactly)
 
     def _needs_finite(self) -> None:
-        """Raise DomainError where D is infinite."""
+        """Raise DomainError where D is infinite: n3 = 0 with a linear potential."""
         check_D(np.asarray(self._top[5]), np.asarray(self._top[6]))

@@ -27,9 +27,9 @@ MISSING = "missing"
 class Column:
     """A quantity of a table.
 
-    `of` maps a motion in doubles and the row's parameters to the value, `exact` does so for a motion in balls.
-    `certified` says whether there are certified digits. `missing` is the reason why the quantity may have no value in a
-    row; its cell there is NaN, or an empty text.
+    `of` maps a motion in doubles and the row's parameters by name to the value, `exact` does so for a motion in balls
+    (None: `of` serves). `certified` says whether there are certified digits. `missing` is the reason why the quantity
+    may have no value in a row; its cell there is NaN, or an empty text. "" for a quantity that always has one.
     """
 
     of: Callable[[Any, Row], Any]

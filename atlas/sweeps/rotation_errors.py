@@ -31,7 +31,10 @@ def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any
 
 
 def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
-    """Return R (..., 3, 3) by (84) in plain NumPy at times t (...), from (B2/b, B3/b, k, phi); written into `out`."""
+    """Return R (..., 3, 3) by (84) in plain NumPy at times t (...), from `constants` (B2/b, B3/b, k, phi).
+
+    The result is a new array, or `out` if given.
+    """
     h2, h3, k, phi = constants
     c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
     R = np.empty((*t.shape, 3, 3)) if out is None else out
@@ -50,7 +53,10 @@ def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = No
 
 
 def error(motion: ElementaryMotion, p: Any) -> FloatArray:
-    """Largest error in any entry of the atlas's R(t), an array (N,), at most 1; NaN for phases beyond 2^50."""
+    """Largest error in any entry of the atlas's R(t), an array (N,), at most 1; NaN for phases beyond 2^50.
+
+    `motion` has N elements, `p` their parameters and times by name, arrays (N,).
+    """
     rows, is_near = _rows(motion, p)
     ratio, B2, B3, omega2, t, *omega3 = rows
     return _against_balls(ElementaryMotion(ratio, (B2, B3), omega2, *omega3).rotation(t), rows, is_near)
@@ -59,7 +65,7 @@ def error(motion: ElementaryMotion, p: Any) -> FloatArray:
 def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
     """Largest error in any entry of R(t) by `formula`, an array (N,), at most 1; NaN for phases beyond 2^50.
 
-    Raises DomainError for B2 = 0.
+    The arguments are those of `error`. Raises DomainError for B2 = 0.
     """
     if np.any(p["B2"] == 0):
         raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")

@@ -69,7 +69,8 @@ class Folder:
     def names(self) -> set[str]:
         """Return the names of the parts in the folder; the empty set if there is no folder.
 
-        Raises AtlasError for other files, a symbolic link, a file in its place, and an address out of reach.
+        Raises AtlasError for a file that is no part, a symbolic link, a file in the folder's place, and an address
+        out of reach.
         """
         path = Path(self.address)
         if self.is_local and (path.is_symlink() or (path.exists() and not path.is_dir())):

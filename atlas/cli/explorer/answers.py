@@ -120,7 +120,7 @@ def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
 
 
 def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
-    """Return (a quantity in doubles, words on its error bound)."""
+    """Return (a quantity in doubles as text, words on its error bound of `ulps`; 0 for no promise)."""
     text = _joined(q, _number_text(q.value(motion)))
     if not re.search(r"\d", text):
         return text, EXACT
@@ -135,7 +135,10 @@ def _joined(q: Quantity, value: Any) -> str:
 
 
 def _number_text(value: Any) -> Any:
-    """Return a number as text of six digits, a sequence as a list of such texts; text and None are unchanged."""
+    """Return a number as text of six digits, a sequence as a list of such texts, a complex number as two.
+
+    Text and None are returned unchanged.
+    """
     if isinstance(value, complex):
         return [_number_text(value.real), _number_text(value.imag)]
     if isinstance(value, tuple | list) or np.ndim(value):
