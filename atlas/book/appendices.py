@@ -55,7 +55,11 @@ class Described:
 
 @dataclass(frozen=True)
 class Appendices:
-    """The findings by label, the recorded tables by name, and the public names of the package."""
+    """Recorded results that the blocks of a report show.
+
+    `findings` are the trial's by entry of the ledger, `tables` the recorded tables by "source: name", `reference` the
+    public names of the package.
+    """
 
     findings: Mapping[str, Finding] = field(default_factory=dict)
     tables: Mapping[str, Data] = field(default_factory=dict)

@@ -19,9 +19,9 @@ _MODES = ("AuthorInText", "NormalCitation")
 
 @dataclass(frozen=True)
 class Bibliography:
-    """Works by key: how each is named in a sentence and in brackets, and its entry as HTML, in the order of the list.
+    """Works by key, in the order of the list: names in a sentence, names in brackets, and entries as HTML.
 
-    `source` is the text of the file.
+    `source` is the text of the BibTeX file.
     """
 
     source: str = ""

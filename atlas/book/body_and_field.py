@@ -86,7 +86,7 @@ class BodyAndField:
     def exact(self) -> Any:
         """The body's `Moments` (I2, I3) without rounding; of a shape, from its dimensions.
 
-        AtlasError without a body.
+        Raises AtlasError without a body.
         """
         from atlas.bodies.certified_body import Moments, shape_moments
 
@@ -195,7 +195,7 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
 def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fraction:
     """Return the charge-to-mass ratio of the field's record, else charge over mass of the body's.
 
-    AtlasError without.
+    Raises AtlasError where neither record has it.
     """
     if field_record.charge_to_mass is not None:
         return as_float_or_fraction(rational(field_record.charge_to_mass, "charge_to_mass"))

@@ -53,14 +53,17 @@ def has_card(family: Family) -> bool:
 
 
 def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
-    """Return by key, in doubles, the numbers of the card that this motion has; `arguments` are the family's inputs."""
+    """Return the numbers of the card that this motion has, in doubles, by key; `arguments` are the family's inputs.
+
+    Frequencies are in rad/time, angles in rad. A number that the motion does not have is left out.
+    """
     motion = family.kernels()(*arguments.values())
     found = {one.key: _in_doubles(one.key, family, motion, arguments)[0] for one in ENTRIES}
     return {key: value for key, value in found.items() if value is not None}
 
 
 def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> tuple[float | None, str]:
-    """Return a number of the card in doubles, or None and the reason, in words, for which there is none."""
+    """Return (number of the card in doubles, ""), or (None, reason in words why there is none)."""
     try:
         value = float(_number(key, family, motion, arguments, math))
     except DomainError as reason:
@@ -103,7 +106,7 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
 
 
 def _is_steady(motion: Any, arguments: Mapping[str, Any]) -> bool:
-    """Return whether a start by all three rates lies on the hyperbola, where omega2 alone gives it."""
+    """Return whether a start by all three rates is an elementary motion whose omega3 follows from omega2."""
     if not {"ratio", "omega"} <= arguments.keys() or motion.kind != "precession":
         return False
     return bool(arguments["field"][0]) and arguments["omega"][1] != -arguments["field"][0]
@@ -125,7 +128,10 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
 
 
 def _words(one: Entry, centre: str, motion: Any) -> str:
-    """Return the words of an entry, with the direction `centre`, and the axis of a free body of three moments."""
+    """Return the words of an entry, "the field" replaced by `centre`, the direction about which the axis precesses.
+
+    For a free body of three moments "body's axis" is replaced by the name of the axis.
+    """
     says = one.says.replace("the field", centre)
     with suppress(AtlasError, AttributeError):
         says = says.replace("body's axis", f"body's {motion.mode}" if "axis" in motion.mode else "body's axis")
@@ -133,7 +139,10 @@ def _words(one: Entry, centre: str, motion: Any) -> str:
 
 
 def _pole(key: str, arguments: Mapping[str, Any]) -> str:
-    """Return words on the rates of an axis that passes through the direction of the field, "" for other motions."""
+    """Return a clause for motions whose axis passes through the direction of the field, "" for others.
+
+    It says that the rate `key` is the mean of those on both sides of the pole.
+    """
     *across, along = arguments.get("field") or arguments.get("direction") or (0.0,)
     W1, W2, *_ = arguments.get("omega") or (0.0, 0.0)
     symmetric = "ratio" in arguments or "direction" in arguments
@@ -164,7 +173,7 @@ def _ratio(arguments: Mapping[str, Any]) -> Any:
 def _nutation(family: Family, motion: Any, functions: Any) -> Any:
     """Return the period of nutation; of an elementary motion the period of small nutations about it.
 
-    Raises DomainError where small nutations do not oscillate.
+    `functions` is `math` for doubles, or `Balls`. Raises DomainError where small nutations do not oscillate.
     """
     stability = family.quantity("stability") if family.takes("omega2") else None
     if stability is None:

@@ -115,7 +115,7 @@ def _cite_formulas(composer: Composer) -> None:
 
 
 def _explain_symbols(composer: Composer) -> None:
-    """Add the index's symbols, with anchors, to `document.symbols`. AtlasError for one that no page explains."""
+    """Add the index's symbols, with anchors, to `document.symbols`. Raises AtlasError for one that no page explains."""
     document, composer.place = composer.document, "the index"
     for symbol in document.report.index.symbols:
         anchors = composer.anchors(symbol.at)

@@ -50,8 +50,9 @@ class Resource:
 
 
 def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = True) -> dict[str, bytes]:
-    """Return the files of a report's data by path; `drawn` holds each figure's data as CSV, by its anchor.
+    """Return the files of a report's data, contents by path: a CSV and, if `parquet`, a Parquet file for each table.
 
+    `drawn` holds each figure's data as CSV, by its anchor; these become tables too. A JSON file describes the tables.
     Raises AtlasError where pyarrow, which writes Parquet, is missing.
     """
     files, resources = dict[str, bytes](), []
@@ -156,7 +157,7 @@ def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str])
 
 
 def _csv(resource: Resource) -> bytes:
-    """Return a table as CSV, encoded, with all digits as printed."""
+    """Return a table as CSV, bytes in UTF-8, with all digits as printed."""
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([field["name"] for field in resource.fields])

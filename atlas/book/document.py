@@ -31,8 +31,8 @@ THEOREMS = {
 class PageView:
     """A page: its position in the contents, the views of its blocks and the names of their templates.
 
-    `number` is the chapter's number or the appendix's letter; `title` is plain words, `heading` the number of
-    its text.
+    `number` is the chapter's number or the appendix's letter; `title` is plain words, `heading` its index among the
+    document's texts.
     """
 
     number: str
@@ -57,7 +57,10 @@ class PageView:
 
     @property
     def floated(self) -> list[tuple[str, Any]]:
-        """Pairs (template, view) of the blocks; a figure is moved before the prose above, to float onto that page."""
+        """Pairs (template, view) of the blocks, in which a figure precedes the prose that stood above it.
+
+        So it can float onto that prose's page.
+        """
         floated: list[tuple[str, Any]] = []
         for template, view in self.placed:
             place = len(floated)

@@ -57,9 +57,9 @@ def expanded(values: Mapping[str, Any], head: Any, body: str) -> tuple[Any, str,
 
 
 def fill(values: Mapping[str, Any], head: Any, body: str) -> dict[str, Any]:
-    """Return a dict with head and body filled in and the template's line for each line of the body, or an error.
+    """Return {"head", "body", "lines"}: head and body filled in, and the template's line for each line of the body.
 
-    Keys are "head", "body" and "lines", or "error": (message, line, text).
+    For a mistake it is {"error": (message, line, text of the head or "")}.
     """
     environment = sandbox()
 
@@ -99,7 +99,7 @@ def joined(pieces: Iterable[str]) -> str:
 
 
 def mapped(value: Any, function: Callable[[str], Any]) -> Any:
-    """Return a nested value with `function` applied to every text that contains a tag."""
+    """Return a nested value of dicts and lists with `function` applied to each text with a tag <$, <% or <#."""
     if isinstance(value, dict):
         return {key: mapped(item, function) for key, item in value.items()}
     if isinstance(value, list):

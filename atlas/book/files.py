@@ -53,7 +53,7 @@ def text_of(path: Path) -> str:
 
 
 def head(path: Path) -> dict[str, Any]:
-    """Return the keys of a report's head, or all keys of a report in TOML. AtlasError for a file that is no TOML."""
+    """Return the keys of a report's head, or all keys of a report in TOML. Raises AtlasError for other text."""
     text = text_of(path)
     try:
         return toml.loads(head_of(text) if path.suffix == ".md" else text)

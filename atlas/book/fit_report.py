@@ -102,7 +102,7 @@ class Fitted:
         } | records_of(self.motion)
 
     def values(self) -> dict[str, Any]:
-        """Return the values that the template sees: words, rows, and figures in their fences."""
+        """Return the values that the template sees, by name: words, rows of tables, and figures in their fences."""
         fit, left_out, recipes = self.fit, list[str](), {name: dict[str, Any]() for name in self.motion.family.figures}
         remarks = (
             ("What speaks against this motion:", fit.warnings), ("What the data do not determine:", fit.undetermined),

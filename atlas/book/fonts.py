@@ -65,7 +65,7 @@ def characters(pages: Iterable[str]) -> tuple[str, str]:
 
 
 def subset(face: Face, letters: str) -> bytes:
-    """Return a font of the characters `letters` only, as the bytes of a WOFF file; equal characters give equal bytes.
+    """Return a font of the characters `letters` only, as bytes of a WOFF file; equal arguments give equal bytes.
 
     WOFF2 would be a quarter smaller, a hundredth of a page with figures, and takes three times as long.
     """

@@ -37,7 +37,7 @@ CARD = (400, 250)
 
 
 class Card(NamedTuple):
-    """A figure that represents a page on the front page, and the detail that is shown."""
+    """A figure that represents a page on the front page; `cut` is the detail that is shown."""
 
     page: PageView
     figure: FigureView
@@ -87,7 +87,7 @@ def whole(text: str) -> str:
 
 
 def anchored(page: str) -> str:
-    """Return a page whose headings have an anchor made of their words, and a link to it."""
+    """Return a page's HTML in which each heading h2 and h3 has an anchor made of its words, and a link to it."""
     counts: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
 
     def heading(match: re.Match[str]) -> str:
@@ -155,7 +155,7 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
 def _drawn(document: Document, name: str, key: str) -> Card | None:
     """Return the `Card` of the figure `name`; None if the figure failed.
 
-    AtlasError, with the `key`, if there is none.
+    Raises AtlasError, which begins with `key`, if there is no such figure.
     """
     if f"fig:{name}" not in document.targets:
         raise AtlasError(f"{key}: {unknown('figure', name, document.citable)}")

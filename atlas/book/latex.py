@@ -42,7 +42,10 @@ _ESCAPES = str.maketrans(
 
 @dataclass(frozen=True)
 class Numeral:
-    """A number with its key: its proven digits, their count, its siunitx unit, and its table cell."""
+    """A number with its `key`: its proven digits as text, their count, and its unit for siunitx.
+
+    `cell` is the mark of its table cell, "table-row-column".
+    """
 
     key: str
     cell: str
@@ -211,7 +214,10 @@ PAGE_LINES = 60
 
 
 class Layout:
-    """Columns of a table in LaTeX: siunitx formats, letters, and shares of the page's width, 0 for unbroken ones."""
+    """Columns of a table in LaTeX: `formats` for siunitx, `letters` the width of the whole table in letters.
+
+    `shares` are the fractions of the page's width for columns whose words are broken into lines, 0 for others.
+    """
 
     def __init__(self, table: TableView, markdown: Sequence[str]) -> None:
         printed = [[value(cell, markdown) for cell in row] for row in table.rows]
@@ -283,7 +289,10 @@ def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
 
 
 def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
-    """Yield the share of the page's width for each column of long words, if the table is too wide; else 0."""
+    """Yield for each column its fraction of the page's width if it has long words and the table is too wide; else 0.
+
+    `letters` are the widths of the columns in letters.
+    """
     long = [place for place, count in enumerate(letters) if count > MAX_CELL_LETTERS and formats[place] == "l"]
     remaining = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)
     total = sum(letters[place] for place in long)

@@ -63,7 +63,10 @@ def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
 
 
 def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
-    """Return the values of a text; for Markdown also fill `pieces`."""
+    """Return the values of a report's text by key; for Markdown also fill `pieces` by (page, block).
+
+    Raises AtlasError for a text that is no TOML, LineError for wrong Markdown.
+    """
     if markdown:
         raw, lines = read(text)
         pieces |= lines
@@ -171,7 +174,10 @@ def _in_file(line: int, lines: Sequence[int]) -> int:
 
 
 def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> int:
-    """Return the line of a mistake: of its key if that is unique in the block or file, else of the block, else 0."""
+    """Return the line in the file, from 1, of a mistake's key if that stands once in its block or file.
+
+    Else it is the first line of the block, 0 without one.
+    """
     piece = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
     key, lines, start = re.escape(error.key), piece.lines if piece else text.split("\n"), piece.line if piece else 0
     pattern = re.compile(rf"\s*(?:\[[^\]]*\b{key}\b|{key}\s*=)|.*[{{,]\s*{key}\s*=")

@@ -89,7 +89,10 @@ def _pieces(lines: list[str], start: int) -> Iterator[Piece]:
 
 
 def _end(lines: list[str], opening: int, fence: str) -> int:
-    """Return the number, from 0, of the line that closes a fence. LineError if a block begins before, or none does."""
+    """Return the number, from 0, of the line that closes a fence.
+
+    Raises LineError if a block begins before that line, or if none closes it.
+    """
     for number, line in enumerate(lines[opening + 1 :], opening + 1):
         mark = _FENCE.fullmatch(line)
         if mark and mark[1].startswith(fence) and not mark[2].strip():
@@ -100,9 +103,9 @@ def _end(lines: list[str], opening: int, fence: str) -> int:
 
 
 def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
-    """Return the values of a Markdown report in the form of TOML, and their pieces.
+    """Return (values of a Markdown report in the form of TOML, its pieces).
 
-    Keys of the pieces are () for the head, (page,) and (page, block), from 0. Raises LineError.
+    Keys of the pieces are () for the head, (page,) and (page, block), from 0. Raises LineError for a mistake.
     """
     head, remainder = split(text)
     report, places = head.values(), dict[tuple[int, ...], Piece]({(): head})

@@ -54,7 +54,7 @@ class FormulaError(AtlasError):
 
 
 def release() -> str:
-    """Return the dependencies of the output besides the texts: the version of pandoc and its options."""
+    """Return the version of pandoc and its options as text: with the texts these determine the output."""
     return json.dumps([libraries.release("pypandoc_binary"), MARKDOWN, _WRITE])
 
 
@@ -172,7 +172,7 @@ _FACTORS = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 
 
 def mend_all(html: str) -> str:
-    """Return HTML with corrected formulas, and adjacent commas, brackets, units kept on the formula's line."""
+    """Return HTML with corrected formulas, each kept on one line with adjacent commas, brackets and units."""
 
     def together(match: re.Match[str]) -> str:
         before, formula, sign = match[1], mend(match[2]), match[3]
@@ -184,12 +184,11 @@ def mend_all(html: str) -> str:
 
 
 def mend(math: str) -> str:
-    r"""Mend one formula.
+    r"""Return the MathML of one formula, corrected for browsers.
 
-    The TeX repeated inside it goes. ``\mathbf`` is upright, as in print. Accents don't stretch. A prime, which the math
-    font draws raised, isn't raised again, and stands above an index. A formula marked by ``\boxed`` gets its class.
-    Function
-    names get the thin spaces that TeX gives them.
+    The TeX repeated inside it is removed. ``\mathbf`` is upright, as in print. Accents don't stretch. A prime,
+    which the math font draws raised, isn't raised again, and stands above an index. A formula marked by ``\boxed``
+    gets its class. Function names get the thin spaces that TeX gives them.
     """
     root = ET.fromstring(math.replace(_NAMESPACE, ""))  # noqa: S314  pandoc's output, not a stranger's
     semantics = root.find("semantics")
@@ -254,5 +253,5 @@ def _is_function(element: ET.Element) -> bool:
 
 
 def _upright(letter: str) -> str:
-    """Move a Latin letter from the bold italic to the bold upright alphabet of Unicode; leave Greek ones."""
+    """Return the bold upright letter of Unicode for a bold italic Latin one; other letters unchanged."""
     return chr(ord(letter) - 0x1D468 + 0x1D400) if 0x1D468 <= ord(letter) < 0x1D49C else letter

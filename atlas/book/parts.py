@@ -136,7 +136,7 @@ def headed(name: str, content: str, command: str) -> str:
 
 
 def edited(file: str) -> bool:
-    """Whether the content of a report's file differs from the digest in its head."""
+    """Return whether the content of a report's file differs from the digest in its head; True without a digest."""
     head, _, content = file.partition("\n\n")
     matched = re.search(r"digest (\w+)\.", head)
     return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
@@ -188,7 +188,10 @@ def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any])
 
 
 def too_slow(motion: Any, time: str) -> Iterator[str]:
-    """Yield sentences on rotations too slow or too small to be seen in a figure of some periods of nutation."""
+    """Yield at most one sentence, on a precession or nutation too small to be seen in a figure of some periods.
+
+    `time` is the unit of time of the request.
+    """
     from atlas.pictures.any_motion import slow_turn
     from atlas.pictures.captions import lasting
 
@@ -213,9 +216,10 @@ def too_slow(motion: Any, time: str) -> Iterator[str]:
 def figures_of(
     request: Asked, recipes_of: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
-    """Yield a figure block for each recipe of ``recipes_of``, with its given parameters.
+    """Yield a figure block for each recipe of ``recipes_of``, a dict of its own parameters by name.
 
-    A recipe that refuses the parameters yields none, and adds a sentence with the reason to ``left_out``.
+    Parameters that the request has are added. A recipe that refuses the parameters yields none, and a sentence with the
+    reason is added to ``left_out``.
     """
     from atlas.bodies.units import system
     from atlas.pictures import recipes

@@ -72,7 +72,7 @@ def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Pic
 def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
     """Return the recipe's parameters by name: those of the block, and those that its body and field give.
 
-    Raises AtlasError for a body or field that the recipe does not take.
+    Raises AtlasError for a body or field that the recipe does not take. `recipe` is None if it cannot be loaded.
     """
     cases = chosen(block, report.parameters)
     offered: dict[str, Any] = {}

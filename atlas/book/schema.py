@@ -36,7 +36,7 @@ class StrictStruct(msgspec.Struct, frozen=True):
 
 
 class SchemaError(AtlasError):
-    """A message about a report file, with the key concerned and the list indices on the way to it."""
+    """A message about a report file, with the `key` concerned and the `path`, the list indices on the way to it."""
 
     def __init__(self, place: str, sentence: str, key: str = "", path: tuple[int, ...] = ()) -> None:
         super().__init__(f"{place or 'at the top'}: {sentence}")
@@ -76,7 +76,7 @@ def _faults(raw: Any, kind: inspect.Type, place: str, key: str) -> Iterator[Sche
 
 
 def _infinities(raw: Any, place: str, key: str) -> Iterator[SchemaError]:
-    """Yield a SchemaError for each nan or infinity in a value, its lists and tables."""
+    """Yield a SchemaError for each float that is nan or infinite in a value, its lists and tables."""
     for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
         yield from _infinities(item, place, key)
     if isinstance(raw, float) and not math.isfinite(raw):

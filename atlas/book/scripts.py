@@ -39,7 +39,10 @@ FORMULAIC = "explorer.js"
 
 
 class Term:
-    """A number of a generated script: a variable's name, and the list of assignments that all terms share."""
+    """A number of a generated script: the name of a variable, and the list of assignments that all terms share.
+
+    Arithmetic with terms appends an assignment and returns a new term.
+    """
 
     def __init__(self, name: str, lines: list[str]) -> None:
         self.name, self.lines = name, lines

@@ -24,7 +24,10 @@ INDEX = "index"
 
 @dataclass(frozen=True)
 class Row:
-    """A row of a table of bodies: its line, its words as typed, and the report's name, title and card, or the fault."""
+    """A row of a table of bodies: line in the file, words as typed, name, title and card of its report.
+
+    `fault` is the reason why there is no report, "" if there is one.
+    """
 
     line: int
     words: Sequence[str]
@@ -135,9 +138,9 @@ def _rows(first: Card, second: Card) -> Iterator[list[str]]:
 
 
 def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
-    """Return the second number less the first as Markdown, to the digits of both; a dash for other units.
+    """Return the second card's number less the first's, with its unit, as Markdown, to the digits that both have.
 
-    A dash also stands where one of the numbers is missing.
+    A dash stands where the units differ or a number is missing.
     """
     if a["value"] is None or b["value"] is None or a["unit"] != b["unit"]:
         return "\N{EN DASH}"

@@ -41,9 +41,9 @@ _FORMULA = re.compile(r"((?<!\\)\$(?=\S)[^$]+(?<=\S)\$(?!\d))")
 
 
 class Link(NamedTuple):
-    """Words of a citation, the page (none in the PDF) and anchor that it leads to, if any, and a summary of the target.
+    """Words of a citation, the page (none in the PDF) and anchor that they lead to, and a summary of the target.
 
-    `bracketed` are the words in brackets if it cites a work, else empty.
+    `says` is that summary; `bracketed` are the words in brackets if a work is cited, else "".
     """
 
     words: str
@@ -68,9 +68,9 @@ class Text:
 
 @dataclass
 class Texts:
-    """The texts of one report, set together.
+    """The texts of one report, typeset together.
 
-    `memory` holds the results of sources set before, by source; `used` those that were asked for.
+    `memory` holds results of earlier builds by source; `used` those that this build asked for.
     """
 
     texts: list[Text] = field(default_factory=list)
@@ -135,9 +135,9 @@ class Texts:
 
 
 def deepest(markdown: str) -> int:
-    """Return the depth to which brackets, braces, quotations or list items are nested, closed or not, in code or not.
+    """Return the greatest depth to which brackets, braces, quotations or list items are nested, also in code.
 
-    Brackets are counted by paragraph, in which alone they meet; an escaped one is none.
+    Brackets are counted by paragraph, closed or not; an escaped one does not count.
     """
     most = 0
     for paragraph in re.split(r"\n\s*\n", re.sub(r"\\[\\\[\]{}]", "", markdown)):
@@ -279,10 +279,7 @@ class _Checked:
 
 
 def _tied(nodes: Tree) -> Tree:
-    """Return inlines with ties between a number and its unit, and between a word such as Section and its number.
-
-    A tie is a space at which a line is not broken.
-    """
+    """Return pandoc's inlines with unbreakable spaces before units, and between "Section" and its number."""
     before, tied = "", list[Any]()
     for node, after in zip(nodes, [*nodes[1:], {}], strict=False):
         counted = before in _COUNTED and _COUNT.match(_element_text(after))
@@ -327,7 +324,11 @@ def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:
 
 
 def _tex(tex: str, target: Target) -> str:
-    r"""Avoid mistakes of pandoc: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
+    r"""Return TeX in a form that pandoc writes correctly.
+
+    Words in ``\mathrm``, which it would space out, become ``\text``; for Typst \tfrac and \dfrac, which it would
+    lose in a fraction, become \frac.
+    """
     tex = re.sub(r"\\mathrm\{([A-Za-z]{2,})\}", r"\\text{\1}", tex)
     return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
 
@@ -350,7 +351,7 @@ def _finished(piece: str, target: Target, text: Text) -> str:
 def _mended(formula: str, text: Text) -> str:
     r"""Return a Typst formula with the widths of ``\;`` and ``\!``, which pandoc rounds to ems, and with norm bars.
 
-    A formula marked by ``\boxed`` gets its colour.
+    A formula marked by ``\boxed`` gets its colour. Raises AtlasError for a fraction below a fraction.
     """
     if _CHAIN.search(formula):
         raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")

@@ -43,7 +43,7 @@ def verdict(item: Thing) -> str:
 
 
 def has_mean_rates(item: Thing) -> bool:
-    """Return whether the axis of a motion goes round unevenly, so that the rate of its turn is a mean."""
+    """Return whether the axis of a motion goes round unevenly, so that its rate of precession is a mean."""
     kind = str(getattr(item.kernels(), "kind", ""))
     return kind.startswith("nutation") or kind in {"ball", "Euler's top", "on a torus"}
 
@@ -71,7 +71,7 @@ def is_stable(item: Thing) -> bool | None:
 
 
 def place_of(family: Family, motion: Any) -> str:
-    """Return a sentence on whether the start lies on the curve of motions without nutation."""
+    """Return a sentence on whether the start lies on the curve of motions without nutation, for the family's motion."""
     if not family.sampled:
         return "Any other start makes the axis nod."
     if family.takes("omega2"):

@@ -105,7 +105,10 @@ def shape_of(request: Asked) -> dict[str, Any] | None:
 
 
 def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
-    """Return the parameters of the figures on all motions of the body, by recipe; {} without a body or field."""
+    """Return the parameters of the figures on all motions of the body, by recipe; {} without a body or field.
+
+    Each value is a dict of the recipe's parameters by name.
+    """
     if not request.body:
         return {}
     case = case_of(request)
@@ -226,7 +229,10 @@ def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]
 
 
 def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
-    """Yield the explorer of a symmetric body in a field, from its start; else add the reason to `left_out`."""
+    """Yield the block of an explorer of a symmetric body in a field, from its start.
+
+    Without such a body, field and start nothing is yielded, and the reason is added to `left_out`.
+    """
     if not (request.body and request.family.sampled and any(case_of(request).components)):
         left_out.append("An explorer: its sliders are those of a symmetric body in a field, with a start.")
         return
@@ -247,7 +253,7 @@ def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]
 
 
 def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
-    """Yield sentences on the numbers that the card lacks, one for each reason."""
+    """Yield a sentence for each reason why numbers are missing on the card, with their names."""
     reasons = dict[str, list[str]]()
     for entry in made.values():
         if entry["reason"] not in {None, ONE_PERIOD}:
@@ -271,7 +277,10 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
 
 
 def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
-    """Yield the neglected effects, a `Disturbance` each, of a body with shape, mass or density, and a field B in SI."""
+    """Yield a `Disturbance` for each neglected effect.
+
+    Nothing is yielded without a shape, a mass or density, and a field B in SI.
+    """
     body, field = request.body or {}, request.field or {}
     if "shape" not in body or not {"mass", "density"} & request.options.keys() or field.get("system") != "SI":
         return

@@ -12,7 +12,7 @@ from atlas.trial.ledger.equation import slug
 
 @dataclass(frozen=True)
 class Use:
-    """A citation of an entry of the ledger: its page, anchor, and a word for the citing item."""
+    """A place that cites an entry of the ledger: title of its page, file, anchor, and words such as "Figure 3"."""
 
     page: str
     file: str
@@ -97,9 +97,9 @@ class Composer:
             self.uses[name].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
-        """Make an anchor of this page the target of citations of a name.
+        """Make an anchor of this page, in `words` such as "Figure 3", the target of citations of a name; return True.
 
-        Return False if another one is its target already.
+        Return False, and change nothing, if the name has a target already.
         """
         is_first = name not in self.document.targets
         if is_first:

@@ -60,11 +60,11 @@ class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
 
 @dataclass(frozen=True)
 class ExplorerView:
-    """The number of its text, its panels and sliders, and for the script the field (B2, B3).
+    """View of an explorer: number of its text, panels, sliders, and for the script the field (B2, B3).
 
-    ``steps`` holds (title, text, address, panel in space), the texts by their numbers.
-
-    The field is exact until a slider turns it; ``free`` is a start off the hyperbola.
+    ``steps`` holds (number of the title, number of the text, address, panel in space). The field is exact until a
+    slider turns it; ``free`` says that the sliders allow a start off the hyperbola; ``still`` is the id of a figure
+    or None.
     """
 
     text: int

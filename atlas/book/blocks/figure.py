@@ -82,7 +82,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class FigureView:
-    """A figure with its pictures; `width` and `height` of each in millimetres, `given` the text of its parameters."""
+    """A figure with its pictures: `width` and `height` of each in millimetres, `alt` the alternative text.
+
+    `number` is that of the figure; `caption` and `given` (its parameters) are indices among the document's texts.
+    """
 
     number: int
     id: str

@@ -17,9 +17,9 @@ GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint
 
 @dataclass(frozen=True)
 class EntryView:
-    """An entry of the ledger, the trial's finding, and the numbers of its texts; None for a missing text.
+    """An entry of the ledger, the trial's finding, and its `uses`, which grow while the report is composed.
 
-    `uses` grows while the report is composed.
+    The other fields are indices among the document's texts; None for a missing text.
     """
 
     equation: Equation
@@ -98,7 +98,7 @@ def _reading(phrase: str, line: str) -> str:
 
 
 def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
-    """Return the entries in order of the gravity of their slips, all of which must have one.
+    """Return the entries, all of which must have a slip, in order of gravity, the gravest first.
 
     Entries that share a slip are adjacent, the entry under which it is counted first.
     """

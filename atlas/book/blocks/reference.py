@@ -45,7 +45,7 @@ class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
 
 @dataclass(frozen=True)
 class DescribedView:
-    """A public name with its arguments, the number of its text, and its members."""
+    """A public name with its arguments as text, the index of its docstring among the texts, and its members."""
 
     name: str
     arguments: str

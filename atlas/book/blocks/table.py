@@ -63,7 +63,10 @@ class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
 
 @dataclass(frozen=True)
 class Cell:
-    """A table cell: the number of a text, or a number split at its decimal point."""
+    """A table cell: the index of a text, or a number split into whole part, fraction with its point, power of ten.
+
+    `proven` says whether all digits of the number are proven. A cell without text and number is empty.
+    """
 
     text: int | None = None
     whole: str = ""
@@ -74,7 +77,10 @@ class Cell:
 
 @dataclass(frozen=True)
 class ColumnView:
-    """A column's head, unit, and the room in digits' widths that its numbers take before and after the point."""
+    """A column: indices of its head's and unit's texts (None without a unit), and whether it is `numeric`.
+
+    `before` and `after` are the room that its numbers take before and after the point, in widths of a digit.
+    """
 
     head: int
     unit: int | None

@@ -28,7 +28,7 @@ UNUSED = 90 * DAY
 
 
 class Cache:
-    """Entries by key, a digest."""
+    """Entries, bytes by key (a digest), in the files of a folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.absolute()

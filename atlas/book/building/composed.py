@@ -34,15 +34,11 @@ def composed(
     style: str | None = None,
     inputs: Mapping[str, str] = NO_INPUTS,
 ) -> "tuple[Document, dict[str, FigureBuild], Path]":
-    """Return a report, its tables computed, its figures by the stems of their pictures, and its place in `out`.
+    """Return (report with computed tables, figures by the stems of their pictures, the report's folder in `out`).
 
-    The figures are drawn in the formats of `kinds`; `inputs` are texts by name.
-
-    `style`, or that of the report, is a style sheet of Matplotlib, a file or a name.
-
-    Each figure is made for the first of the targets that is wide enough.
-
-    Raises AtlasError for a mistake in the report and for a figure that fails.
+    The figures are drawn in the formats that `kinds` returns for a picture, each for the first of the `targets` that is
+    wide enough; `inputs` are texts by name. `style`, or that of the report, is a style sheet of Matplotlib, a file or a
+    name. Raises AtlasError for a mistake in the report and for a figure that fails.
     """
     from atlas import gl
     from atlas.book.building.report import check_style, document_of

@@ -77,7 +77,7 @@ class FigureBuild:
         return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
 
     def missing(self) -> dict[str, str]:
-        """Return the cache keys by kind if the figure is not yet made, else {}."""
+        """Return the cache keys by kind of file if the figure is not yet made, else {}."""
         return {} if self.contents else dict(self.keys)
 
     def take(self, cache: Cache) -> None:
@@ -124,7 +124,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
 
 
 def _why(figure: FigureBuild, cache: Cache) -> str:
-    """Return why a figure must be drawn: what has changed since it was last drawn, with these inputs or others."""
+    """Return why a figure must be drawn, in words: a missing file, or what has changed since it was last drawn."""
     if before := cache.load(figure.name):
         changed = [name for name, value in figure.parts.items() if before.get(name) != value]
         return f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"

@@ -48,7 +48,7 @@ _SCRIPT = re.compile(r'<script src="([^"]+)" defer></script>\n?')
 
 
 def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
-    """Typeset the texts of a document for these formats; results of earlier builds come from the cache."""
+    """Typeset a document's texts for these formats into `document.written`; earlier results come from the cache."""
     # pages of one object have most of their texts in common
     group = "a page" if len(document.pages) == 1 else document.report.name
     name = f"texts of {group} by {sources.closure([PACKAGE / 'book' / 'texts.py'])}"
@@ -184,7 +184,7 @@ def files_of(
 
 
 def _typst_source(document: "Document", figures: "dict[FigureBuild, Picture]", folder: Path) -> str:
-    """Return the Typst source of a report, with the files that it names written into a folder."""
+    """Return the Typst source of a report, and write the figures and the bibliography that it names into `folder`."""
     from atlas.book import bibliography, pdf
 
     (folder / "figures").mkdir()

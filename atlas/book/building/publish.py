@@ -45,7 +45,11 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, line
 
 
 def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], work: Path) -> dict[str, str]:
-    """Replace the files of a folder; return the new names, by path, of files beside which an edited one is kept."""
+    """Replace the files of the folder `place` by those of `inside`, contents by path, at once.
+
+    Returns the new names, by path, of files beside which an edited one is kept. `lines_before` are lines "digest  path"
+    of files that a build wrote before.
+    """
     before = files.lines(place) | lines_before
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
     places = files.free(digests, place, before)

@@ -214,7 +214,7 @@ def _tex(letter: str, index: str, power: str) -> str:
 
 
 def _ulps(error: float) -> Number:
-    """Return an error in ulps as a number; a huge one with its power of ten."""
+    """Return an error in ulps as a `Number` of three decimals, from `MAX_PLAIN` on with a power of ten."""
     if not error:
         return Number("0")
     return Number(f"{error:.3f}" if error < MAX_PLAIN else f"{error:.1e}")
@@ -228,7 +228,7 @@ def _three(value: float | None) -> str | Number:
 
 
 def _words(text: str) -> str:
-    """Return a text of the terminal as Markdown: (us as (µs, powers of ten as TeX."""
+    """Return a text of the terminal as Markdown: "(us" becomes "(µs", powers of ten become TeX."""
     text = re.sub(r"\(us\b", "(µs", text)
     return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)
 

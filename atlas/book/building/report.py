@@ -41,7 +41,11 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(frozen=True)
 class Built:
-    """Result of a build: paths, counts, failed figures with reasons, lines for the user, reason of each part."""
+    """Result of a build: paths of the first page and the PDF, counts, and failed figures as (name, reason).
+
+    `notes` are lines for the user, `reasons` tuples (part, name, reason why it was made or taken), `costs` the path of
+    the figures' costs or None.
+    """
 
     name: str
     index: Path
@@ -145,7 +149,10 @@ def _build(
     key: str | None,
     progress: Progress,
 ) -> Built:
-    """Build a report; without a key, it is computed while the figures are drawn."""
+    """Build a report whose inputs have these `values`, and return its `Built`.
+
+    `key` is that of `key_of`; if None, it is computed while the figures are drawn.
+    """
     from atlas import gl
     from atlas.book.building import figures
     from atlas.book.load import load

@@ -36,7 +36,7 @@ class Task:
 
 
 def draw(task: Task) -> str:
-    """Draw a figure into the cache; return "", or the reason why that is not possible, as a sentence.
+    """Draw a figure into the cache; return "", or the reason of its failure as a sentence.
 
     Raises OSError when the cache can't be written: that is no fault of the figure.
     """
@@ -122,7 +122,7 @@ def _page_files(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes
 
 
 def _compressed(content: bytes) -> bytes:
-    """Return a file of gzip, the same bytes with every Python: `gzip.compress` writes another header from 3.13 on."""
+    """Return bytes compressed as gzip, equal with every Python: `gzip.compress` writes another header from 3.13 on."""
     buffer = BytesIO()
     with gzip.GzipFile(fileobj=buffer, mode="wb", compresslevel=6, mtime=0) as file:
         file.write(content)

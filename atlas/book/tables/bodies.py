@@ -106,12 +106,15 @@ def radiation(setup: SizeParameters) -> Data:
 
 
 def moment_of_inertia(mass: float, radius: float) -> float:
-    """Return the moment of inertia of a solid ball, 0.4 mass radius^2."""
+    """Return the moment of inertia of a solid ball, 0.4 mass radius^2, in kg m^2 for kg and m."""
     return 0.4 * mass * radius * radius
 
 
 def off_the_field(b: float) -> float:
-    """Angle between m and B in the elementary motion with k = 2 pi 1/s, from (67) and m/I2 = (0, omega2, I omega3)."""
+    """Angle in rad between m and B in the elementary motion with k = 2 pi 1/s, for Larmor's frequency `b` in 1/s.
+
+    It follows from (67) and m/I2 = (0, omega2, I omega3).
+    """
     unit = b / hypot(1.0, TILT)
     B2, B3 = unit, TILT * unit
     omega2 = 2 * pi * B2 / b
@@ -163,7 +166,10 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
 
 
 def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
-    """Return a body's title, the body, and the coefficient of nu^2 in the energy of its induced moment, in J."""
+    """Return (title, body, coefficient of nu^2 in the energy of the body's induced moment, in J).
+
+    Raises AtlasError for a body without shape or mass, and for a field without a charge-to-mass ratio.
+    """
     record, body = case.body_record, case.body
     if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
         raise AtlasError("this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio.")
@@ -276,5 +282,5 @@ def swings(request: Request, setup: DiamagnetismParameters) -> Data:
 
 
 def _three(value: float) -> str | Number:
-    """Return a `Number` of three digits; a dash for None, zero and infinity."""
+    """Return a `Number` of three digits; a dash for zero and for what is not finite."""
     return Number(f"{value:.2e}") if value and isfinite(value) else "–"

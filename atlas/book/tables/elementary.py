@@ -26,7 +26,7 @@ class Quantity(NamedTuple):
 def side_by_side(
     request: Request, bodies: Sequence[Sequence[Quantity]]
 ) -> tuple[tuple[Column, ...], tuple[tuple[str | Number, ...], ...]]:
-    """Return columns and rows of a table from the quantities of each body, in the same order.
+    """Return (columns, rows) of a table with a column for each body, from their quantities in the same order.
 
     The numbers of a row have the number of decimals that gives the largest of them the requested digits.
     """
@@ -91,7 +91,10 @@ class PointsParameters(StrictStruct, frozen=True):
 
 
 class Point(NamedTuple):
-    """A point of the hyperbola: its names, omega2, omega3, k, phi and nu_n^2 as balls, and whether it is stable."""
+    """A point of the hyperbola: its names, and whether the motion is stable.
+
+    `values` are omega2, omega3, k, phi and nu_n^2 as balls, in 1/s and 1/s^2.
+    """
 
     names: str
     values: tuple[Any, ...]

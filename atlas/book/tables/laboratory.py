@@ -160,9 +160,9 @@ def inferred(setup: Watch) -> Data:
 
 
 def _deviations(J: Any) -> list[str | Number]:
-    """Return the standard deviations from derivatives J (N, P), P numbers of two digits.
+    """Return the standard deviations of P parameters from derivatives J (N, P) of data in units of their noise.
 
-    A dash stands for a parameter in a combination that the data do not determine.
+    They are `Number`s of two digits; a dash stands for a parameter in a combination that the data do not determine.
     """
     size = np.linalg.norm(J, axis=0)
     size[size == 0] = 1.0
@@ -242,7 +242,7 @@ def beyond_larmor(setup: Design) -> Data:
 
 
 def _three(value: float) -> str | Number:
-    """Return a `Number` of three digits; a dash below 1e-30."""
+    """Return a `Number` of three digits, without a power of ten from 1e-3 to 1e5; a dash below 1e-30."""
     if abs(value) < 1e-30:
         return "–"
     size = abs(value)

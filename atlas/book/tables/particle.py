@@ -12,9 +12,9 @@ from atlas.errors import AtlasError
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
-    """Return the certified `ParticleMotion` (101) of a body's centre of mass. AtlasError without B and E.
+    """Return the certified `ParticleMotion` (101) of a body's centre of mass.
 
-    Also for a laboratory frame that is not along the body's axes.
+    Raises AtlasError for a field that is not given as B, and for a laboratory frame that is not along the body's axes.
     """
     from atlas.motions.particle.certified import ParticleMotion
 

@@ -178,7 +178,10 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
 
 
 def _texts(item: Thing, q: Quantity, digits: int) -> Any:
-    """Return the certified values of a quantity as texts, nested as the quantity is; doubles if none are certified."""
+    """Return the certified values of a quantity as texts, nested as the quantity is; None where it has none.
+
+    A quantity without certified digits is returned in doubles.
+    """
     from atlas.arithmetic.certified_digits import certified
 
     if not (q.certified or q.printed or q.checked):
@@ -202,7 +205,11 @@ def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
 
 
 def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
-    """Return (value, words on its certainty); a value that is not certified comes from the class in doubles."""
+    """Return (value as a `Number` or text, words on its certainty).
+
+    A value whose digits are not certified comes from the class in doubles. `place` is its index in the quantity, or
+    None.
+    """
     from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, ZERO_WITHIN
 
     if text == NOT_CERTIFIED:

@@ -78,9 +78,9 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
 
 
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
-    """Return (unit, columns of `Number`s); beyond 1e-3 to 1e5 a power of 1000 is taken out of all values.
+    """Return (unit, columns of `Number`s); if the largest value is beyond 1e-3 to 1e5 a power of 1000 is taken out.
 
-    That power then precedes the unit.
+    The power then precedes the unit, for all columns.
     """
     from flint import fmpq
 
