@@ -33,7 +33,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) from ``omega`` over ``turns`` times 2 pi over the larger of |omega|, |B'|."""
+    """Draw R_3(t) and Omega(t) from ``omega``, for ``turns`` times 2 pi over the larger of |omega|, |B'|.
+
+    ``omega`` is along the principal axes, in 1/time as ``field``, which is B'.
+    """
     motion = AsymmetricMotion(inertia, field, omega)
     rate = float(max(np.linalg.norm(omega), np.linalg.norm(field))) or 1.0
     period = 2 * pi / rate

@@ -24,7 +24,10 @@ def scene(
     azimuth: float = 25.0,
     elevation: float = 16.0,
 ) -> Scene:
-    """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field with the frequency ``larmor``."""
+    """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field along e3.
+
+    ``larmor`` is Larmor's frequency; zero raises DomainError.
+    """
     if not larmor:
         raise DomainError("figure ball needs a field, larmor other than 0: without one the momentum stays as it is.")
     ball = BallMotion(inertia, larmor, momentum=momentum)

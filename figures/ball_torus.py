@@ -31,7 +31,11 @@ def scene(
     ratios: tuple[float, ...] = (2.5, 2.618034),
     turns: tuple[float, ...] = (2.0, 13.0),
 ) -> Scene:
-    """Draw balls (I0 = 1) with gamma/alpha in ``ratios`` for ``turns`` of alpha = ``larmor``; m3 is along B."""
+    """Draw torus and ball (I0 = 1) for each gamma/alpha in ``ratios``, over as many ``turns`` of alpha = ``larmor``.
+
+    ``m3`` is the momentum along B. Raises DomainError unless there are one to four ratios, as many turns, and a
+    ball with each ratio.
+    """
     larmor = positive(larmor, "larmor")
     least = abs(1.0 + m3 / larmor)
     if not 0 < len(ratios) == len(turns) <= 4:
@@ -74,9 +78,10 @@ def scene(
 
 
 def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *, named: bool) -> list[Space]:
-    """Return the torus with its net and the line of the motion, and the ball with the path of R_1.
+    """Return two panels: the torus with its net and the line of the motion, and the ball with the path of R_1.
 
-    The latter shows the field and k at t = 0, too; its start has a name or not.
+    `names` are their titles, `larmor` is alpha, `stop` the last time. The ball shows the field and k at t = 0; its
+    start has a name if `named`.
     """
     sag, is_bold = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))

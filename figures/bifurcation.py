@@ -70,11 +70,11 @@ def scene(
 
 
 def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
-    """Return the plane of one c, with names at its curves; upwards stands H less F over twice the middle moment.
+    """Return the `Plane` of one c, with names at its curves; upwards stands H less F over twice the middle moment.
 
-    Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
-    oval and somewhere not positive on the bounded one, so that the stretches with s > 0 are the border, for p = 0 the
-    parabola and the stable rays.
+    ``reach`` is the width of the panel in units of that of the three spins. Motions with values H and F exist if
+    the sum of squares of theorem-splitting is nowhere negative on the unbounded oval and somewhere not positive on
+    the bounded one, so that the stretches with s > 0 are the border, for p = 0 the parabola and the stable rays.
     """
     middle = int(np.argsort(bifurcation.inertia)[1])
     slope = 1 / (2 * float(bifurcation.inertia[middle]))
@@ -127,9 +127,9 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
 def line(
     bifurcation: Bifurcation, stretch: Stretch, slope: float, x_limits: tuple[float, float], sizes: tuple[float, float]
 ) -> FloatArray:
-    """Return a stretch as a sampled line (N, 2), less ``slope`` times its abscissa.
+    """Return a stretch as a sampled line (N, 2): F, and H less ``slope`` times F.
 
-    ``sizes`` are millimetres for a unit of both axes.
+    ``x_limits`` are those of F in the panel, ``sizes`` the millimetres for a unit of both axes.
     """
     poles = set((-bifurcation.a).tolist())
     start_gap, end_gap = (STRETCH_END if end in poles else 0.0 for end in (stretch.low, stretch.high))
@@ -144,7 +144,10 @@ def line(
 
 
 def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
-    """Return the border (N, 2) of the region of motions, from the upper right to the corner and the lower right."""
+    """Return the border (N, 2) of the region of motions, from the upper right to the corner and the lower right.
+
+    `lines` are pairs (name of the oval, stretch (N, 2)); the border ends at the abscissa `stop`.
+    """
     sides = []
     for oval in ("bounded", "unbounded"):
         points = np.concatenate([points for name, points in lines if name == oval])

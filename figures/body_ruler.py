@@ -58,7 +58,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
 
 
 def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
-    """Return (B2, B3) along `field`, so short that each quadric keeps its place in the row."""
+    """Return (B2, B3) along `field`, scaled down so far that each body's quadric stays in its place of the row."""
     rightward = frame(Space((), azimuth=azimuth))[0]
     unit = SIZE / float(np.hypot(*field))
     prime = (unit * field[0], unit * field[1])
@@ -100,7 +100,7 @@ def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> t
 
 
 def body(name: str, I: float, centre: FloatArray, tolerance: float) -> list[Layer]:
-    """Return the layers of an upright body whose farthest point is at the distance 1."""
+    """Return the layers of the upright body of a `name`, with I3/I2 = I, whose farthest point is at the distance 1."""
     up = E3
     if name == "ball":
         return [solids.sphere(centre, 1.0, tolerance, role="solid")]

@@ -85,7 +85,11 @@ def scene(
 
 
 def trace(top: TopMotion) -> str:
-    """Return "loops", "cusps" or "waves", by the rate of its precession at both ends of its range, theorem-cusp."""
+    """Return the kind of a top's trace, "loops", "cusps" or "waves", theorem-cusp.
+
+    Loops change the sign of the precession between the ends of the axis' range; a start at rest across the axis gives
+    cusps.
+    """
     invariants = top.invariants()
     p, M3 = float(invariants["p"]), float(invariants["M3"])
     if not top.omega[0] and not top.omega[1]:
@@ -95,7 +99,10 @@ def trace(top: TopMotion) -> str:
 
 
 def close(letter: str, tops: list[TopMotion]) -> Plane:
-    """Return a `Plane` tangent to the unit sphere at the common start, with the traces of the axes near it."""
+    """Return a `Plane` tangent to the unit sphere at the common start, with the traces of the axes near it.
+
+    `letter` is that of the panel; times are within `CLOSE` periods of nutation from the start.
+    """
     layers: list[Layer] = []
     for name, top in zip("abc", tops, strict=False):
         times = np.linspace(-CLOSE, CLOSE, 201) * top.period
@@ -130,7 +137,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
     M3 = wells.M3
 
     def level(points: Any) -> FloatArray:
-        """Return points (p, g) with the line of the cusps, g = 2 a p/M3, taken off."""
+        """Return points (..., 2) of (p, g) with the line of the cusps, g = 2 a p/M3, subtracted from g."""
         return np.asarray(points) - np.multiply.outer(np.asarray(points)[..., 0], [0.0, 2 * wells.a / M3])
 
     ends = level([wells.spin(end)[:2] for end in (1, -1)])

@@ -146,7 +146,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
 
 
 def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
-    """Return a panel with the surroundings of the unstable precessions alone, none where all are stable."""
+    """Return a list of one panel, the surroundings of the unstable precessions; [] where all are stable."""
     curves = [layer for layer in diagram.layers if isinstance(layer, Curve)]
     folds = [curve.points for curve in curves if curve.role == "unstable_line"]
     if not folds:
@@ -169,7 +169,10 @@ def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
 
 
 def names(branch: Branch, reach: float, shift: float) -> list[Layer]:
-    """Return labels at the visible parts of a curve: "unstable", and the sign of the rate w at stable parts."""
+    """Return labels at the visible parts of a curve: "unstable", and the sign of the rate w at stable parts.
+
+    `reach` is the limit of |p|, `shift` is added to the energy g to give 2H.
+    """
     w, stable, is_visible = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
     order = np.argsort(-branch.g, kind="stable")
     points = np.stack([branch.p, branch.g + shift], axis=1)

@@ -54,7 +54,10 @@ def panel(
     places: dict[float, str],
     x_scale: Literal["linear", "log"] = "linear",
 ) -> Plane:
-    """Return the `Plane` of one map with named places; a map with a ``label`` has the colour bar of both."""
+    """Return the `Plane` of one map over x and the time, with words at the values ``places`` of x.
+
+    The map with a ``label`` has the colour bar of both.
+    """
     image = Image(errors.x, errors.t, np.maximum(errors.plain, LIMITS[0]), label, "log", LIMITS)
     ends = (float(errors.x[0]), float(errors.x[-1])), (float(errors.t[0]), float(errors.t[-1]))
     words = [Label(np.array([x, LOW]), word) for x, word in places.items()]

@@ -77,7 +77,10 @@ def dot_path(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 def courses(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> list[Plane]:
-    """Return one `Plane` for each motion, Omega3 over 1.6 periods of the slowest, below one another."""
+    """Return one `Plane` for each motion: Omega3 over 1.6 periods of the slowest motion; the panels are stacked.
+
+    `omega3` is that of the unstable motion, drawn as a line.
+    """
     stop = 1.6 * max(motion.period for motion in motions)
     view = ((0.0, stop), room([end for motion in motions for end in motion.turning_points], 0.12))
     panels = []

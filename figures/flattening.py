@@ -70,7 +70,7 @@ def scene(
 
 
 def special(I1_values: tuple[float, ...], ratio: float) -> str:
-    """Return sentences on the panels of symmetric and of flat bodies, "" if there are none."""
+    """Return sentences on the panels in which the body (I1, 1, ``ratio``) is symmetric or flat, "" without any."""
     letters = {I1: f"({letter})" for letter, I1 in zip("abcdef", I1_values, strict=False)}
     symmetric = f" In {letters[1.0]} the body is symmetric, and every loop touches both." if 1.0 in letters else ""
     flat = f" In {letters[ratio - 1.0]} it is flat." if ratio - 1.0 in letters else ""

@@ -88,7 +88,8 @@ def scene(
 def closed(hyperbola: Hyperbola, free_quotient: float, order: int) -> dict[Fraction, ElementaryMotion]:
     """Return the motions with phi/k = p/q, |p| and q up to ``order``, that panel (b) shows, by p/q.
 
-    Neither ``free_quotient``, which no motion has, is among them nor twice that, which belongs to the state of rest.
+    ``free_quotient`` is the limit (87) of phi/k. Neither it, which no motion has, nor its double, which belongs to the
+    state of rest, is among the fractions.
     """
     fractions = {Fraction(p, q) for q in range(1, order + 1) for p in range(-order, order + 1) if p}
     return {

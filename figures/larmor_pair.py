@@ -76,7 +76,10 @@ def scene(
 
 
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
-    """Return a `Space`: one sphere with the traces of both motions up to `time`, with an arrowhead on each."""
+    """Return a `Space`: the unit sphere with the traces of both motions up to `time`, with an arrowhead on each.
+
+    `paths` map times (N,) to axes (N, 3).
+    """
     sag = tolerance(1.4)
     layers: list[Layer] = [
         solids.sphere(O, 1.0, sag),

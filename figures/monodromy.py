@@ -26,9 +26,10 @@ LOOP_POINTS = 480
 
 
 def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 40, unit: str = "time") -> Scene:
-    """Draw loops of so many ``points`` round one spin of a heavy top, one of a disk, and both of a disk with M3 = 0.
+    """Draw loops of ``points`` points round one spin of a heavy top, one of a disk, and both of a disk with M3 = 0.
 
-    The weight of the heavy top, over I2, is b^2.
+    The weight of the heavy top, over I2, is b^2. Raises DomainError unless 1 < ratio <= 2, b > 0 and the spin is
+    unstable.
     """
     if not (1 < ratio <= 2 and b > 0 and 0 < M3 * M3 < 4 * (ratio - 1) * b * b):
         raise DomainError(
@@ -106,7 +107,10 @@ def values(name: str, wells: Wells, loop: Monodromy, is_first: bool, unit: str) 
 
 
 def smooth(points: FloatArray) -> FloatArray:
-    """Return a smooth line (N, 2) through points that repeat, but for a step, after the last, by Fourier series."""
+    """Return a smooth closed line through `points` (M, 2), of `LOOP_POINTS` + 1 points, by Fourier series.
+
+    The last of `points` is the first plus a constant step, which the line has too.
+    """
     count = len(points) - 1
     drift = np.outer(np.arange(count) / count, points[-1] - points[0])
     waves = np.fft.rfft(points[:-1] - drift, axis=0)

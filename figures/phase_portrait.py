@@ -114,7 +114,7 @@ class Top:
         return [(float(x), bool(slope.deriv()(x) > 0)) for x in real]
 
     def energies(self, levels: int) -> list[tuple[float, float]]:
-        """Return energies h, each with the cosine of the equilibrium that its curve goes round; 0 if it is all of them.
+        """Return pairs (energy h, cosine of the equilibrium that its curve goes round, 0 if it is all of them).
 
         Below the highest equilibrium there are ``levels`` curves about each stable one, above it as many about all.
         """
@@ -126,9 +126,9 @@ class Top:
         return [*inside, *((top + depth * share, 0.0) for share in steps)]
 
     def orbits(self, h: float, centre: float, view: Window | None = None) -> list[FloatArray]:
-        """Return the closed curves (Omega3, its rate), shape (N, 2), of the energy h that go round a cosine, 0 for all.
+        """Return the closed curves (N, 2) of the energy h that go round the cosine `centre`, or for 0 all of them.
 
-        Without a ``view`` they are coarse.
+        The columns are Omega3 and its time derivative. Without a ``view`` the curves are coarse.
         """
         nu, sine_squared = Polynomial([0, 1]), Polynomial([1, 0, -1])
         Q = sine_squared * (h - self.M3**2 / self.I - self.b**2 - self.A * nu**2) - (self.p - self.M3 * nu) ** 2

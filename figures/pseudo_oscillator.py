@@ -90,7 +90,10 @@ def scene(
 
 
 def window(oscillator: PseudoOscillator, allowed: Ends, span: float, zero: float) -> Ends:
-    """Return the interval of Omega3 - zero to show: the allowed one, and the extrema of Q near it of its size."""
+    """Return the interval (low, high) of Omega3 - `zero` to show: the allowed one, and the extrema of Q near it.
+
+    Extrema count if they are within three spans, and not much larger than Q in the interval.
+    """
     slope = np.polynomial.Polynomial(oscillator.coefficients).trim()
     extrema = slope.roots() if slope.degree() else np.empty(0)
     real = np.sort(extrema[np.isreal(extrema)].real)
@@ -141,7 +144,7 @@ def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label
 def course(
     motion: GeneralMotion, turns: float, allowed: Ends, view: Ends, zero: float, y_label: str, unit: str
 ) -> Plane:
-    """Return panel (c), a `Plane`: Omega3 over time."""
+    """Return panel (c), a `Plane`: Omega3 - `zero` over `turns` periods of a motion."""
     low, high = allowed
     pad = 0.15 * (view[1] - view[0])
     limits = (low - pad, high + pad)
@@ -170,5 +173,8 @@ def band(interval: Ends, limits: Ends) -> FloatArray:
 
 
 def graph(function: Function, view: Ends, limits: Ends) -> FloatArray:
-    """Return the graph of a function, points (N, 2), inside a window, sampled for the panel's size."""
+    """Return the graph of a function over the interval `view`, points (N, 2), sampled for the panel's size.
+
+    Outside the `limits` of the ordinate the graph is coarse.
+    """
     return flat(lambda u: np.stack([u, function(u)], axis=1), *view, (view, limits), SIZE, pieces=32)

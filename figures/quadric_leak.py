@@ -92,11 +92,12 @@ def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) 
 
 
 class Leaving:
-    """A motion by the departure of Omega3 from its start; that is B3 - b nu, (40), which keeps its digits for a needle.
+    """A motion of a body in a field, by the departure of Omega3 from its start.
 
-    `below` and `above` are its ends, `farthest` the larger of them, `speed` the rate at t = 0, `period` that of Omega3.
-    The body in a field is a top with the coupling b (I2, I3), nu the cosine between its axis and the field. DomainError
-    for rounding alone, and on a separatrix.
+    The departure is computed as B3 - b nu, (40), which keeps its digits for a needle, from a top with the coupling
+    b (I2, I3); nu is the cosine between axis and field. `below` and `above` are the least and largest departure,
+    `farthest` the larger magnitude, `speed` the rate at t = 0, `period` that of Omega3. Raises DomainError where the
+    departure is only rounding, and on a separatrix.
     """
 
     def __init__(self, oscillator: PseudoOscillator) -> None:
@@ -152,7 +153,10 @@ def departures(
     nu2: float,
     unit: str,
 ) -> Plane:
-    """Return panel (b), a `Plane`: the largest departure of Omega3 over |omega1|, on logarithmic axes."""
+    """Return panel (b), a `Plane`: the largest departure of Omega3 over |omega1|, on logarithmic axes.
+
+    `point` is (ratio, field, omega2) and `nu2` the square of the nutation frequency there.
+    """
     ratio, field, omega2 = point
     size = np.abs(omega1)
     ends = (float(size.min()) / 30, float(size.max()) * 10)

@@ -92,9 +92,9 @@ def side_by_side(
     scale: float,
     azimuth: float,
 ) -> list[list[Layer]]:
-    """Return the layers of each quadric from left to right, all centres as high as the first, the names below them.
+    """Return a list of layers for each quadric, from left to right, all centres as high as the first, names below.
 
-    Gaps are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
+    Gaps are in units of ``scale``; narrow quadrics stand so far apart that their names do not meet.
     """
     rightward, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
     heights = [solids.extent(surfaces, E3) for surfaces in sheets]

@@ -79,7 +79,7 @@ def radius_squared(quadric: Quadric, height: FloatArray) -> FloatArray:
 
 
 def quadric_rest(quadric: Quadric) -> float:
-    """Return sign(I - 1) C1^2, minus the constant of the canonical form (54)."""
+    """Return the constant -(1 - I) B2^2 = sign(I - 1) C1^2 of the canonical form (54), moved to its left-hand side."""
     return float(quadric.semi_axes[0]) ** 2 * (1.0 if quadric.kind == "two-sheet hyperboloid" else -1.0)
 
 

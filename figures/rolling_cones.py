@@ -102,7 +102,11 @@ def reach(line: FloatArray, omega: FloatArray) -> float:
 def name_place(
     rim: FloatArray, omega: FloatArray, view: tuple[float, float], *, narrow: bool
 ) -> tuple[FloatArray, tuple[float, float]]:
-    """Return places at the rim (N, 3) of a cone for its name, clear of both cones, and the offset from them."""
+    """Return (position at the rim, offset in points) for the name of a cone, clear of both cones.
+
+    `rim` (N, 3) is the cone's; the position is (3,), or several (M, 3), the best first. `omega` (3,) is along the
+    line of contact.
+    """
     rightward, up = (rim @ line for line in frame(Space((), *view))[:2])
     if up.mean() > 0.0 and narrow:
         return rim[int(np.argmax(up))], (0.0, 5.0)
@@ -115,9 +119,10 @@ def name_place(
 
 
 def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, view: tuple[float, float]) -> Space:
-    """Return both cones at t = 0, touching along the angular velocity, with their angles and the circles of their tips.
+    """Return the `Space` of both cones at t = 0, touching along omega, with angles and the circles of their tips.
 
-    The angular momentum of a free body is on the side of its angular velocity: (m, omega) is twice the energy.
+    `axis` (3,) is that of the space cone, the field or the momentum. The angular momentum of a free body is on the side
+    of its angular velocity: (m, omega) is twice the energy.
     """
     sag = tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))

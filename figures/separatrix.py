@@ -69,11 +69,11 @@ def scene(
 
 
 def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[GeneralMotion]:
-    """Return the motions with the integrals of an unstable precession from where they turn, theorem-companion.
+    """Return two motions with the integrals of an unstable precession, each from where it turns, theorem-companion.
 
     The quartic of nu, the cosine between axis and field, has the double root r = B3/b, and the simple ones
-    e = -r +- sqrt((1 - z)(z - r^2)/z) with z = ((omega2 + B2)/B2)^2/(1 - I). There omega1 = 0, and E', c3 and (M, B')
-    of the precession tell the rest.
+    e = -r +- sqrt((1 - z)(z - r^2)/z) with z = ((omega2 + B2)/B2)^2/(1 - I). There omega1 = 0, and the other components
+    follow from E', c3 and (M, B') of the precession.
     """
     I, (B2, B3), b = quotient(ratio), field, float(np.hypot(*field))
     omega3, r, z = float(Hyperbola(ratio, field).omega3(omega2)), B3 / b, ((omega2 + B2) / B2) ** 2 / (1 - I)

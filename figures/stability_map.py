@@ -67,7 +67,10 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
 
 
 def on(line: FloatArray, rate: float) -> FloatArray:
-    """Return the point of a level's line (N, 2) for its number: the higher, the larger `rate`, so that none collide."""
+    """Return the point (2,) of a level's line (N, 2) for its number; it is the higher, the larger `rate`.
+
+    So the numbers of neighbouring lines do not collide.
+    """
     low, high = line[:, 1].min(), line[:, 1].max()
     return line[int(np.argmin(np.abs(line[:, 1] - low - (0.15 + 0.6 * rate) * (high - low))))]
 

@@ -91,7 +91,10 @@ def scene(
 def sweep(
     centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float, share: float
 ) -> list[Layer]:
-    """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, with an arrow and its name."""
+    """Return the layers of an arc through ``angle`` in rad about ``axis`` from ``centre + radius``: arc, arrow, name.
+
+    The name stands at the fraction ``share`` of the angle. ``axis`` and ``radius`` (3,) are orthogonal.
+    """
     arc_angle = angle - np.sign(angle) * min(0.25, 0.5 * abs(angle))
     arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, arc_angle, tolerance)
     tip = solids.ellipse(centre, radius, np.cross(axis, radius))(np.array([angle]))[0]

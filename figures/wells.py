@@ -106,7 +106,10 @@ def times(M3: float) -> str:
 
 
 def envelope(M3: float, reach: float) -> FloatArray:
-    """Return the border (N, 2) as far as it is near the view; with |M3| = p it goes on along the line of a spin."""
+    """Return the border (N, 2) in the plane (a, A), in units of p^2, as far as 40 ``reach``.
+
+    With |M3| = p it goes on along the line of a spin.
+    """
     nu = np.tanh(np.linspace(-9.0, 9.0, 1201))
     points = border(M3, 1.0, nu)
     is_near = np.abs(points).max(axis=1) < 40 * reach
@@ -120,7 +123,10 @@ def envelope(M3: float, reach: float) -> FloatArray:
 
 
 def within(c: float, nu: float, reach: float) -> FloatArray:
-    """Return the ends (2, 2) of the line a + A nu = c in the view, the upper last; (0, 2) if the line is outside."""
+    """Return the ends (2, 2) of the line a + A nu = c in the square |a|, |A| <= ``reach``, the upper end last.
+
+    A line outside of it gives shape (0, 2).
+    """
     A = np.array([-reach, reach])
     if nu:
         crossings = np.sort((c + np.array([-reach, reach])) / nu)
