@@ -137,11 +137,22 @@ class Phases:
 
     def halves_of_one(self, t: float) -> list[float]:
         """Return half of each phase at one time, less the turns that `rounder` leaves out, in radians, rounded once."""
-        halves = []
+        return [half / unit for half, unit in self._exact_halves_of_one(t)]
+
+    def words_of_one(self, t: float) -> tuple[list[float], list[float]]:
+        """Return the same in two words each: (`halves_of_one`, their rounding errors)."""
+        halves, low_words = list[float](), list[float]()
+        for half, unit in self._exact_halves_of_one(t):
+            halves.append(half / unit)
+            p, q = halves[-1].as_integer_ratio()
+            low_words.append((half - p * (unit // q)) / unit)
+        return halves, low_words
+
+    def _exact_halves_of_one(self, t: float) -> Iterator[tuple[int, int]]:
+        """Yield each of `halves_of_one` as a fraction (n, a power of two)."""
         for (x, digits), is_even in zip(self._phases_of_one(t), self._is_even, strict=True):
             half = 1 << digits - (1 if is_even else 2)
-            halves.append((((x + half) % (2 * half)) - half) * TURN_OF_INTEGERS / (1 << digits + SCALAR_BITS + 1))
-        return halves
+            yield (((x + half) % (2 * half)) - half) * TURN_OF_INTEGERS, 1 << digits + SCALAR_BITS + 1
 
     @cached_property
     def _is_even(self) -> list[bool]:

@@ -8,9 +8,10 @@ Several of them share their powers of exp(i pi v_1) and exp(i pi v_2): a matrix 
 over P. Only quotients are wanted, so that one exponential may be left out of all of them.
 """
 
+from cmath import exp
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import product, starmap
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -112,6 +113,7 @@ class Sums:
         self.columns = [np.column_stack([2 * k + parity, -2 * k - parity]).ravel() for parity in (0, 1)]
         largest = [np.exp(-np.outer(columns, region[1].imag)).max(axis=1) for columns in self.columns]
         self.sizes = np.tile(np.exp2(np.ceil(np.log2(largest)) + 1), 2)  # a little beyond the region
+        self.cut = (1.5 * 2.0 ** (52 - SPLIT_BITS) * self.sizes)[:, :, None]
         self._words = dict[tuple[int, int], list[Words]]()
 
     def at(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
@@ -120,12 +122,11 @@ class Sums:
         The sum over Q is that of the upper words of weights and powers, exact, plus that of the lower words. The sum
         over P is Horner's rule from both ends.
         """
-        w = np.exp(1j * x)
-        w += w * (1j * low_words)
+        w = wave(x, low_words)
         w = np.concatenate([w, w[1:] * w[1:]])
         steps = np.stack([inverse(w), w], 1)
         words, powers = self.words(chosen_rows), self.powers(steps[1], steps[2])
-        m, middle = x.shape[1], len(self.P) // 2
+        m, middle = w.shape[1], len(self.P) // 2
         rows, order = np.empty((sum(len(forms) for forms, _, _ in words) * len(self.P), 2 * m)), list[int]()
         for (forms, upper, lower), power_words in zip(words, powers, strict=True):
             sums = rows[len(order) * len(self.P) :][: len(upper)]
@@ -144,6 +145,29 @@ class Sums:
         values[order] = sums[:, middle] + ends[:, 1] + ends[:, 0]
         return values
 
+    def at_one(self, place: Sequence[tuple[complex, complex]], chosen_rows: slice) -> Array:
+        """Return the chosen forms (forms,) at one place, two pairs x, low word of x, by the operations of `at`."""
+        w_1, w_2 = starmap(wave, place)
+        square, inverse_1 = w_2 * w_2, inverse(w_1)
+        powers = np.empty((2, 2, self.sizes.shape[1] // 4, 2), np.complex128)
+        powers[:, 0] = square, inverse(square)
+        powers[:, 0, 0] = (1.0, 1.0), (w_2, inverse(w_2))
+        np.multiply.accumulate(powers[:, 0], axis=1, out=powers[:, 0])
+        np.multiply(powers[:, 0], 1j, out=powers[:, 1])
+        numbers = powers.view(np.float64).reshape(2, -1, 2)
+        high = numbers + self.cut - self.cut
+        values = np.empty(len(self.table[chosen_rows]), np.complex128)
+        for parity, (forms, upper, lower) in enumerate(self.words(chosen_rows)):
+            number = numbers[parity]
+            sums = lower @ np.concatenate([number, number - high[parity]]) + upper @ high[parity]
+            for form, row in zip(forms, sums.view(np.complex128).reshape(len(forms), -1).tolist(), strict=True):
+                below = above = 0j
+                for n in range(len(row) // 2):
+                    below = (below + row[n]) * inverse_1
+                    above = (above + row[-1 - n]) * w_1
+                values[form] = row[len(row) // 2] + above + below
+        return values
+
     def powers(self, once: Array, square: Array) -> FloatArray:
         """Return even and odd powers of w_2, and i times these, as words, shape (2, 3, rows, 2 m).
 
@@ -157,9 +181,8 @@ class Sums:
         for n in range(1, powers.shape[2]):
             np.multiply(powers[:, 0, n - 1], square[::-1], out=powers[:, 0, n])
         np.multiply(powers[:, 0], 1j, out=powers[:, 1])
-        cut = (1.5 * 2.0 ** (52 - SPLIT_BITS) * self.sizes)[:, :, None]
-        np.add(words[:, 0], cut, out=words[:, 2])
-        words[:, 2] -= cut
+        np.add(words[:, 0], self.cut, out=words[:, 2])
+        words[:, 2] -= self.cut
         np.subtract(words[:, 0], words[:, 2], out=words[:, 1])
         return words
 
@@ -203,24 +226,37 @@ class Sums:
         return np.asarray((WEIGHT + steps_of_P)[:, None] + powers)
 
 
-def inverse(w: Array) -> Array:
-    """Return 1/w of complex numbers w, any shape: a rounded quotient improved by one step of Newton's method.
+def wave(x: Any, low_word: Any) -> Any:
+    """Return exp(i (x + low_word)), the low word below an ulp of x; complex numbers or arrays of them."""
+    w = (np.exp if isinstance(x, np.ndarray) else exp)(1j * x)
+    return w + w * (1j * low_word)
+
+
+def inverse(w: Any) -> Any:
+    """Return 1/w of a complex number, or of an array: a rounded quotient improved by one step of Newton's method.
 
     The residual is summed from halves of 26 digits, so that only the last step rounds.
     """
-    places_near = w.conj() / (w.real * w.real + w.imag * w.imag)
-    (a, a_low), (b, b_low) = _halves(w), _halves(places_near)
-    product_re, second = a.real * b.real, -a.imag * b.imag
-    residual = np.empty_like(w)
-    residual.real = (1 - np.maximum(product_re, second)) - np.minimum(
-        product_re, second
-    )  # exact, as is the imaginary part
-    residual.imag = -(a.real * b.imag + a.imag * b.real)
-    residual -= a * b_low + a_low * places_near
-    return np.asarray(places_near + places_near * residual)
+    near = reciprocal(w)
+    (a, a_low), (b, b_low) = _halves(w), _halves(near)
+    product, rest = two_sum(a.real * b.real, -a.imag * b.imag)
+    residual = (1 - product) - rest - 1j * (a.real * b.imag + a.imag * b.real)  # exact
+    return near + near * (residual - (a * b_low + a_low * near))
 
 
-def _halves(w: Array) -> tuple[Array, Array]:
+def reciprocal(w: Any) -> Any:
+    """Return 1/w of a complex number, or of an array, by the operations whose rounding errors `Rounding` counts."""
+    return w.conjugate() / (w.real * w.real + w.imag * w.imag)
+
+
+def two_sum(x: Any, y: Any) -> tuple[Any, Any]:
+    """Return (x + y rounded, its rounding error) of numbers or arrays, by Knuth's algorithm."""
+    s = x + y
+    rounded = s - x
+    return s, (x - (s - rounded)) + (y - rounded)
+
+
+def _halves(w: Any) -> tuple[Any, Any]:
     """Return upper and lower halves of 26 digits each, by Veltkamp: products of upper halves are exact."""
     t = w * SPLITTER
     upper = t - (t - w)

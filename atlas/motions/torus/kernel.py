@@ -1,5 +1,6 @@
 """Any motion of a charged body with three different moments of inertia (not in the paper)."""
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ from atlas.arithmetic.dimensions import INERTIA, RATE
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain, real
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
-from atlas.arithmetic.rotation import target
+from atlas.arithmetic.rotation import IDENTITY, target
 from atlas.arithmetic.words import floats
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.motions.base import Motion
@@ -176,38 +177,42 @@ class SingleAsymmetric:
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), body to laboratory, shape t.shape + (3, 3); exactly 1 at t = 0."""
-        return self._started("rotation", np.eye(3), t, out)
+        return self._started("rotation", (3, 3), lambda: IDENTITY, t, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); exact at t = 0."""
-        return self._started("column", np.eye(3)[j - 1], t, out, j)
+        return self._started("column", (3,), lambda: IDENTITY[j - 1], t, out, j)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
-        return self._started("quaternion", np.eye(4)[3], t, out)
+        return self._started("quaternion", (4,), lambda: np.eye(4)[3], t, out)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the angular velocity Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
 
         At t = 0 it is exactly the initial one. The result is written into ``out`` if given.
         """
-        return self._started("angular_velocity", floats(self.exact.omega), t, out)
+        return self._started("angular_velocity", (3,), lambda: floats(self.exact.omega), t, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time; exactly the initial one at t = 0."""
-        return self._started("field_in_body", floats(self.exact.field), t, out)
+        return self._started("field_in_body", (3,), lambda: floats(self.exact.field), t, out)
 
-    def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *column_number: int) -> FloatArray:
-        """Return the named function at times t, exactly `start` at t = 0; from balls without a closed form."""
-        status = np.asarray(real(t, "The time") == 0)
-        if status.all():
-            products = target(out, status.shape + start.shape)
-        else:
+    def _started(
+        self, name: str, shape: tuple[int, ...], start: Callable[[], FloatArray], t: Any, out: FloatArray | None,
+        *column_number: int,
+    ) -> FloatArray:  # fmt: skip
+        """Return the named function at times t, exactly start() at t = 0; from balls without a closed form."""
+        times = real(t, "The time")
+        moving = np.count_nonzero(times)
+        if moving:
             balls = self.closed is None or (name == "angular_velocity" and self._slender)
-            products = getattr(self.certified if balls else self.closed, name)(*column_number, t, out)
-        if status.any():
-            products[status] = start
-        return products
+            values = getattr(self.certified if balls else self.closed, name)(*column_number, t, out)
+        else:
+            values = target(out, times.shape + shape)
+        if moving < times.size:
+            values[times == 0] = start()
+        return values
 
 
 @lru_cache(maxsize=MOTION_CACHE_SIZE)

@@ -7,7 +7,7 @@ With x the phases in turns, n the whole ones that are left out of f t, and theta
     R^T (e_x + i e_y) = exp(i alpha) exp(-i theta x) N(x),    alpha = (theta f - b) t.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import chain
 from typing import Any
@@ -22,13 +22,13 @@ from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import workprec
 from atlas.arithmetic.phase import EVEN, Phases, room
 from atlas.arithmetic.quaternions import of_matrix, product
-from atlas.arithmetic.rotation import BLOCK, combined, evaluate
+from atlas.arithmetic.rotation import BLOCK, combined, evaluate, target
 from atlas.arithmetic.words import TURN, middle
 from atlas.errors import NotCertifiedError
 from atlas.motions.nutation.grid import moments
 from atlas.motions.torus.approximate_periods import BITS, complex_of, matrix_of
 from atlas.motions.torus.approximate_theta import ThetaMotion, frame
-from atlas.motions.torus.approximate_theta_sums import HALF_TURN, Array, Sums
+from atlas.motions.torus.approximate_theta_sums import HALF_TURN, Array, Sums, reciprocal, two_sum, wave
 from atlas.motions.torus.certified import AsymmetricMotion
 from atlas.motions.torus.certified_torus import Period, Torus, frequencies
 from atlas.motions.torus.theta_rounding import Rounding
@@ -39,8 +39,14 @@ SUM_BLOCK = 768
 UPPER_BITS = 24
 """Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
 
-CUT = np.array(1.5 * 2.0 ** (52 - UPPER_BITS))
+CUT = 1.5 * 2.0 ** (52 - UPPER_BITS)
 """Number whose addition and subtraction rounds another to 2^-24."""
+
+D = 3
+"""Place of the denominator among the forms N, D, K and W."""
+
+ATTITUDE, VECTORS = slice(0, 7), slice(D, 10)
+"""Places of the forms of R, and of K and W, each with the denominator."""
 
 PERIOD_BITS = 160
 """Bits to which the real periods are proved."""
@@ -114,6 +120,7 @@ class ThetaKernel:
             self.upper: Array = np.round(rounded / unit) * unit
             lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
             self.lower: Array = np.reshape(lower, (3, 2))
+            self.ways: Array = self.lower + self.upper
             line = np.linspace(-HALF_TURN * np.pi, HALF_TURN * np.pi, 13)
             region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
             self.sums = Sums(self.constants.hat, self.constants.forms, self.constants.start, rounded[:2] @ region)
@@ -156,29 +163,39 @@ class ThetaKernel:
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled."""
-        return evaluate(real(t, "The time"), (3, 3), out, lambda _: self._attitude(self.entries))
+        return self._evaluate(ATTITUDE, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return column j = 1, 2 or 3 of R(t), the body's axis j in the laboratory, shape t.shape + (3,).
 
         It is written into ``out``, if given. Raises DomainError for times that are not finite numbers.
         """
-        return evaluate(real(t, "The time"), (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
+        return self._evaluate(ATTITUDE, self.entries[:, j - 1 :: 3], t, (3,), out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time."""
-        return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
+        return self._evaluate(slice(D, 7), self.rate * np.eye(3), t, (3,), out)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) = W - K along the body's axes, shape t.shape + (3,), in rad/time."""
-        weights = np.concatenate([-np.eye(3), np.eye(3)])
-        return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 10), weights))
+        return self._evaluate(VECTORS, self.rate * np.concatenate([-np.eye(3), np.eye(3)]), t, (3,), out)
+
+    def _evaluate(
+        self, forms: slice, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None
+    ) -> FloatArray:
+        """Return ``weights`` times the `_functions` of ``forms`` at times t, shape t.shape + ``shape``."""
+        times = real(t, "The time")
+        if times.size != 1:
+            return evaluate(times, shape, out, lambda _: self._filling(forms, weights))
+        out = target(out, times.shape + shape)
+        np.matmul(self._row(times.item(), forms), weights, out=out.reshape(-1))
+        return out
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
         """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
         count, rows = len(out), out.reshape(-1, 9)
         check_grid(start, step, count, self.phases.reach)
-        fill = self._attitude(self.entries)
+        fill = self._filling(ATTITUDE, self.entries)
         for i in range(0, count, BLOCK):
             index = np.arange(float(i), float(min(i + BLOCK, count)))
             t, low = moments(self.phases, start, step, index)
@@ -193,14 +210,12 @@ class ThetaKernel:
         for x, period in zip(half[:2], self.periods, strict=True):
             half[2] += x * round(float(period.angle.mid()) / (2 * np.pi))
         R, low_word = np.empty((phases.shape[1], 9)), np.zeros_like(half)
-        self._fill(half, low_word, self.entries, R)
-        x, less = self._places(half, low_word)
-        D, *numerators = self.sums.at(x[:2], less[:2], slice(3, 10))
-        K, W = np.split(_real(np.array(numerators), _inverse(D)).T * self.rate, 2, axis=1)
+        combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
+        K, W = np.split(self.rate * self._rows(half, low_word, VECTORS).T, 2, axis=1)
         return R.reshape(-1, 3, 3), W - K, K
 
-    def _attitude(self, weights: FloatArray) -> Callable[..., None]:
-        """Return a function fill(t, rows, low) that writes [Re N, Im N, K] @ ``weights`` into rows (m, n).
+    def _filling(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
+        """Return a function fill(t, rows, low) that writes the `_functions` of ``forms`` times ``weights`` into rows.
 
         ``low`` are low words of the times t (m,), or None.
         """
@@ -208,19 +223,33 @@ class ThetaKernel:
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, SUM_BLOCK):
                 half, low_word, _ = self._phases(t[i : i + SUM_BLOCK], None if low is None else low[i : i + SUM_BLOCK])
-                self._fill(half, low_word, weights, rows[i : i + SUM_BLOCK])
+                combined(self._rows(half, low_word, forms), weights, rows[i : i + SUM_BLOCK])
 
         return fill
 
-    def _fill(self, half: FloatArray, low_word: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
-        """Write [Re N, Im N, K] @ ``weights`` into ``rows`` (m, n) at half phases in two words, (3, m) each, in rad."""
-        (*x, angle), (*less, low_angle) = self._places(half, low_word)
-        sums = self.sums.at(np.array(x), np.array(less), slice(0, 7))
-        inverse = _inverse(sums[3])
-        rotated = np.exp(1j * angle)
-        rotated += rotated * (1j * low_angle)
-        N = sums[:3] * (rotated * inverse)
-        combined(np.concatenate([N.real, N.imag, _real(sums[4:], inverse)]), weights, rows)
+    def _rows(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
+        """Return the `_functions` of ``forms`` at half phases in two words, (3, m) each in rad, as an array (k, m)."""
+        x, less = self._places(half, low_word)
+        return self._functions(self.sums.at(x[:2], less[:2], forms), x[2], less[2], forms)
+
+    def _row(self, t: float, forms: slice) -> FloatArray:
+        """Return the `_functions` of ``forms`` at one time, (k,)."""
+        places = self._places_of_one(*self.phases.words_of_one(t))
+        return self._functions(self.sums.at_one(places[:2], forms), *places[2], forms)
+
+    @staticmethod
+    def _functions(sums: Array, angle: Any, low_angle: Any, forms: slice) -> FloatArray:
+        """Return [Re N, Im N, K, W], three components of each that is among ``forms``, from their sums (forms, ...).
+
+        N is turned by ``angle`` + ``low_angle``.
+        """
+        place = D - forms.start
+        inverse = reciprocal(sums[place])
+        functions = sums[place + 1 :].real * inverse.real - sums[place + 1 :].imag * inverse.imag
+        if not place:
+            return functions
+        N = sums[:place] * (wave(angle, low_angle) * inverse)
+        return np.concatenate([N.real, N.imag, functions])
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
@@ -240,7 +269,7 @@ class ThetaKernel:
     def _quaternions(self, half: FloatArray, low_word: FloatArray) -> FloatArray:
         """Return a quaternion (x, y, z, w) of each R at half phases, (m, 4), with either sign."""
         R = np.empty((half.shape[1], 9))
-        self._fill(half, low_word, self.entries, R)
+        combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
         return of_matrix(R.reshape(-1, 3, 3))
 
     def _turn(self, half: FloatArray) -> FloatArray:
@@ -270,32 +299,33 @@ class ThetaKernel:
         steps = [bool(table[0, 0] @ end < 0) for end in (table[-1, 0], table[0, -1])]
         return table, np.array([*steps, True], dtype=int)[:, None]
 
-    def _vectors(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
-        """Return a function fill(t, rows) that writes [K, W][:k] @ ``weights`` into rows (m, 3).
-
-        ``forms`` is the slice of the sums: the denominator, K, and W if needed.
-        """
-
-        def fill(t: FloatArray, rows: FloatArray) -> None:
-            for i in range(0, t.size, SUM_BLOCK):
-                half, low_word, _ = self._phases(t[i : i + SUM_BLOCK])
-                x, less = self._places(half, low_word)
-                D, *numerators = self.sums.at(x[:2], less[:2], forms)
-                combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + SUM_BLOCK])
-
-        return fill
-
     def _places(self, half: FloatArray, low_word: FloatArray) -> tuple[Array, Array]:
         """Return (arguments of the sums and the angle of N, (3, m), their low words) at half phases in two words."""
         upper = half[:2] + CUT
         upper -= CUT
         x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
-        full_ways = self.lower + self.upper
-        low = full_ways @ (half[:2] - upper + low_word[:2]) + self.lower @ upper
+        low = self.ways @ (half[:2] - upper + low_word[:2]) + self.lower @ upper
         low[2] += 2 * low_word[2]
-        x[2], low_sum = _sum(x[2], 2 * half[2] + 0j)
+        x[2], low_sum = two_sum(x[2], 2 * half[2] + 0j)
         low[2] += low_sum
-        return _sum(x, low)
+        return two_sum(x, low)
+
+    def _places_of_one(self, half: Sequence[float], low_word: Sequence[float]) -> list[tuple[complex, complex]]:
+        """Return `_places` at three half phases as three pairs (number, low word)."""
+        u, v = ((x + CUT) - CUT for x in half[:2])
+        u_rest, v_rest = half[0] - u + low_word[0], half[1] - v + low_word[1]
+        places = list[tuple[complex, complex]]()
+        for (a, b), (c, d), (e, f), angle, low in zip(
+            *self._ways_of_one, (0.0, 0.0, 2 * half[2]), (0.0, 0.0, 2 * low_word[2]), strict=True
+        ):
+            x, rest = two_sum(a * u + b * v, angle)
+            places.append(two_sum(x, rest + low + (c * u + d * v + e * u_rest + f * v_rest)))
+        return places
+
+    @cached_property
+    def _ways_of_one(self) -> list[list[list[complex]]]:
+        """`upper`, `lower` and `ways` as lists."""
+        return [x.tolist() for x in (self.upper, self.lower, self.ways)]
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return half the phases less whole turns, their rounding errors, and the turns + `rounder`.
@@ -309,23 +339,6 @@ def _joined(q: FloatArray) -> FloatArray:
     """Return quaternions (n, ..., 4), some negated so that each is less than a half turn from the row before."""
     signs = np.sign((q[1:] * q[:-1]).sum(-1, keepdims=True))
     return np.concatenate([q[:1], q[1:] * np.cumprod(signs, axis=0)])
-
-
-def _sum(x: Array, y: Array) -> tuple[Array, Array]:
-    """Return (x + y rounded, its rounding error), by Knuth's algorithm."""
-    s = x + y
-    rounded = s - x
-    return s, (x - (s - rounded)) + (y - rounded)
-
-
-def _inverse(D: Array) -> Array:
-    """Return 1/D of complex numbers, by the operations whose rounding errors `Rounding` counts."""
-    return D.conj() / (D.real * D.real + D.imag * D.imag)
-
-
-def _real(x: Array, y: Array) -> FloatArray:
-    """Return the real part of the product x y of complex arrays."""
-    return x.real * y.real - x.imag * y.imag
 
 
 def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
