@@ -93,7 +93,7 @@ def test_bounds_on_sums_hold_and_need_every_word(
     phases, rest = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 2, 40))
     x, rest = closed.rounding.to_v @ phases, rest * 2.0**-48
     low, (P, Q) = (rest + 0j) * (slip != "rest"), (sums.P, sums.Q)
-    alone = [sums.at_one(list(zip(x[:, i].tolist(), low[:, i].tolist(), strict=True)), ALL) for i in range(40)]
+    alone = [sums.at_one(x[:, i], low[:, i], ALL) for i in range(40)]
     ways = sums.at(x, low, ALL), np.transpose(alone)
     first, second = np.exp(1j * np.outer(P, x[0])), np.exp(1j * np.outer(Q, x[1]))
     errors = np.einsum("fpq,pm,qm->fm", abs(sums.table) * sums.steps, abs(first), abs(second))

@@ -8,10 +8,9 @@ Several of them share their powers of exp(i pi v_1) and exp(i pi v_2): a matrix 
 over P. Only quotients are wanted, so that one exponential may be left out of all of them.
 """
 
-from cmath import exp
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product, starmap
+from itertools import product
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -145,9 +144,9 @@ class Sums:
         values[order] = sums[:, middle] + ends[:, 1] + ends[:, 0]
         return values
 
-    def at_one(self, place: Sequence[tuple[complex, complex]], chosen_rows: slice) -> Array:
-        """Return the chosen forms (forms,) at one place, two pairs x, low word of x, by the operations of `at`."""
-        w_1, w_2 = starmap(wave, place)
+    def at_one(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
+        """Return the chosen forms (forms,) at one place x + low_words (2,), by the operations of `at`."""
+        w_1, w_2 = wave(x, low_words).tolist()
         square, inverse_1 = w_2 * w_2, inverse(w_1)
         powers = np.empty((2, 2, self.sizes.shape[1] // 4, 2), np.complex128)
         powers[:, 0] = square, inverse(square)
@@ -228,7 +227,7 @@ class Sums:
 
 def wave(x: Any, low_word: Any) -> Any:
     """Return exp(i (x + low_word)), the low word below an ulp of x; complex numbers or arrays of them."""
-    w = (np.exp if isinstance(x, np.ndarray) else exp)(1j * x)
+    w = np.exp(1j * x)
     return w + w * (1j * low_word)
 
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from flint import acb, arb, fmpq
+from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import workprec
@@ -128,11 +129,8 @@ class TorusVaried:
         return [v, np.matvec(R, (changed[:, 7:].real - dK).swapaxes(1, 2)) * self.kernel.rate]
 
     @staticmethod
-    def _waves(orders: FloatArray, x: Array) -> Array:
-        """Return exp(i n x), shape (k, m), for the integers n of ``orders`` (k,) and phases x (m,) in radians.
-
-        ``orders`` must have an integer dtype; x may be complex.
-        """
+    def _waves(orders: NDArray[np.int64], x: Array) -> Array:
+        """Return exp(i n x), shape (k, m), for the n of ``orders`` (k,) and complex phases x (m,) in radians."""
         least = int(orders.min())
         powers = np.exp(1j * np.arange(least, int(orders.max()) + 1)[:, None] * x)
         return np.asarray(powers[orders - least])

@@ -207,7 +207,7 @@ class SingleAsymmetric:
         moving = np.count_nonzero(times)
         if moving:
             balls = self.closed is None or (name == "angular_velocity" and self._slender)
-            values = getattr(self.certified if balls else self.closed, name)(*column_number, t, out)
+            values: FloatArray = getattr(self.certified if balls else self.closed, name)(*column_number, t, out)
         else:
             values = target(out, times.shape + shape)
         if moving < times.size:

@@ -7,9 +7,8 @@ With x the phases in turns, n the whole ones that are left out of f t, and theta
     R^T (e_x + i e_y) = exp(i alpha) exp(-i theta x) N(x),    alpha = (theta f - b) t.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -37,7 +36,7 @@ SUM_BLOCK = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""
 
 UPPER_BITS = 24
-"""Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
+"""Binary digits of upper words of angles and of their factors: sums of three of their products are exact."""
 
 CUT = 1.5 * 2.0 ** (52 - UPPER_BITS)
 """Number whose addition and subtraction rounds another to 2^-24."""
@@ -116,10 +115,11 @@ class ThetaKernel:
             )  # fmt: skip
             self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
             rounded: Array = np.array([[complex_of(x) for x in row] for row in ways])
-            unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER_BITS)
-            self.upper: Array = np.round(rounded / unit) * unit
-            lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
-            self.lower: Array = np.reshape(lower, (3, 2))
+            unit = 2.0 ** (np.ceil(np.log2(max(abs(rounded).max(), 2.0))) - UPPER_BITS)
+            self.upper: Array = np.column_stack([np.round(rounded / unit) * unit, [0.0, 0.0, 2.0]])
+            self.lower = np.zeros_like(self.upper)
+            for i, j in np.ndindex(rounded.shape):
+                self.lower[i, j] = complex_of(ways[i][j] - acb(self.upper[i, j]))
             self.ways: Array = self.lower + self.upper
             line = np.linspace(-HALF_TURN * np.pi, HALF_TURN * np.pi, 13)
             region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
@@ -188,7 +188,8 @@ class ThetaKernel:
         if times.size != 1:
             return evaluate(times, shape, out, lambda _: self._filling(forms, weights))
         out = target(out, times.shape + shape)
-        np.matmul(self._row(times.item(), forms), weights, out=out.reshape(-1))
+        half, low_word = np.array(self.phases.words_of_one(times.item()))
+        np.matmul(self._functions(half, low_word, forms), weights, out=out.reshape(-1))
         return out
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
@@ -210,8 +211,8 @@ class ThetaKernel:
         for x, period in zip(half[:2], self.periods, strict=True):
             half[2] += x * round(float(period.angle.mid()) / (2 * np.pi))
         R, low_word = np.empty((phases.shape[1], 9)), np.zeros_like(half)
-        combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
-        K, W = np.split(self.rate * self._rows(half, low_word, VECTORS).T, 2, axis=1)
+        combined(self._functions(half, low_word, ATTITUDE), self.entries, R)
+        K, W = np.split(self.rate * self._functions(half, low_word, VECTORS).T, 2, axis=1)
         return R.reshape(-1, 3, 3), W - K, K
 
     def _filling(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
@@ -223,32 +224,25 @@ class ThetaKernel:
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, SUM_BLOCK):
                 half, low_word, _ = self._phases(t[i : i + SUM_BLOCK], None if low is None else low[i : i + SUM_BLOCK])
-                combined(self._rows(half, low_word, forms), weights, rows[i : i + SUM_BLOCK])
+                combined(self._functions(half, low_word, forms), weights, rows[i : i + SUM_BLOCK])
 
         return fill
 
-    def _rows(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
-        """Return the `_functions` of ``forms`` at half phases in two words, (3, m) each in rad, as an array (k, m)."""
-        x, less = self._places(half, low_word)
-        return self._functions(self.sums.at(x[:2], less[:2], forms), x[2], less[2], forms)
+    def _functions(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
+        """Return [Re N, Im N, K, W], three components of each that is among ``forms``, (k, m) at m times, (k,) at one.
 
-    def _row(self, t: float, forms: slice) -> FloatArray:
-        """Return the `_functions` of ``forms`` at one time, (k,)."""
-        places = self._places_of_one(*self.phases.words_of_one(t))
-        return self._functions(self.sums.at_one(places[:2], forms), *places[2], forms)
-
-    @staticmethod
-    def _functions(sums: Array, angle: Any, low_angle: Any, forms: slice) -> FloatArray:
-        """Return [Re N, Im N, K, W], three components of each that is among ``forms``, from their sums (forms, ...).
-
-        N is turned by ``angle`` + ``low_angle``.
+        They are those at half phases in two words, (3, m) or (3,) each, in rad.
         """
+        upper = half + CUT - CUT
+        x, low = two_sum(self.upper @ upper, self.ways @ (half - upper + low_word) + self.lower @ upper)
+        sums = (self.sums.at if half.ndim > 1 else self.sums.at_one)(x[:2], low[:2], forms)
         place = D - forms.start
         inverse = reciprocal(sums[place])
-        functions = sums[place + 1 :].real * inverse.real - sums[place + 1 :].imag * inverse.imag
+        vectors = sums[place + 1 :]
+        functions: FloatArray = vectors.real * inverse.real - vectors.imag * inverse.imag
         if not place:
             return functions
-        N = sums[:place] * (wave(angle, low_angle) * inverse)
+        N = sums[:place] * (wave(x[2], low[2]) * inverse)
         return np.concatenate([N.real, N.imag, functions])
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -269,7 +263,7 @@ class ThetaKernel:
     def _quaternions(self, half: FloatArray, low_word: FloatArray) -> FloatArray:
         """Return a quaternion (x, y, z, w) of each R at half phases, (m, 4), with either sign."""
         R = np.empty((half.shape[1], 9))
-        combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
+        combined(self._functions(half, low_word, ATTITUDE), self.entries, R)
         return of_matrix(R.reshape(-1, 3, 3))
 
     def _turn(self, half: FloatArray) -> FloatArray:
@@ -298,34 +292,6 @@ class ThetaKernel:
         table *= np.sign(table[size // 2, size // 2, 3])
         steps = [bool(table[0, 0] @ end < 0) for end in (table[-1, 0], table[0, -1])]
         return table, np.array([*steps, True], dtype=int)[:, None]
-
-    def _places(self, half: FloatArray, low_word: FloatArray) -> tuple[Array, Array]:
-        """Return (arguments of the sums and the angle of N, (3, m), their low words) at half phases in two words."""
-        upper = half[:2] + CUT
-        upper -= CUT
-        x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
-        low = self.ways @ (half[:2] - upper + low_word[:2]) + self.lower @ upper
-        low[2] += 2 * low_word[2]
-        x[2], low_sum = two_sum(x[2], 2 * half[2] + 0j)
-        low[2] += low_sum
-        return two_sum(x, low)
-
-    def _places_of_one(self, half: Sequence[float], low_word: Sequence[float]) -> list[tuple[complex, complex]]:
-        """Return `_places` at three half phases as three pairs (number, low word)."""
-        u, v = ((x + CUT) - CUT for x in half[:2])
-        u_rest, v_rest = half[0] - u + low_word[0], half[1] - v + low_word[1]
-        places = list[tuple[complex, complex]]()
-        for (a, b), (c, d), (e, f), angle, low in zip(
-            *self._ways_of_one, (0.0, 0.0, 2 * half[2]), (0.0, 0.0, 2 * low_word[2]), strict=True
-        ):
-            x, rest = two_sum(a * u + b * v, angle)
-            places.append(two_sum(x, rest + low + (c * u + d * v + e * u_rest + f * v_rest)))
-        return places
-
-    @cached_property
-    def _ways_of_one(self) -> list[list[list[complex]]]:
-        """`upper`, `lower` and `ways` as lists."""
-        return [x.tolist() for x in (self.upper, self.lower, self.ways)]
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return half the phases less whole turns, their rounding errors, and the turns + `rounder`.
