@@ -43,6 +43,8 @@ NAME = "your_body"
 """Name of the report, before the digest of its inputs."""
 PICTURE = f"{NAME}.py"
 """File of this recipe beside the reports, one for all."""
+OPTION = "\n  "
+"""What precedes an option in a file of inputs, so that each has a line of its own."""
 SOFTWARE = """@software{{atlas,
   author  = {{{{the atlas developers}}}},
   title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
@@ -151,9 +153,10 @@ def inputs_of(request: Asked) -> str:
         for p in request.family.parameters
         if p.option and p.omitted is not None and p.name in request.values and p.name not in request.options
     ]
-    content = {"typed": request.words, "defaults": omitted, "digest": digest_of(request),
+    typed = "".join(f"{OPTION if word.startswith('--') else ' '}{toml.written(word)}," for word in request.words)
+    content = {"defaults": omitted, "digest": digest_of(request),
                "evaluated": evaluated(request), "versions": versions()}  # fmt: skip
-    return f"# {request.command}\n" + "".join(toml.lines(content))
+    return f"# {request.command}\ntyped = [{typed.removeprefix(' ')}\n]\n" + "".join(toml.lines(content))
 
 
 def works() -> str:

@@ -1,16 +1,17 @@
 """The request of a report of a body, a field and a start, that the options of a command are."""
 
 import re
-import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import click
 
+from atlas.book import toml
 from atlas.cli import body
 from atlas.cli.app import GONE
 from atlas.cli.axes import in_principal_axes, motion_in_given_axes
@@ -20,16 +21,17 @@ from atlas.cli.family import (
     in_plane,
     lines_of_quantities,
     object_options,
+    of_any_body,
     spread_of,
     value_of,
     values_of,
 )
 from atlas.cli.options import given, jobs_option, out_option, stack
 from atlas.cli.points import points
-from atlas.cli.top import top_units
+from atlas.cli.top import checks_of_top, top_units
 from atlas.cli.typed import Inclined, parts_of
 from atlas.cli.uncertain import UncertainAnswer, certain, uncertain
-from atlas.cli.words import SECTIONS, Command, Words
+from atlas.cli.words import OF_FIELD, SECTIONS, START, Command, Words
 from atlas.errors import AtlasError, FaultsError, unknown
 from atlas.motions.register import FAMILIES, Family
 from atlas.places import folder
@@ -37,8 +39,8 @@ from atlas.places import folder
 if TYPE_CHECKING:
     from atlas.book.parts import Asked
 
-PLACE = "atlas.cli.body_request.place"
-"""Key of the place of typed options in a file of inputs, such as "one.inputs.toml, typed: "."""
+TYPED = "atlas.cli.body_request.typed"
+"""Key of the file of inputs whose words are read, a `TypedFile`."""
 OF_ANGLE = ("--angle", "--field", "--magnetic")
 """Options that are read together, so that a fault of one is a fault of all."""
 OPTIONS_OF = {
@@ -64,10 +66,17 @@ def report_options(out: str) -> Callable[[Any], Any]:
     """Return the decorator of a report's options; `out` is the default folder."""
     return stack(
         out_option(out),
-        click.option("--title", help="Title of the report."),
+        click.option("--title", callback=one_line, help="Title of the report."),
         click.option("--name", metavar="NAME", help="Name of its files, in the place of your_body."),
         jobs_option,
     )
+
+
+def one_line(_context: click.Context, _param: click.Parameter, text: str | None) -> str:
+    """Return the text of an option, "" for none. Raises click.UsageError for line breaks and control characters."""
+    if not (text or "").isprintable():
+        raise click.UsageError("--title is a text of one line: leave out its control characters.")
+    return text or ""
 
 
 def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str:
@@ -94,27 +103,27 @@ class OneObject(Command):
 
         They are read again without each option at fault, so that all faults are found; see `refuse`.
         """
-        errors, dropped, left = list[Exception](), set[str](), None
+        faults, dropped, left = list[tuple[str, Exception]](), set[str](), None
         while left is None:
             ctx.params.clear()
             try:
                 left = super().parse_args(ctx, args)
             except click.MissingParameter as error:
                 if not (error.param and {*error.param.opts} & dropped):
-                    errors.append(error)
+                    faults.append(("", error))
                 ctx.resilient_parsing = True  # no other missing option is an error
             except click.UsageError as error:
-                errors.append(error)
+                faults.append(("", error))
                 names = Words(args).names
                 name = next((x for x in re.findall(r"--[\w-]+", error.format_message()) if x in names), "")
                 if not name:
-                    refuse(errors)
+                    refuse(faults)
                 dropped |= {name, *(OF_ANGLE if name in OF_ANGLE else ())}
                 args = _without(args, dropped)
-        if errors:
+        if faults:
             known = [opt for param in self.params for opt in param.opts]
             meant = {next(iter(get_close_matches(name, known, 1)), name).removeprefix("--") for name in dropped}
-            refuse([*errors, *faults_of(self.family, ctx.params, meant)])
+            refuse([*faults, *faults_of(self.family, ctx.params, meant)])
         return left
 
 
@@ -148,27 +157,79 @@ def _without(args: list[str], names: Collection[str]) -> list[str]:
     return [*words.loose, *(word for option in kept for word in option)]
 
 
-def faults_of(family: Family, options: Mapping[str, Any], dropped: Collection[str] = ()) -> Iterator[Exception]:
-    """Yield the errors of body, field and start, each taken by itself; parts with `dropped` options are left out."""
-    if family.takes("coupling") or given(options, ("tensor", "attitude")):
-        return
-    for p in family.parameters:
-        if p.name in OPTIONS_OF and not {*OPTIONS_OF[p.name]} & {*dropped}:
+def faults_of(
+    family: Family, options: Mapping[str, Any], dropped: Collection[str] = ()
+) -> Iterator[tuple[str, Exception]]:
+    """Yield (option, error) for body, field and start, each taken by itself; parts with `dropped` options are left out.
+
+    The option is the first that was given of those on which the part depends, "" for none.
+    """
+    for names, read in checks_of(family, {**options, "decimal": False}):
+        if not {*names} & {*dropped}:
             try:
-                value_of(family, p, {**options, "decimal": False})
+                read()
             except (click.UsageError, AtlasError) as error:
-                yield error
+                yield next((f"--{name}" for name in given(options, names)), ""), error
 
 
-def refuse(errors: Sequence[Exception]) -> NoReturn:
-    """Raise the only error, or a FaultsError with a sentence for each, behind the place of a file of inputs."""
+def checks_of(family: Family, options: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
+    """Yield, for each part of body, field and start, the names of its options and the function that reads them."""
+    if family.takes("coupling"):
+        yield from checks_of_top(options)
+    for p in family.parameters:
+        if p.name in OPTIONS_OF and not family.takes("coupling"):
+            of_body = p.name == "inertia" and of_any_body(family)
+            is_free = p.name == "field" and not given(options, OF_FIELD)
+            read = partial(_checked_inertia, options) if of_body else partial(value_of, family, p, options)
+            yield (*OPTIONS_OF[p.name], *(START if is_free else ())), read
+
+
+def _checked_inertia(options: Mapping[str, Any]) -> Any:
+    """Return the inertia tensor of --tensor, --points or three moments. Raises DomainError for that of no body."""
+    from atlas.bodies.inertia import inertia_tensor
+
+    tensor = body.given_tensor(options)
+    return inertia_tensor(body.chosen_moments(options) if tensor is None else tensor)
+
+
+class TypedFile(NamedTuple):
+    """A file of inputs: its path or name, its text, and the names of the options that are typed beside it."""
+
+    file: str
+    text: str
+    beside: Collection[str]
+
+    def place(self, sentence: str) -> str:
+        """Return "FILE, line N: " for a sentence on an option that the file types; "" for one that is typed beside it.
+
+        A sentence that names no option has the line of the key `typed`.
+        """
+        names = re.findall(r"--[\w-]+", sentence)
+        if names and names[0] in self.beside:
+            return ""
+        lines = self.text.split("\n")
+        start = next((k for k, line in enumerate(lines) if re.match(r"\s*typed\b", line)), 0)
+        of_option = (
+            k for name in names for k, line in enumerate(lines[start:], start) if re.search(rf"[\"']{name}\b", line)
+        )
+        return f"{self.file}, line {next(of_option, start) + 1}: "
+
+
+def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
+    """Raise the only error, or a FaultsError with a sentence for each, behind its place in a file of inputs.
+
+    `faults` are pairs of an option, put before a sentence that names none, and an error.
+    """
     from atlas.cli.app import explained
 
-    place = click.get_current_context().meta.get(PLACE, "")
-    if len(errors) == 1 and not place:
-        raise errors[0]
-    sentences = (explained(one) if isinstance(one, click.ClickException) else str(one) for one in errors)
-    raise FaultsError(f"{place}{says}" for says in sentences)
+    file = click.get_current_context().meta.get(TYPED)
+    if len(faults) == 1 and not file:
+        raise faults[0][1]
+    says = list[str]()
+    for option, error in faults:
+        sentence = explained(error) if isinstance(error, click.ClickException) else str(error)
+        says.append(sentence if not option or "--" in sentence else f"{option}: {sentence}")
+    raise FaultsError(f"{file.place(one) if file else ''}{one}" for one in says)
 
 
 def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
@@ -193,11 +254,12 @@ class ByOptions(click.Group):
         """Insert the command before its options, of the family to which they belong."""
         ctx.meta[EXPLAIN] = EXPLAIN in args
         args = [word for word in args if word not in {NAME, EXPLAIN}]
-        if "--from" in args:
-            at = args.index("--from")
-            file, beside = "".join(args[at + 1 : at + 2]), [*args[:at], *args[at + 2 :]]
-            args = [*typed_in("--from", file), *beside]
-            ctx.meta[PLACE] = "" if Words(beside).names - {f"--{name}" for name in OWN} else f"{file}, typed: "
+        if files := [one.values for one in Words(args).options if one.name == "--from"]:
+            if len(files) > 1:
+                raise click.UsageError("--from stands twice; give one file, and what differs by options beside it.")
+            file, beside = "".join(files[0][:1]), [*_without(args, {"--from"}), *files[0][1:]]
+            text, typed = typed_in("--from", file)
+            args, ctx.meta[TYPED] = [*typed, *beside], TypedFile(file, text, Words(beside).names)
         if args and args[0] in GONE:
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
         if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
@@ -213,8 +275,8 @@ class ByOptions(click.Group):
         return super().parse_args(ctx, args)
 
 
-def typed_in(option: str, file: str = "") -> list[str]:
-    """Return the words of a command that a file of inputs holds; `file` is a path or a name in the gallery.
+def typed_in(option: str, file: str = "") -> tuple[str, list[str]]:
+    """Return the text of a file of inputs and the words of a command in it; `file` is a path or a name in the gallery.
 
     Raises
     ------
@@ -225,12 +287,18 @@ def typed_in(option: str, file: str = "") -> list[str]:
     if file and not Path(file).suffix and not Path(file).exists() and file not in gallery:
         raise click.UsageError(f"{option}: {unknown('body', file, gallery, 'in the gallery')}")
     try:
-        content = tomllib.loads(gallery.get(file, Path(file)).read_text(encoding="utf-8"))
-        return [str(word) for word in content["typed"]]
-    except (KeyError, OSError, TypeError, ValueError) as error:
+        text = gallery.get(file, Path(file)).read_text(encoding="utf-8")
+        words = toml.loads(text).get("typed")
+        reason = "" if isinstance(words, list) else "it has no list of words, typed = [...]"
+    except OSError as error:
+        reason = str(error.strerror) if file else "it is missing"
+    except ValueError as error:
+        reason = "it is not text" if isinstance(error, UnicodeError) else str(error)
+    if reason:
         raise click.UsageError(
-            f"{option} takes a file NAME{ENDING} that {NAME} wrote, not {file or 'nothing'!r}."
-        ) from error
+            f"{option} takes a file NAME{ENDING} that {NAME} wrote, not {file or 'nothing'!r}: {reason}."
+        )
+    return text, [str(word) for word in words]
 
 
 def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
@@ -276,7 +344,7 @@ def best(words: Words) -> str:
             opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts
         }
         strange = sum(
-            opt not in parameters or parameters[opt].nargs not in {len(x.values), len(x.components)}
+            2 if opt not in parameters else parameters[opt].nargs not in {len(x.values), len(x.components)}
             for opt, x in option_by_name.items()
         )
         starts = not {"--omega", "--spin"} & option_by_name.keys() if "--spin" in parameters else 0
@@ -290,11 +358,14 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
     from atlas.book.parts import Asked
 
     body.check_speeds(options)
-    if errors := [*faults_of(family, options)]:
-        refuse(errors)
+    if faults := [*faults_of(family, options)]:
+        refuse(faults)
     typed_options = typed_options_of(options.keys() - OWN, options)
     options_asked = dict(zip((p.name for p in family.parameters), values_of(family, options), strict=True))
-    family.kernels()(*options_asked.values())  # refuses an impossible object before figures are drawn
+    try:
+        family.kernels()(*options_asked.values())  # refuses an impossible object before figures are drawn
+    except AtlasError as error:
+        refuse([("", error)])
     values = {
         p.name: _plain(options_asked[p.name])
         for p in family.parameters
@@ -315,7 +386,7 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
         records["body"] = _body(options)
     if in_plane(family):
         records["field"] = _field(options)
-    title, digits, called = options["title"] or "", options["digits"], file_name(options)
+    title, digits, called = options["title"], options["digits"], file_name(options)
     context = click.get_current_context(silent=True)
     deviations = context.meta.get(DEVIATIONS) if context else None
     if deviations or uncertain(options):

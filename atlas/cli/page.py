@@ -47,7 +47,7 @@ def of_fit(file: Path, **options: Any) -> int:
     result = fit_file(file, **given)  # as the recipe of the page's picture finds it
     wanted = Fitted(
         result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
-        given, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"] or "", called,
+        given, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"], called,
     )  # fmt: skip
     built = build(wanted.name, wanted.sources(), options["out"], options["jobs"], FORMATS)
     click.echo(f"{built.single}\n{built.pdf}")

@@ -99,7 +99,7 @@ def against(other: str, out: Path, jobs: int | None, words: tuple[str, ...]) -> 
     """
     from atlas.book.several_bodies import against as compared
 
-    name, sources = compared(request_of(words)[0], request_of(typed_in("--against", other))[0])
+    name, sources = compared(request_of(words)[0], request_of(typed_in("--against", other)[1])[0])
     report = build(name, sources, out, jobs, ("single", "pdf"))
     click.echo(report.single)
     click.echo(report.pdf)

@@ -1,6 +1,6 @@
 """Options of ``atlas top`` in place of moments and couplings: a heavy body, or a charged one in a field."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import hypot
 from pathlib import Path
@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from atlas.bodies.formula_domain import check_direction, check_moments
 from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, size_options, start_of, units_of
 from atlas.cli.options import FILE, given, numbers, stack
 from atlas.cli.points import Masses, point_masses
@@ -63,6 +64,21 @@ def needs_no_way(options: Mapping[str, Any]) -> None:
     for name, form in (("inertia", "I2 I3"), ("direction", "N2 N3")):
         if options[name] is None:
             raise click.UsageError(f"--{name} is missing: give --{name} {form}, or a body by --heavy or --magnetic.")
+
+
+def checks_of_top(options: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
+    """Yield, for each part of a top, the names of its options and the function that reads them, which may raise."""
+    yield ("omega", "spin"), lambda: start_of(options)
+    if options["direction"] is not None:
+        yield ("direction",), lambda: check_direction(*options["direction"])
+    if not given_otherwise(options):
+        yield ("inertia", "direction", *top_parameters(options)), lambda: needs_no_way(options)
+        if options["inertia"] is not None:
+            yield ("inertia",), lambda: check_moments(*options["inertia"])
+        return
+    yield (*BODY, *SIZES, *OF_HEAVY, "heavy"), lambda: _body(options)
+    if options["magnetic"] is not None:
+        yield (*CHARGES, *SIZES, "charge"), lambda: _charges(options, None)
 
 
 def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:

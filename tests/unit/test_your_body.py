@@ -1,6 +1,7 @@
 """The report of a body of the reader's own: its card, names, inputs, prose, and the whole build."""
 
 import json
+import re
 import tomllib
 from dataclasses import replace
 from fractions import Fraction
@@ -193,6 +194,7 @@ def test_another_file_than_that_of_the_inputs_is_refused(text: str, tmp_path: Pa
         ("", "your_body takes a body, a field and a start"),
         ("--from nosuch.toml", "--from takes a file NAME.inputs.toml that your_body wrote, not 'nosuch.toml'"),
         ("--shape thin-rod --length 1e-6 --field 1 2 --omega 1 2 3", "a thin rod has I3 = 0"),
+        ("--title \a --ratio 0.7 --field 1 2", "--title is a text of one line"),
         ("--only card,moton --ratio 0.7 --field 1 2", "no part 'moton' of the report (did you mean 'motion'?)"),
         ("--ratio 3 --field 1 2 --omega2 1", "3"),
     ],
@@ -220,7 +222,16 @@ def test_a_body_without_a_report_is_refused_in_one_line(
         ),
         ("--ratio 3 --magnetic 0.8T 0T --omega 1 2 3 --spin 2", ["I3/I2 = 3.0", "needs --mass and --charge", "twice"]),
         ("--shape disk --radius 1um --height 2um --mass 1 --magnetic 0.8T --angle x --spin 2", ["'--angle'", "disk"]),
-        ("top --inertia 1 9 --direction 1 0 --omega 1 2 x --linear y", ["'--omega'", "'--linear'"]),
+        (
+            "top --inertia 1 9 --direction 0 0 --omega 1 2 x --linear y",
+            ["'--omega'", "'--linear'", "--direction: The", "I2 = 1.0, I3 = 9.0"],
+        ),
+        (
+            "top --inertia 1 9 --heavy 9.8 1 --mass 1 --direction 0 0 --omega 1 2",
+            ["--omega takes 3", "--direction: The", "I2 = 1.0, I3 = 9.0"],
+        ),
+        ("--inertia 1 2 9 --omega 1 2 --digits 0", ["--omega takes 3", "'--digits'", "9 exceeds 2 + 1 by 6"]),
+        ("--tensor 1 2 9 0 0 0 --field 1 2 --spin 1", ["--field takes 3", "9 exceeds 2 + 1 by 6"]),
     ],
 )
 def test_all_faults_of_the_options_are_told_at_once(words: str, says: list[str], tmp_path: Path) -> None:
@@ -228,11 +239,14 @@ def test_all_faults_of_the_options_are_told_at_once(words: str, says: list[str],
     with pytest.raises(FaultsError) as refused:
         request_of(words)
     assert [x in said for x, said in zip(says, refused.value.sentences, strict=True)] == [True] * len(says)
-    file = tmp_path / "one.inputs.toml"
-    file.write_text(f"typed = {json.dumps(words.split())}", encoding="utf-8")
+    file, typed = tmp_path / "one.inputs.toml", words.split()
+    file.write_text("# words\ntyped = [\n" + ",\n".join(map(json.dumps, typed)) + "]", encoding="utf-8")
     with pytest.raises(FaultsError) as of_file:
-        request_of(["--from", str(file), "--name", "other"])
-    assert of_file.value.sentences == tuple(f"{file}, typed: {one}" for one in refused.value.sentences)
+        request_of([f"--from={file}", "--name", "other"])
+    for said, one in zip(of_file.value.sentences, refused.value.sentences, strict=True):
+        option = next((name for name in re.findall(r"--[\w-]+", one) if name in typed), "")
+        line = typed.index(option) + 3 if option else 2
+        assert said == f"{file}, line {line}: {one}"
 
 
 @pytest.mark.slow
