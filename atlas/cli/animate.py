@@ -99,7 +99,8 @@ def through(text: str) -> tuple[str, list[Any]]:
         raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
     ends = [setting(f"{key}={end}")[1] for end in typed[:2]]
     try:
-        steps = np.linspace(*np.asarray(ends, dtype=float), typed.count)
+        start, stop = np.asarray(ends, dtype=float)
+        steps = np.linspace(start, stop, typed.length)
     except (TypeError, ValueError) as error:
         raise click.UsageError(
             "--over goes from a number to a number, or from a list to one as long, not from "

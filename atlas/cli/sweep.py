@@ -407,4 +407,4 @@ def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
         return ufloat(float(numbers[0]), numbers[0].sigma)
     start, stop = map(float, numbers)
     typed.check(start, stop)
-    return Range(start, stop, typed.count, log=typed.is_log).values
+    return Range(start, stop, typed.length, log=typed.is_log).values

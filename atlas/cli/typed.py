@@ -87,14 +87,14 @@ class Typed(float):
 
 
 class TypedRange(NamedTuple):
-    """A range as typed, START:STOP:COUNT: the texts of its ends, its count, and whether its steps are of the logarithm.
+    """A range as typed, START:STOP:COUNT, with the texts of its two ends, which belong to it, and its length.
 
-    Both ends belong to it.
+    `is_log` says whether its steps are even in the logarithm.
     """
 
     start: str
     stop: str
-    count: int
+    length: int
     is_log: bool
 
     @classmethod
@@ -181,7 +181,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         start, stop = (self._single(item, param, ctx) for item in typed[:2])
         check_units(param.opts[0], (start, stop))
         typed.check(start, stop)
-        name, places = str(param.name), range(typed.count)
+        name, places = str(param.name), range(typed.length)
         unit, last_place = str(WANTED[name]) if start.unit or stop.unit else "", places[-1]
         ends = start.exactly(), stop.exactly()
         denominator = math.lcm(*(end.denominator for end in ends)) * last_place

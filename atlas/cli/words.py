@@ -1,7 +1,7 @@
 """Words of a command line: each option with the words that follow it, read once, in all ways to type them."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import chain
 from typing import Any, NamedTuple
@@ -107,7 +107,7 @@ class Words:
         for word in words:
             ended = bool(self.options) and self.options[-1].name == "--"
             if not ended and (word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha())):
-                name, equals, value = word.partition("=")
+                name, equals, value = word.partition("=") if word.startswith("--") else (word[:2], word[2:], word[2:])
                 self.options.append(Option(word, name, values := [value] if equals else []))
             else:
                 values.append(word)
@@ -175,6 +175,10 @@ class Command(click.Command):
                 with formatter.section(title):
                     formatter.write_dl(sections[title])
 
+    def make_parser(self, ctx: click.Context) -> Any:
+        """Return the parser of this command's words."""
+        return Reader(ctx, self.get_params(ctx))
+
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the words into `ctx.params` and return the remaining ones; with --help nothing else is parsed.
 
@@ -184,9 +188,7 @@ class Command(click.Command):
         if help_names := words.names & {*ctx.help_option_names}:
             ctx.obj = [*words.loose, *(x for one in words.options if one.name in help_names for x in one.values)]
             return super().parse_args(ctx, [*help_names][:1])
-        with augment_usage_errors(ctx):
-            plain_words = list(Reader(words, self.get_params(ctx)).plain())
-        remaining_words = super().parse_args(ctx, plain_words)
+        remaining_words = super().parse_args(ctx, args)
         options = {str(param.name): param for param in self.params}
         for name, option in options.items():
             if option.multiple and option.type is REAL:
@@ -221,44 +223,71 @@ def zero_field(options: Mapping[str, Any], size: int) -> dict[str, Any]:
 
 
 class Reader:
-    """Translator of a command's words by its click parameters; `plain` yields them in the form that click expects."""
+    """Parser of the words of a command, in the place of click's: an option takes the words that follow it."""
 
-    def __init__(self, words: Words, params: Sequence[click.Parameter]) -> None:
-        self.words, self.params = words, params
+    _opt_prefixes = frozenset({"-", "--"})
+
+    def __init__(self, ctx: click.Context, params: Sequence[click.Parameter]) -> None:
+        self.ctx = ctx
         self.known = {name: param for param in params for name in param.opts if isinstance(param, click.Option)}
-        self.places = [param.nargs for param in params if isinstance(param, click.Argument)]
+        self.arguments = [param for param in params if isinstance(param, click.Argument)]
         self.has_settings = "settings" in {param.name for param in params}
 
-    def plain(self) -> Iterator[str]:
-        """Yield the words as click expects them, a vector as its components.
+    def parse_args(self, args: Sequence[str]) -> tuple[dict[str, Any], list[str], list[click.Parameter]]:
+        """Return (texts by the names of parameters, words that belong to none, parameters in the order of typing).
 
         Raises click.UsageError for unknown options, wrong counts of numbers, and words that belong to no option.
         """
-        for option in self.words.options:
-            name = option.name if option.name.startswith("--") else option.name[:2]  # -j8 is -j 8
-            if name not in {*self.known, "--"}:
-                raise self._unknown(option.name)
-        yield from self.words.loose
-        loose = list(self.words.loose)
-        for option in self.words.options:
-            param = self.known.get(option.name)
-            if param is not None and (param.multiple or (param.name == "grid" and ":" in "".join(option.values))):
-                yield from self._repeated_options(option, param)
-                continue
-            if param is not None and param.nargs > 1:
-                vector, words = self._vector(option, param)
-                yield from (option.name, *vector)
-            else:
-                words = option.values[option.typed != option.name :]
-                yield option.typed
-            yield from words
-            takes = param is not None and param.nargs == 1 and not param.is_flag and option.typed == option.name
-            loose += words[takes:]
-        if self.has_settings and -1 not in self.places and len(loose) > sum(self.places):
-            raise click.UsageError(
-                f"{loose[sum(self.places)]!r} belongs to no option: a parameter is one word, --set KEY=VALUE, "
-                "and so are values, KEY=START:STOP:COUNT."
-            )
+        words = Words(args)
+        texts, order, loose = dict[str, Any](), list[click.Parameter](), list(words.loose)
+        with augment_usage_errors(self.ctx):
+            for option in words.options:
+                if option.name not in {*self.known, "--"}:
+                    raise self._unknown(option.typed.partition("=")[0])
+            for option in words.options:
+                if option.name == "--":
+                    loose += option.values
+                    continue
+                is_range = option.name == "--grid" and ":" in "".join(option.values)
+                param = self.known["--times" if is_range else option.name]
+                text, after = self._taken(option, param, words)
+                texts[str(param.name)] = [*texts.get(str(param.name), ()), *text] if param.multiple else text
+                order.append(param)
+                loose += after
+            for argument in self.arguments:
+                if loose:
+                    text, loose = (tuple(loose), []) if argument.nargs < 0 else (loose[0], loose[1:])
+                    texts[str(argument.name)] = text
+                    order.append(argument)
+            if self.has_settings and loose:
+                raise click.UsageError(
+                    f"{loose[0]!r} belongs to no option: a parameter is one word, --set KEY=VALUE, "
+                    "and so are values, KEY=START:STOP:COUNT."
+                )
+        return texts, loose, order
+
+    def _taken(self, option: Option, param: click.Option, words: Words) -> tuple[Any, list[str]]:
+        """Return (value of an option as click's types convert it, words after the value).
+
+        Numbers of any count stay in one text. Raises click.UsageError for an option without a value, and for a flag
+        with one.
+        """
+        if param.is_flag:
+            if option.typed != option.name:
+                raise click.BadOptionUsage(option.name, f"Option {option.name!r} does not take a value.")
+            return True, option.values
+        if param.nargs > 1:
+            return self._vector(option, param, words)
+        if not option.values and isinstance(param.flag_value, str):
+            return param.flag_value, []
+        if not option.values:
+            raise click.BadOptionUsage(option.name, f"{option.name} takes {param.metavar or 'a value'}; found none.")
+        if not param.multiple:
+            return option.values[0], option.values[1:]
+        if param.type is REAL:
+            return [" ".join(option.values)], []
+        parts = (([word] if param.name == "settings" else word.split(",")) for word in option.values)
+        return list(chain.from_iterable(parts)), []
 
     def _unknown(self, name: str) -> click.UsageError:
         """Return the error for an option that the command does not have."""
@@ -271,30 +300,14 @@ class Reader:
             return click.UsageError(f"there is no option {name}: {OTHERS[bare]}.")
         return click.NoSuchOption(name, possibilities=get_close_matches(name, self.known))
 
-    @staticmethod
-    def _repeated_options(option: Option, param: click.Option) -> Iterator[str]:
-        """Yield the option before each of its values; numbers stay in one word, for click is slow with many words.
-
-        Raises click.UsageError for an option without a value.
-        """
-        if not option.values:
-            raise click.UsageError(f"{option.name} takes {param.metavar or 'a value'}; found none.")
-        if param.type is REAL:
-            yield from ("--times" if param.name == "grid" else option.name, " ".join(option.values))
-            return
-        for word in option.values:
-            yield from chain.from_iterable(
-                (option.name, x) for x in ([word] if param.name == "settings" else word.split(","))
-            )
-
-    def _vector(self, option: Option, param: click.Option) -> tuple[list[str], list[str]]:
+    def _vector(self, option: Option, param: click.Option, words_typed: Words) -> tuple[list[str], list[str]]:
         """Return (components of the option's vector, words after it); only commands with arguments have such words.
 
         Raises click.UsageError for another count of numbers.
         """
         components, words = list[str](), list(option.values)
         while words and (
-            not self.places or all(is_number(x, is_wanted=len(components) < param.nargs) for x in apart(words[0]))
+            not self.arguments or all(is_number(x, is_wanted=len(components) < param.nargs) for x in apart(words[0]))
         ):
             components += apart(words.pop(0))
         if param.name == "inertia" and {len(components), param.nargs} == {2, 3}:
@@ -305,7 +318,7 @@ class Reader:
                     "asymmetric with --set I1=0.8 and so on."
                 )
             components = [components[0], *components]
-        if param.name in ("field", "magnetic") and "--angle" in self.words.names & self.known.keys():
+        if param.name in ("field", "magnetic") and "--angle" in words_typed.names & self.known.keys():
             if len(components) != 1:
                 raise click.UsageError(
                     f"with --angle, {option.name} is one number, the strength of the field, not {len(components)}."
