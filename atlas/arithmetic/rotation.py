@@ -123,6 +123,9 @@ BLOCK, PRODUCT_MATRICES = 6000, 3000
 """Times evaluated at once, so that their arrays stay in the second-level cache, and matrices made from them at once,
 so few that the library does not thread the product. No powers of two, whose multiples a cache takes for one another."""
 
+FEW_TIMES = 4
+"""Times up to which functions of each time by itself are faster than those of an array."""
+
 LARGEST = float(np.finfo(float).max) / 4
 """Size of a component that turns: a sum of two, times two, is a float."""
 
@@ -245,9 +248,10 @@ def combinations(
     ``weights`` (3, 9 or 11, prod(shape)) hold one row for each function over SCALE. ``out``, if given, is filled.
     """
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
-    if times.size == 1:
+    if 0 < times.size <= FEW_TIMES:
         out = target(out, times.shape + shape)
-        np.matmul(functions_of_one(phases.circle_of_one(times.item()), len(weights)), weights, out=out.reshape(-1))
+        rows = [functions_of_one(phases.circle_of_one(x), len(weights)) for x in times.ravel().tolist()]
+        np.matmul(rows, weights, out=out.reshape(times.size, -1))
         return out
     if times.size <= PRODUCT_MATRICES:
         out = target(out, times.shape + shape)

@@ -33,6 +33,7 @@ PER_REGIME = 8
 def every_array_by_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """Evaluate short arrays as long ones are."""
     monkeypatch.setattr(NutatingMotion, "_min_array_motions", 1)
+    monkeypatch.setattr(NutatingMotion, "_min_array_scalars", 1)
 
 
 def ordinary(count: int, seed: int = 0) -> Any:

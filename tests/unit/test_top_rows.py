@@ -18,6 +18,7 @@ EPS = 2.0**-52
 def every_array_by_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """Evaluate short arrays as long ones are."""
     monkeypatch.setattr(NutatingMotion, "_min_array_motions", 1)
+    monkeypatch.setattr(NutatingMotion, "_min_array_scalars", 1)
 
 
 def drawn(name: str, count: int, seed: int = 3) -> list[Top]:

@@ -33,7 +33,9 @@ class NutatingMotion(Motion[Nutation]):
 
     _in_arrays: Container[str] = ()
     """Names of the values that `_scalars` has for all motions at once; others are computed motion by motion."""
-    _min_array_motions = 12
+    _min_array_motions = 16
+    _min_array_scalars = 8
+    """Number of motions from which `_scalars` are faster than motion by motion."""
     _is_exact_at_zero = False
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
@@ -201,7 +203,7 @@ class NutatingMotion(Motion[Nutation]):
 
         Values that arrays give with certainty are taken from `_scalars`, the others from the certified motions.
         """
-        if 0 < prod(self.shape) < self._min_array_motions or name not in self._in_arrays:
+        if 0 < prod(self.shape) < self._min_array_scalars or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
         values, is_certain = self._scalars[name]
         rows = np.moveaxis(as_values(values), -1, 0)

@@ -17,7 +17,7 @@ from atlas.arithmetic.inputs import FloatArray, largest, real
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.arithmetic.quaternions import between
-from atlas.arithmetic.rotation import combined, evaluate, target
+from atlas.arithmetic.rotation import FEW_TIMES, combined, evaluate, target
 from atlas.errors import DomainError
 from atlas.motions.nutation.cayley_klein import Evaluation, entries, products_of_one
 from atlas.motions.nutation.certified import Nutating
@@ -121,9 +121,10 @@ class SingleMotion:
         ``weights`` (10, prod(shape)) are constant; ``pair`` replaces (alpha, beta) of the motion.
         """
         times, pair = real(t, "The time"), pair or self.pair
-        if times.size == 1 and pair.at_one_time:
+        if 0 < times.size <= FEW_TIMES and pair.at_one_time:
             out = target(out, times.shape + shape)
-            np.matmul(products_of_one(pair, times.item()), weights, out=out.reshape(-1))
+            products = [products_of_one(pair, x) for x in times.ravel().tolist()]
+            np.matmul(products, weights, out=out.reshape(times.size, -1))
             return out
 
         def prepare(size: int) -> Any:
