@@ -95,8 +95,8 @@ class Machine(Item, frozen=True):
 class Run(Item, frozen=True):
     """One method on one case up to the time `horizon`: largest error and computing time, or None and a reason.
 
-    ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up;
-    ``note`` is the reason where they are None.
+    ``error`` is the largest over the samples, or over a few of them where true values take long; ``seconds`` is the
+    time for all samples once the method is set up. ``note`` is the reason where they are None.
     """
 
     case: str
@@ -152,7 +152,7 @@ class Results(Item, frozen=True):
     costs: list[Cost]
     limits: list[Limit] = []
     narrow: list[Run] = []
-    """Closed forms of the elementary motion once more, NumPy and C held back from AVX-512."""
+    """Closed forms of some cases once more, NumPy and C held back from AVX-512."""
 
 
 def stored() -> Path:

@@ -77,7 +77,7 @@ def _latency(setups: list[Setup], costs: list[Cost]) -> Iterator[Limit]:
     single = _ratio(costs, "ours", 1, "nanoseconds")
     yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
     again = [item.again for item in setups if item.case == "elementary" and item.method == "ours" and item.again]
-    yield _below("a motion made (ms)", again[0] * 1e3 if again else None, 1.0)
+    yield _below("a motion made, with its first value (ms)", again[0] * 1e3 if again else None, 1.0)
 
 
 def _many(rows: list[Rows]) -> Iterator[Limit]:

@@ -16,6 +16,7 @@ from flint import arb, arb_poly, arb_series, ctx
 
 from atlas.arithmetic.numbers import workprec
 from benchmarks.case import Case, FloatArray
+from benchmarks.results import spread
 
 BITS = 256
 ORDER = 40
@@ -24,26 +25,30 @@ STEP = 0.125
 
 @dataclass(frozen=True)
 class Reference:
-    """True values ``high + low`` at some times, and the scale of the errors there."""
+    """True values ``high + low`` at the times number ``checked`` of ``count``, and the scale of the errors there."""
 
     high: FloatArray
     low: FloatArray
     scale: FloatArray
+    checked: list[int]
+    count: int
 
     def error(self, values: FloatArray) -> float:
-        """Return the largest error of any entry; infinite where a value is none."""
-        if values.shape != self.high.shape:
-            raise ValueError(f"values of shape {values.shape} where {self.high.shape} was asked for")
-        difference = np.abs((values - self.high) - self.low) / self.scale
+        """Return the largest error of any entry of values (count, ...) where it is checked; infinite where none is."""
+        shape = self.count, *self.high.shape[1:]
+        if values.shape != shape:
+            raise ValueError(f"values of shape {values.shape} where {shape} was asked for")
+        difference = np.abs((values[self.checked] - self.high) - self.low) / self.scale
         return float(difference.max()) if np.isfinite(difference).all() else float("inf")
 
 
 def reference(case: Case, times: FloatArray) -> Reference:
-    """Return the true values of a case."""
+    """Return the true values of a case, at all times or at ``case.checked`` of them, spread evenly."""
+    checked = spread(len(times), case.checked or len(times))
     with workprec(BITS):
-        words = [_two_words(x) for t in times.tolist() for x in case.exact(t)]
-    high, low = np.array(words).T.reshape(2, len(times), *case.shape)
-    return Reference(high, low, case.scale(high))
+        words = [_two_words(x) for t in times[checked].tolist() for x in case.exact(t)]
+    high, low = np.array(words).T.reshape(2, len(checked), *case.shape)
+    return Reference(high, low, case.scale(high), checked, len(times))
 
 
 def check(case: Case, until: float) -> float:

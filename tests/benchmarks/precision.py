@@ -1,6 +1,6 @@
 """Error against time: every method on every case, up to every horizon, at every tolerance; failures are kept.
 
-`python -m benchmarks.precision` prints the runs of the closed forms of the elementary motion, for another process.
+`python -m benchmarks.precision` prints the runs of the closed forms of `NARROW`, for another process.
 """
 
 import os
@@ -21,7 +21,10 @@ from benchmarks.clock import interleave, once
 from benchmarks.integrators import Integrator, TimedOutError
 from benchmarks.oracle import Reference, reference
 from benchmarks.results import Setup, said
-from benchmarks.rotations import elementary_case
+from benchmarks.rotations import asymmetric_case, elementary_case, general_case
+
+NARROW = elementary_case, general_case, asymmetric_case
+"""Cases that are measured without AVX-512 too."""
 
 SHORT = 0.1
 """A solution that takes longer than this many seconds is timed once, a shorter one several times."""
@@ -51,8 +54,7 @@ class Bench:
     @classmethod
     def of(cls, case: Case, plan: Plan) -> "Bench":
         """Compute what all methods share."""
-        count = min(plan.samples, case.samples or plan.samples)
-        times = {horizon: even(horizon, count) for horizon in plan.horizons}
+        times = {horizon: even(horizon, plan.samples) for horizon in plan.horizons}
         truths = {horizon: reference(case, t) for horizon, t in times.items()}
         plain = case.base or next(method for method in case.closed if method.name == "plain").prepare
         return cls(case, plan, times, truths, plain())
@@ -84,7 +86,7 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
 
 
 def narrow() -> list[Run]:
-    """Return the closed forms of the elementary motion in a process whose NumPy and C do without AVX-512."""
+    """Return the closed forms of `NARROW` in a process whose NumPy and C do without AVX-512."""
     held_back = os.environ | {"NPY_DISABLE_CPU_FEATURES": "X86_V4 AVX512_ICL AVX512_SPR"}
     command = [sys.executable, "-m", "benchmarks.precision"]
     told = subprocess.run(command, capture_output=True, check=True, env=held_back).stdout
@@ -155,6 +157,6 @@ def _unmeasured(run: Run, status: Status, note: str) -> Run:
 
 
 if __name__ == "__main__":
-    ready = Bench.of(elementary_case(), Plan((1e4,), (), samples=1024, rounds=31, limit=3.0))
-    runs = [item for item in closed(ready) if isinstance(item, Run)]
+    plan = Plan((1e4,), (), samples=1024, rounds=15, limit=3.0)
+    runs = [item for case in NARROW for item in closed(Bench.of(case(), plan)) if isinstance(item, Run)]
     print(msgspec.json.encode(runs).decode())  # noqa: T201  what the other process reads

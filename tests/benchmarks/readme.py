@@ -27,6 +27,14 @@ ROWS = (
 )
 """Words, method and tolerance of each row: of SciPy the smallest errors that the record holds at this horizon."""
 
+RATIOS = {
+    "`ElementaryMotion.rotation`": ("elementary", "ours"),
+    "`GeneralMotion.rotation`": ("general", "ours"),
+    "`AsymmetricMotion.rotation`, after its first time": ("asymmetric", "ours"),
+    "the formula in C": ("elementary", "compiled"),
+}
+"""Case and method of the rows with and without AVX-512, by their words: those rows that the record holds for both."""
+
 TEXT = """
 1024 rotation matrices of an elementary motion up to t = 10 000, from `reports/data/bench.json` (`make bench`, on an
 {processor}):
@@ -57,7 +65,10 @@ def section() -> str:
         (run.method, run.tolerance): run for run in record.runs if (run.case, run.horizon) == ("elementary", HORIZON)
     }
     rows = [(words, runs[method, tolerance]) for words, method, tolerance in ROWS]
-    both = [{run.method: run.seconds for run in part} for part in (runs.values(), record.narrow)]
+    closed = [
+        [run for run in part if run.horizon == HORIZON and not run.tolerance] for part in (record.runs, record.narrow)
+    ]
+    both = [{(run.case, run.method): run.seconds / run.samples for run in part} for part in closed]
     missed = [limit for limit in record.limits if limit.verdict != "met"]
     return TEXT.format(
         processor=re.sub(r"\(\w+\)", "", record.machine.processor),
@@ -66,8 +77,9 @@ def section() -> str:
         ),
         compiled=runs["compiled", None].seconds / runs["ours", None].seconds,
         ratios="\n".join(
-            f"| {words} | " + " | ".join(f"{times[method] / times['plain']:.2f}" for times in both) + " |"
-            for words, method in (ROWS[0][:2], ("the formula in C", "compiled"))
+            f"| {words} | " + " | ".join(f"{times[of] / times['elementary', 'plain']:.2f}" for times in both) + " |"
+            for words, of in RATIOS.items()
+            if all(of in times for times in both)
         ),
         count=len(record.limits),
         missed=len(missed),
