@@ -1,7 +1,7 @@
 """Columns of a table over parameters of a family, by kernels and by balls."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -41,10 +41,9 @@ class Column:
 
 @dataclass(frozen=True)
 class Swept:
-    """A family as a table: its parameters and quantities as columns, and further columns `beside` by name."""
+    """A family as a table: its parameters and quantities as columns."""
 
     family: Family
-    beside: Mapping[str, Column] = field(default_factory=dict)
 
     @cached_property
     def needed(self) -> tuple[str, ...]:
@@ -67,7 +66,6 @@ class Swept:
     def quantities(self) -> Mapping[str, Column]:
         """Columns of the quantities by name."""
         columns = {name: column for q in self.family.quantities for name, column in _columns(q)}
-        columns |= self.beside
         for s in self.family.sampled:
             columns |= {name: Column(partial(_at_time, get), s.unit) for name, get in s.columns.items()}
         return columns
@@ -198,16 +196,4 @@ def _at_time(get: Callable[[Any, Any], Any], motion: Any, row: Row) -> Any:
     return get(motion, row["t"])
 
 
-def _error(name: str, motion: Any, row: Row) -> Any:
-    from atlas.sweeps import rotation_errors
-
-    return getattr(rotation_errors, name)(motion, row)
-
-
-FAR = "phase beyond 2^50"
-BESIDE = {"elementary": {x: Column(partial(_error, x), missing=FAR) for x in ("error", "plain_error")}}
-"""Further columns by family: errors of R by the atlas and by the plain formula."""
-
-FAMILIES: Mapping[str, Swept] = {
-    name: Swept(family, BESIDE.get(name, {})) for name, family in families.FAMILIES.items()
-}
+FAMILIES: Mapping[str, Swept] = {name: Swept(family) for name, family in families.FAMILIES.items()}

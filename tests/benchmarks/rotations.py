@@ -21,6 +21,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
 from flint import arb
 
 from atlas.arithmetic.numbers import nearest, workprec
@@ -38,7 +39,6 @@ from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.motions.torus import certified as asymmetric
 from atlas.motions.torus import kernel as kernels
 from atlas.motions.torus.kernel import AsymmetricMotion
-from atlas.sweeps.rotation_errors import constants, formula
 from benchmarks.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from benchmarks.oracle import BITS
 from benchmarks.peers import AxisAndRate, compiled, composed, lambdified
@@ -52,6 +52,38 @@ FEW = 16
 """Times at which values of a body with three moments are checked."""
 
 GRAVITY, MASS, LENGTH, DIRECTION, LAUNCH = 9.81 / 64**2, 15.0, 1.0, (1.0, 0.0), (0.0, -4.61538 / 64, 150.0 / 64)
+
+
+def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
+    """Return (B2/b, B3/b, k, phi), where b = |B'|, k is (79) and phi (72), of floats or arrays, in plain floats.
+
+    Cancellation is not avoided. I is the ratio I3/I2.
+    """
+    b = np.hypot(B2, B3)
+    phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
+    return B2 / b, B3 / b, omega2 * b / B2, phi
+
+
+def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
+    """Return R (..., 3, 3) by (84) in plain NumPy at times t (...), from `constants` (B2/b, B3/b, k, phi).
+
+    The result is a new array, or `out` if given.
+    """
+    h2, h3, k, phi = constants
+    c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
+    R = np.empty((*t.shape, 3, 3)) if out is None else out
+    m = h2**2 + h3**2 * c
+    v = h2 * h3 * (1 - c)
+    R[..., 0, 0] = c * C - h3 * s * S
+    R[..., 0, 1] = -c * S - h3 * s * C
+    R[..., 0, 2] = h2 * s
+    R[..., 1, 0] = h3 * s * C + m * S
+    R[..., 1, 1] = -h3 * s * S + m * C
+    R[..., 1, 2] = v
+    R[..., 2, 0] = -h2 * s * C + v * S
+    R[..., 2, 1] = h2 * s * S + v * C
+    R[..., 2, 2] = h3**2 + h2**2 * c
+    return R
 
 
 def rows_of(state: Sequence[Any]) -> tuple[Sequence[Any], Sequence[Any], Sequence[Any]]:

@@ -13,7 +13,7 @@ from atlas.pictures.layers import Curve, Points
 
 pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")
 
-SLOW = {"error_maps", "quadric_leak"}
+SLOW = {"quadric_leak"}
 """Recipes of seconds a scene; their arguments are like those of the others."""
 
 WORDS = """1 2 0 -1 0.5 1,2 1,0 0,1 0,0 -1,-2 1,2,3 1,1e-9 1e-6,1 1e50 1e-50 90 180 -90 1e6 1e-3 x true nan inf [1] [] ,

@@ -7,17 +7,16 @@ import numpy as np
 import pytest
 
 from atlas.checking import benchmark as results
-from atlas.checking.benchmark import BESIDE, METHODS, OURS, title
+from atlas.checking.benchmark import BESIDE, METHODS, title
 from atlas.pictures import recipes
-from atlas.pictures.captions import tex
 from atlas.pictures.layers import Curve, Plane, Points, Scene
 
-NAMES = ("work_precision", "horizon", "cost")
+NAMES = ("work_precision", "cost")
 
 
 @pytest.fixture(params=NAMES)
 def scene(request: pytest.FixtureRequest) -> Scene:
-    """Return each of the three figures."""
+    """Return each of the two figures."""
     return recipes.load(request.param).scene()
 
 
@@ -78,21 +77,6 @@ def test_costs_agree_with_the_record() -> None:
     two = {(c.count, c.to_fill) for c in costs if c.method in {"ours_out", "grid_out"} and c.threads == 2}
     one = {(c.count, c.to_fill) for c in costs if c.method in {"plain_out", "ours_out", "grid_out"} and c.threads == 1}
     assert places(multiples) == {place for place in one | two if place[0] >= 10_000}
-
-
-def test_the_best_run_at_each_horizon_is_drawn() -> None:
-    """Each method has at each horizon the least of its errors there."""
-    best: dict[tuple[str, str, float], float] = {}
-    for run in results.read().runs:
-        if run.status == "done" and run.method not in BESIDE:
-            key = run.case, run.method, run.horizon
-            best[key] = min(best.get(key, np.inf), run.error or 0.0)
-    for case in ("elementary", "ball"):
-        drawn = recipes.load("horizon").scene(cases=(case,))
-        (panel,) = drawn.panels
-        assert places(panel) == {(horizon, error) for (of, _, horizon), error in best.items() if of == case}
-        worst = max(error for (of, method, _), error in best.items() if of == case and method in OURS)
-        assert f"the atlas's largest is ${tex(float(f'{worst:.1e}'))}$" in drawn.caption
 
 
 def test_every_method_of_the_record_has_a_name_and_a_look() -> None:

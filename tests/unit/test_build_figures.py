@@ -30,7 +30,7 @@ WANTED = {
     "frequencies": FigureBuild("frequencies", {}, "vector", ("svg",)),
     "trochoids": FigureBuild("trochoids", {}, "vector", ("svg",)),
     "quadric": FigureBuild("quadric", {"ratio": 0.5}, "shaded", ("png",)),
-    "horizon": FigureBuild("horizon", {}, "vector", ("svg",)),
+    "work_precision": FigureBuild("work_precision", {}, "vector", ("svg",)),
 }
 
 
@@ -128,7 +128,7 @@ CHANGES = [
     ("the style", "atlas/pictures/style.py", '"""', '"""New: ', EVERY),
     ("the vector renderer", "atlas/pictures/drawing/plane.py", '"""', '"""New: ', EVERY),
     ("the shaded renderer", "atlas/pictures/drawing/shaded.py", '"""', '"""New: ', EVERY),
-    ("a stored record", "reports/data/bench.json", '"date"', '"date" ', {"horizon"}),
+    ("a stored record", "reports/data/bench.json", '"date"', '"date" ', {"work_precision"}),
     ("the prose", "reports/atlas.md", "title", "title ", set()),
     ("a template", "templates/html/page.html", "<", " <", set()),
     ("code that no figure reaches", "atlas/book/html.py", "\ndef pages", "\nNEW = 1\n\n\ndef pages", set()),
@@ -247,7 +247,7 @@ def test_a_figure_that_fails_does_not_stop_the_others(tmp_path: Path, jobs: int)
 def test_a_worker_that_dies_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """When a worker is killed, the figures that were not finished are drawn by another."""
     cache, killed = Cache(tmp_path), list[int]()
-    wanted = [figure("trochoids"), figure("magn"), figure("lssc"), figure("horizon")]
+    wanted = [figure("trochoids"), figure("magn"), figure("lssc"), figure("work_precision")]
     find(wanted, cache, Sources(), None)
     whole = processes.pool
 

@@ -63,7 +63,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("geometric_phase", {"count": 1}, "2 to 1000"),
     ("geometric_phase", {"count": 1001}, "2 to 1000"),
     ("geometric_phase", {"z": (-0.3, 0.0), "count": 2}, "z = 0"),
-    ("horizon", {"cases": ("balloon",)}, "elementary, general, ball, particle"),
+    ("work_precision", {"cases": ("balloon",)}, "elementary, general, ball, particle"),
     ("quadrics", {"ratios": (0.5, 1.5)}, "another below 1"),
     ("hyperbolas", {"ratios": (0.5,) * (len(LINES) + 1)}, "one to"),
     ("kinds_of_quadric", {"C1": (0.2, 0.0)}, "0"),

@@ -59,8 +59,6 @@ LENGTH: Mapping[str, int] = dict.fromkeys(
 )
 """Powers of a unit of length; that of c E/B is that of a velocity, that of mu B/c none."""
 CHARGE: Mapping[str, int] = {"mu": 1, **dict.fromkeys(("E", "B", "electric", "magnetic"), -1)}
-NOISE = {"error_maps"}
-"""Figures of rounding errors, which a power of two leaves alone, but not the times in a table of powers of ten."""
 OTHERS: list[tuple[str, dict[str, Any]]] = [
     ("cusps", {"omega2": (1.0, 2.0, 3.0)}),
     ("hyperbolas", {"ratios": (0.3, 0.4)}),
@@ -79,7 +77,7 @@ UNITS = [
     (name, {"pushes": (1e-1,)} if name == "turnover" else given, unit)  # a push takes seconds
     for name, given in EVERY
     for unit, weights in {"time": TIME, "length": LENGTH, "charge": CHARGE}.items()
-    if name not in NOISE and set(weights) & set(recipes.load(name).parameters)
+    if set(weights) & set(recipes.load(name).parameters)
 ]
 WEIGHTS = {"time": TIME, "length": LENGTH, "charge": CHARGE}
 

@@ -18,10 +18,10 @@ from atlas import places
 from atlas.checking import benchmark as results
 from atlas.pictures import Curve, Plane, Scene, recipes
 
-NOISE = {"error_maps": range(2), "motion_map": range(4)}
-"""Panels of rounding errors or of roots by iteration, which differ between processors: only their structure is kept."""
+NOISE = {"motion_map": range(4)}
+"""Panels of roots by iteration, which differ between processors: only their structure is kept."""
 
-MEASURED = ("cost", "horizon", "work_precision")
+MEASURED = ("cost", "work_precision")
 """Figures of times on record, which a new record changes: drawn here from one that is made up, and stays."""
 
 

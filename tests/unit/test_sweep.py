@@ -391,14 +391,6 @@ def test_the_log_of_a_batch_job_shows_a_sweep(tmp_path: Path, monkeypatch: pytes
         assert ended.stderr.splitlines() == shown
 
 
-def test_errors_at_rest_are_zero() -> None:
-    """At t = 0, which stands where no time is given, R is 1: without an error, by the plain formula within 4 eps."""
-    rows = {"ratio": [1.5, 0.5], "B2": 1.0, "B3": 0.3, "omega2": 0.7, "t": 0.0}
-    found = atlas.sweep("elementary", rows, ["error", "plain_error"])
-    assert found["error"].tolist() == [0.0, 0.0]
-    assert (found["plain_error"] <= 4 * np.finfo(float).eps).all()
-
-
 def test_ranges_have_units_and_starts_are_options(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In hertz a range is of turns a second, its rates are in 1/s; a spin and omega2 stand for their components."""
     monkeypatch.chdir(tmp_path)
