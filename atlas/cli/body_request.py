@@ -216,15 +216,13 @@ class TypedFile(NamedTuple):
 
 
 def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
-    """Raise the only error, or a FaultsError with a sentence for each, behind its place in a file of inputs.
+    """Raise a FaultsError with a sentence for each fault, behind its place in a file of inputs.
 
     `faults` are pairs of an option, put before a sentence that names none, and an error.
     """
     from atlas.cli.app import explained
 
     file = click.get_current_context().meta.get(TYPED)
-    if len(faults) == 1 and not file:
-        raise faults[0][1]
     says = list[str]()
     for option, error in faults:
         sentence = explained(error) if isinstance(error, click.ClickException) else str(error)

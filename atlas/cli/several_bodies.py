@@ -1,7 +1,8 @@
 """``atlas report your_body --each|--against``: a report for each row of a table, and two cards side by side."""
 
+import re
 import shlex
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from signal import SIGINT
 from typing import TYPE_CHECKING
@@ -12,8 +13,9 @@ from atlas.cli.body_request import NAME, typed_in
 from atlas.cli.options import FILE, jobs_option, out_option
 from atlas.cli.points import cells_of
 from atlas.cli.present import bar, status_of
+from atlas.cli.words import Words
 from atlas.cli.your_body import build, built, request_of, words_of
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, FaultsError
 
 if TYPE_CHECKING:
     from atlas.book.several_bodies import Row
@@ -44,7 +46,7 @@ def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> in
         try:
             for count, (line, own) in enumerate(rows):
                 tell(count, len(rows), f"line {line}")
-                row, ok = _built(line, [*shared, *own], out, jobs)
+                row, ok = _built(line, [*shared, *own], Words(own).names, out, jobs)
                 made.append(row)
                 status = status if ok else 1
         except KeyboardInterrupt:
@@ -62,26 +64,41 @@ def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> in
     return max(status, status_of(report))
 
 
-def _built(line: int, words: list[str], out: Path, jobs: int | None) -> "tuple[Row, bool]":
-    """Build the report of one row; return its `Row`, with the fault if it failed, and whether all was drawn."""
+def _built(line: int, words: list[str], columns: Collection[str], out: Path, jobs: int | None) -> "tuple[Row, bool]":
+    """Build the report of one row; return its `Row`, with the fault if it failed, and whether all was drawn.
+
+    `columns` are options whose values stand in the table.
+    """
     from atlas.book.several_bodies import Row, row_of
 
     try:
         request, _ = request_of(words)
         report, card = built(request, out, jobs)
     except AtlasError as error:
-        return Row(line, words, fault=" ".join(error.sentences)), False
+        return Row(line, words, fault=" ".join(_in_column(one, columns) for one in error.sentences)), False
     return row_of(line, words, request, card), status_of(report) == 0
+
+
+def _in_column(sentence: str, columns: Collection[str]) -> str:
+    """Return a sentence on an option among `columns` behind the name of its column, any other as it is."""
+    option = next((name for name in re.findall(r"--[\w-]+", sentence) if name in columns), "")
+    return f"column {option.removeprefix('--')}: {sentence}" if option else sentence
 
 
 def rows_of(table: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the line of each row of a table and the words of its options.
 
-    Raises AtlasError for a column that is no option.
+    Raises FaultsError for columns that are no options.
     """
     units, lines = cells_of(table)
+    faults = list[str]()
     for name in units:
-        words_of(name, "")
+        try:
+            words_of(name, "")
+        except AtlasError as error:
+            faults.append(f"{table}, column {name}: {error}")
+    if faults:
+        raise FaultsError(faults)
     for line, cells in lines:
         named = zip(units.items(), cells, strict=True)
         yield line, [word for (name, unit), cell in named if cell.strip() for word in words_of(name, cell, unit)]

@@ -42,7 +42,7 @@ def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None
     [
         ("", "it needs a line of names"),
         ("ratio,field\n", "must have a heading"),
-        ("ratoi,field\n0.7,1 2\n", "no option 'ratoi' of a body (did you mean 'ratio'?)"),
+        ("ratoi,field\n0.7,1 2\n", "column ratoi: there is no option 'ratoi' of a body (did you mean 'ratio'?)"),
         ("ratio,ratio\n0.7,0.8\n", "a heading of different names"),
         ("ratio,field\n0.7\n", "line 2: 1 cells where the line of names has 2"),
     ],
@@ -66,7 +66,7 @@ def test_rows_that_fail_are_listed_and_the_others_built(tmp_path: Path, capsys: 
     index, _, table = map(Path, out.split())
     rows = [*csv.DictReader(table.read_text().splitlines())]
     assert status == 1
-    assert "line 3: " in said
+    assert "line 3: column ratio: --ratio: No body has I" in said
     assert [row["line"] for row in rows] == ["2", "3", "4"]
     assert rows[0]["name"] == rows[2]["name"] != ""
     assert rows[1]["name"] == "" != rows[1]["fault"]
