@@ -16,6 +16,7 @@ from atlas.cli import body
 from atlas.cli.app import GONE
 from atlas.cli.axes import in_principal_axes, motion_in_given_axes
 from atlas.cli.family import (
+    any_motion,
     family_of,
     in_field,
     in_plane,
@@ -115,7 +116,7 @@ class OneObject(Command):
             except click.UsageError as error:
                 faults.append(("", error))
                 names = Words(args).names
-                name = next((x for x in re.findall(r"--[\w-]+", error.format_message()) if x in names), "")
+                name = next((x for x in re.findall(r"--?[a-z][\w-]*", error.format_message()) if x in names), "")
                 if not name:
                     refuse(faults)
                 dropped |= {name, *(OF_ANGLE if name in OF_ANGLE else ())}
@@ -150,6 +151,10 @@ COMMANDS: dict[str, click.Command] = {one.page: command_of(one) for one in FAMIL
 """By the name of the command; the families that are no command of their own have no name here, only options."""
 
 
+MOTIONS: list[str] = [name for name in COMMANDS if name == "motion" or name in GONE]
+"""Names of the commands that the options of `atlas motion` find."""
+
+
 def _without(args: list[str], names: Collection[str]) -> list[str]:
     """Return the words of a command without the options `names` and their values."""
     words = Words(args)
@@ -172,7 +177,7 @@ def faults_of(
                 yield next((f"--{name}" for name in given(options, names)), ""), error
 
 
-def checks_of(family: Family, options: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
+def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
     """Yield, for each part of body, field and start, the names of its options and the function that reads them."""
     if family.takes("coupling"):
         yield from checks_of_top(options)
@@ -225,6 +230,8 @@ def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
     file = click.get_current_context().meta.get(TYPED)
     says = list[str]()
     for option, error in faults:
+        if isinstance(error, click.UsageError) and error.ctx and error.ctx.info_name in MOTIONS:
+            error.ctx = error.ctx.parent or error.ctx  # whose help has all options
         sentence = explained(error) if isinstance(error, click.ClickException) else str(error)
         says.append(sentence if not option or "--" in sentence else f"{option}: {sentence}")
     raise FaultsError(f"{file.place(one) if file else ''}{one}" for one in says)
@@ -247,6 +254,11 @@ def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict
 
 class ByOptions(click.Group):
     """A group that finds the command by the options, where none is named; they may come from a file of inputs."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options of all motions, under a title each, and the commands of other objects."""
+        any_motion("motion", {name: COMMANDS[name] for name in MOTIONS}).format_options(ctx, formatter)
+        self.format_commands(ctx, formatter)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Insert the command before its options, of the family to which they belong."""
@@ -284,15 +296,16 @@ def typed_in(option: str, file: str = "") -> tuple[str, list[str]]:
     gallery = {path.name.removesuffix(ENDING): path for path in (folder("reports") / "bodies").glob(f"*{ENDING}")}
     if file and not Path(file).suffix and not Path(file).exists() and file not in gallery:
         raise click.UsageError(f"{option}: {unknown('body', file, gallery, 'in the gallery')}")
+    text, words = "", None
     try:
         text = gallery.get(file, Path(file)).read_text(encoding="utf-8")
         words = toml.loads(text).get("typed")
-        reason = "" if isinstance(words, list) else "it has no list of words, typed = [...]"
+        reason = "it has no list of words, typed = [...]"
     except OSError as error:
         reason = str(error.strerror) if file else "it is missing"
     except ValueError as error:
         reason = "it is not text" if isinstance(error, UnicodeError) else str(error)
-    if reason:
+    if not isinstance(words, list):
         raise click.UsageError(
             f"{option} takes a file NAME{ENDING} that {NAME} wrote, not {file or 'nothing'!r}: {reason}."
         )

@@ -86,10 +86,10 @@ def command(name: str) -> click.Command:
         for key, family in FAMILIES.items()
         if family.command and family.command.name == name
     }
-    return next(iter(commands_by_key.values())) if len(commands_by_key) == 1 else _any_motion(name, commands_by_key)
+    return next(iter(commands_by_key.values())) if len(commands_by_key) == 1 else any_motion(name, commands_by_key)
 
 
-def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
+def any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
     """Return one command for several families, with all their options, that hands over to the family they belong to."""
     params = dict[str, click.Parameter]()
     for param in (copy(param) for command in commands.values() for param in command.params):

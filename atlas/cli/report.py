@@ -1,6 +1,6 @@
 """``atlas report|data|tex``: a report as HTML pages and a PDF, as data to cite, as LaTeX."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -35,8 +35,10 @@ SEVERAL = {"--each": "each", "--against": "against"}
 
 def _of_your_body(words: Words) -> click.Command | None:
     """Return the command of the report your_body, or of several bodies, if that is the name; else None."""
-    if "your_body" not in words.loose:
+    if "your_body" not in words.loose or "--inputs" in words.names:
         return None
+    if {*SEVERAL} <= words.names:
+        raise click.UsageError("--each and --against do not go together: leave one of them out.")
     if words.names & set(SEVERAL):
         from atlas.cli import several_bodies
 
@@ -103,11 +105,9 @@ def command(
     the exit status is 2.
     """
     from atlas.book.building.report import FORMATS, build_report
-    from atlas.book.files import find
-    from atlas.book.inputs import records
 
     if listed:
-        dump({name: list(records(find(name))) for name in names})
+        dump({name: list(_listed(name)) for name in names})
         return 0
     inputs, status = _inputs(settings), 0
     for name in names or ("atlas",):
@@ -120,6 +120,15 @@ def command(
             explain_build(built)
         status = max(status, status_of(built))
     return status
+
+
+def _listed(name: str) -> Iterator[dict[str, Any]]:
+    """Return the inputs of a report, a dict each, with name, kind, unit, range, choices, default and help."""
+    from atlas.book.files import find
+    from atlas.book.inputs import records
+    from atlas.cli import your_body
+
+    return your_body.inputs() if name == "your_body" else records(find(name))
 
 
 def _inputs(settings: tuple[str, ...]) -> dict[str, str]:

@@ -35,6 +35,8 @@ ELSEWHERE = {
 """Work of another command, by the names of options under which it is looked for."""
 
 
+NOT_FINITE = {"inf", "infinity", "nan"}
+"""Words that are no options behind a minus, but numbers, which are refused as such."""
 OF_FIELD = ("field", "magnetic", "mu", "charge", "mass")
 """Options of a field, of which none is given for a free body."""
 START = ("omega", "spin")
@@ -106,7 +108,8 @@ class Words:
         values = self.loose
         for word in words:
             ended = bool(self.options) and self.options[-1].name == "--"
-            if not ended and (word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha())):
+            is_short = word[:1] == "-" and word[1:2].isalpha() and word[1:].lower() not in NOT_FINITE
+            if not ended and (word.startswith("--") or is_short):
                 name, equals, value = word.partition("=") if word.startswith("--") else (word[:2], word[2:], word[2:])
                 self.options.append(Option(word, name, values := [value] if equals else []))
             else:
@@ -298,7 +301,8 @@ class Reader:
             return click.UsageError(f"there is no option {name}; a parameter is given by --set {bare}=VALUE.")
         if bare in OTHERS:
             return click.UsageError(f"there is no option {name}: {OTHERS[bare]}.")
-        return click.NoSuchOption(name, possibilities=get_close_matches(name, self.known))
+        shown = [known for known, param in self.known.items() if not param.hidden]
+        return click.NoSuchOption(name, possibilities=get_close_matches(name, shown))
 
     def _vector(self, option: Option, param: click.Option, words_typed: Words) -> tuple[list[str], list[str]]:
         """Return (components of the option's vector, words after it); only commands with arguments have such words.

@@ -1,7 +1,7 @@
 """``atlas report your_body``: the report of a body, a field and a start, given as to `atlas motion`."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.body_request import COMMANDS, ENDING, EXPLAIN, NAME, ByOptions
+from atlas.cli.body_request import COMMANDS, ENDING, EXPLAIN, MOTIONS, NAME, ByOptions
+from atlas.cli.family import any_motion
 from atlas.cli.options import examples
 from atlas.cli.present import bar, explain_build, status_of
+from atlas.cli.typed import REAL
 from atlas.cli.words import Words
 from atlas.errors import AtlasError, unknown
 from atlas.files import write
-from atlas.measured import split
+from atlas.measured import WANTED, split
 
 if TYPE_CHECKING:
     from atlas.book.building.report import Built
@@ -68,6 +70,12 @@ def places_of(built: "Built") -> list[Path]:
 class YourBody(ByOptions):
     """The group of this report, with its name."""
 
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Return click's context of "atlas report your_body", the name that messages have."""
+        return super().make_context(f"{info_name} {NAME}", args, parent, **extra)
+
     def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the line of usage, with "atlas report your_body" as the name of the command."""
         formatter.write_usage(f"atlas report {NAME}", "[motion|top|classify] OPTIONS")
@@ -81,8 +89,10 @@ class YourBody(ByOptions):
         return super().parse_args(ctx, args)
 
 
-OPTIONS = {option.removeprefix("--"): param for command in COMMANDS.values() for param in command.params
-           for option in param.opts if param.name not in {"out", "jobs", "note"}}  # fmt: skip
+PARAMS = [param for param in any_motion("", {name: COMMANDS[name] for name in (*MOTIONS, *COMMANDS)}).params
+          if param.name not in {"out", "jobs", "note", "curve"}]  # fmt: skip
+"""Options of a body and of its report, those of motions first."""
+OPTIONS = {option.removeprefix("--"): param for param in PARAMS for option in param.opts}
 OPTIONS["from"] = click.Option(["--from"])
 """Options of a body by their names, which are those of columns and of keywords in Python."""
 
@@ -105,6 +115,24 @@ def words_of(name: str, value: Any, unit: str = "") -> list[str]:
     return [f"--{name}", *(text if not unit or split(text) else f"{text}{unit}" for text in texts)]
 
 
+def inputs() -> Iterator[dict[str, Any]]:
+    """Yield a dict for each option of a body or its report, with the keys of an input that a report declares."""
+    kinds = {click.types.Choice: "choice", click.types.IntRange: "integer", click.types.BoolParamType: "truth"}
+    for param in PARAMS:
+        if not isinstance(param, click.Option) or param.hidden:
+            continue
+        kind, form = (
+            kinds.get(type(param.type), "number" if param.type is REAL else "text"),
+            str(param.metavar) if param.nargs > 1 else "",
+        )
+        yield {
+            "name": param.opts[0].removeprefix("--"), "kind": f"{kind}s" if form and kind == "number" else kind,
+            "help": ": ".join(filter(None, (form, param.help))), "unit": WANTED.get(str(param.name), ""), "range": None,
+            "choices": [*getattr(param.type, "choices", ())], "count": None if " or " in form else param.nargs,
+            "default": param.to_info_dict()["default"],
+        }  # fmt: skip
+
+
 def text_of(number: Any) -> str:
     """Return a number as it is typed: "VALUE±SIGMA" if it has a standard deviation, else its shortest digits."""
     if isinstance(number, str | int | Fraction):
@@ -123,7 +151,9 @@ def request_of(words: Sequence[str]) -> "tuple[Asked, dict[str, Any]]":
         For words that give no body, field and start, in one sentence.
     """
     try:
-        request: tuple[Asked, dict[str, Any]] = YourBody(NAME, commands=COMMANDS).main([*words], standalone_mode=False)
+        request: tuple[Asked, dict[str, Any]] = YourBody(NAME, commands=COMMANDS).main(
+            [*words], "atlas report", standalone_mode=False
+        )
     except click.ClickException as error:
         raise AtlasError(error.format_message()) from error
     return request

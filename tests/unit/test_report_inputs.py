@@ -126,6 +126,12 @@ def test_inputs_are_listed_and_nothing_is_drawn(paper: Path) -> None:
     records = json.loads(CliRunner().invoke(command, [str(paper), "--inputs", "json"]).output)[str(paper)]
     assert [(one["name"], one["default"]) for one in records][:2] == [("ratio", 0.5), ("height", None)]
     assert [*paper.parent.iterdir()] == [paper]
+    of_body = json.loads(CliRunner().invoke(command, ["your_body", "--inputs", "json"]).output)["your_body"]
+    assert {one["name"]: (one["kind"], one["unit"], one["count"]) for one in of_body}.items() >= {
+        ("ratio", ("number", "", 1)), ("field", ("numbers", "rad/s", None)), ("omega", ("numbers", "rad/s", 3)),
+    }  # fmt: skip
+    assert {*of_body[0]} == {*records[0]}
+    assert "--field B2 B3 or B1 B2 B3" in CliRunner().invoke(command, ["your_body", "--help"]).output
 
 
 @pytest.mark.slow

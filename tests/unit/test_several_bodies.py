@@ -29,11 +29,13 @@ def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]
 def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None:
     """A unit in a cell goes before that of the head, an empty cell leaves the option out, spaces part numbers."""
     (file := tmp_path / "bodies.csv").write_text(
-        "shape,radius [um],height,magnetic [mT],omega\ndisk,1.20(5),,1 2,1 2 3\nsolid-cylinder,900nm,1e-6,3 -4,\n"
+        "shape,radius [um],height,magnetic [mT],omega,inertia\n"
+        "disk,1.20(5),,1 2,1 2 3,\nsolid-cylinder,900nm,1e-6,3 -4,,\n,,,,,1 2 2.5\n"
     )
     assert [*rows_of(file)] == [
         (2, "--shape disk --radius 1.20(5)um --magnetic 1mT 2mT --omega 1 2 3".split()),
         (3, "--shape solid-cylinder --radius 900nm --height 1e-6 --magnetic 3mT -4mT".split()),
+        (4, "--inertia 1 2 2.5".split()),
     ]
 
 

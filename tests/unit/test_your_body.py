@@ -194,6 +194,8 @@ def test_another_file_than_that_of_the_inputs_is_refused(text: str, tmp_path: Pa
         ("", "your_body takes a body, a field and a start"),
         ("--from nosuch.toml", "--from takes a file NAME.inputs.toml that your_body wrote, not 'nosuch.toml'"),
         ("--shape thin-rod --length 1e-6 --field 1 2 --omega 1 2 3", "a thin rod has I3 = 0"),
+        ("--each one.csv --against two.inputs.toml", "do not go together"),
+        ("--ratio 1 --spin 1 --filed 1 2", "See `atlas report your_body --help`"),
         ("--title \a --ratio 0.7 --field 1 2", "--title is a text of one line"),
         ("--only card,moton --ratio 0.7 --field 1 2", "no part 'moton' of the report (did you mean 'motion'?)"),
         ("--ratio 3 --field 1 2 --omega2 1", "3"),
