@@ -1,8 +1,9 @@
 """Unit quaternions (x, y, z, w), the scalar last, of rotation matrices and of products of rotations."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import hypot
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -46,7 +47,8 @@ def between(R_p: FloatArray, R_r: FloatArray) -> FloatArray:
     return product(product(of_matrix(R_p), np.eye(4)), of_matrix(R_r))
 
 
-class Attitude(NamedTuple):
+@dataclass(frozen=True)
+class Attitude:
     """Rotation of a quaternion (x, y, z, w) of any length."""
 
     quaternion: tuple[float, ...]

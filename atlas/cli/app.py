@@ -49,7 +49,7 @@ class LazyCommand(click.Command):
         return self.loaded().make_context(*arguments, **settings)
 
 
-GONE = {
+GONE: Mapping[str, str] = {
     "general": "--omega W1 W2 W3", "asymmetric": "--inertia I1 I2 I3", "free": "--omega W1 W2 W3 without --field",
     "elementary": "--omega2 W2",
 }  # fmt: skip

@@ -319,6 +319,8 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
     """
     with COMMANDS[args[0]].make_context(args[0], args[1:], parent) as context:
         options = context.params
+        if faults := [*faults_of(FAMILIES[args[0]], options)]:
+            refuse(faults)
         motion = motion_in_given_axes(options)
         if motion is None:
             return []

@@ -189,7 +189,7 @@ def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
 def _copied(value: Any) -> Any:
     """Return an argument with its arrays copied: later changes by the user leave the motion unchanged."""
     if isinstance(value, tuple | list):
-        return type(value)(map(_copied, value))
+        return [*map(_copied, value)] if isinstance(value, list) else tuple(map(_copied, value))
     return frozen(value.copy()) if isinstance(value, np.ndarray) else value
 
 

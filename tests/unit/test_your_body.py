@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from lxml import html
+from scipy.spatial.transform import Rotation
 from syrupy.assertion import SnapshotAssertion
 
 from atlas.bodies.laboratory import Spinning, anisotropy, demagnetization, disturbances
@@ -81,6 +82,13 @@ def test_numbers_of_the_card_agree_with_plain_formulas() -> None:
     toutatis = card(request_of("--inertia 1 3.0836 3.235 --omega -1.71914931 0.25307274 0.58817596"))  # rad a day
     assert [round(toutatis[key]["value"], 2) for key in ("nutation", "turn")] == [5.38, 7.40]
     assert toutatis["spin"]["says"] == "rate about the body's long axis"
+
+
+def test_a_field_along_the_axes_of_the_laboratory_is_turned_into_the_body() -> None:
+    """R(0) tilts the axis: its angle with the field is that of R(0) e3 with B'."""
+    R = Rotation.from_quat([0.6, 0, 0, 0.8]).as_matrix()
+    words = "--inertia 2 2 3 --attitude 0.6 0 0 0.8 --field 1 2 3 --omega 1 2 3"
+    assert card(request_of(words))["tilt"]["value"] == pytest.approx(np.arccos(R[:, 2] @ (1, 2, 3) / sqrt(14)))
 
 
 def test_a_turn_through_the_pole_is_said_to_be_a_mean() -> None:
