@@ -7,8 +7,8 @@ With x the phases in turns, n the whole ones that are left out of f t, and theta
     R^T (e_x + i e_y) = exp(i alpha) exp(-i theta x) N(x),    alpha = (theta f - b) t.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,7 @@ from atlas.motions.torus.approximate_theta import ThetaMotion, frame
 from atlas.motions.torus.approximate_theta_sums import HALF_TURN, Array, Sums, reciprocal, two_sum, wave
 from atlas.motions.torus.certified import AsymmetricMotion
 from atlas.motions.torus.certified_torus import Period, Torus, frequencies
-from atlas.motions.torus.theta_rounding import Rounding
+from atlas.motions.torus.theta_rounding import D, Rounding
 
 SUM_BLOCK = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""
@@ -40,9 +40,6 @@ UPPER_BITS = 24
 
 CUT = 1.5 * 2.0 ** (52 - UPPER_BITS)
 """Number whose addition and subtraction rounds another to 2^-24."""
-
-D = 3
-"""Place of the denominator among the forms N, D, K and W."""
 
 ATTITUDE, VECTORS = slice(0, 7), slice(D, 10)
 """Places of the forms of R, and of K and W, each with the denominator."""
@@ -186,7 +183,7 @@ class ThetaKernel:
         """Return ``weights`` times the `_functions` of ``forms`` at times t, shape t.shape + ``shape``."""
         times = real(t, "The time")
         if times.size != 1:
-            return evaluate(times, shape, out, lambda _: self._filling(forms, weights))
+            return evaluate(times, shape, out, lambda _: partial(self._fill, forms, weights))
         out = target(out, times.shape + shape)
         half, low_word = np.array(self.phases.words_of_one(times.item()))
         np.matmul(self._functions(half, low_word, forms), weights, out=out.reshape(-1))
@@ -196,11 +193,10 @@ class ThetaKernel:
         """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
         count, rows = len(out), out.reshape(-1, 9)
         check_grid(start, step, count, self.phases.reach)
-        fill = self._filling(ATTITUDE, self.entries)
         for i in range(0, count, BLOCK):
             index = np.arange(float(i), float(min(i + BLOCK, count)))
             t, low = moments(self.phases, start, step, index)
-            fill(t, rows[i : i + BLOCK], low)
+            self._fill(ATTITUDE, self.entries, t, rows[i : i + BLOCK], low)
 
     def on_torus(self, phases: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return (S (m, 3, 3), Omega (m, 3), K (m, 3)) at phases (2, m) in rad, R(t) = R_B(f3 t) S(f1 t, f2 t).
@@ -215,18 +211,14 @@ class ThetaKernel:
         K, W = np.split(self.rate * self._functions(half, low_word, VECTORS).T, 2, axis=1)
         return R.reshape(-1, 3, 3), W - K, K
 
-    def _filling(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
-        """Return a function fill(t, rows, low) that writes the `_functions` of ``forms`` times ``weights`` into rows.
-
-        ``low`` are low words of the times t (m,), or None.
-        """
-
-        def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
-            for i in range(0, t.size, SUM_BLOCK):
-                half, low_word, _ = self._phases(t[i : i + SUM_BLOCK], None if low is None else low[i : i + SUM_BLOCK])
-                combined(self._functions(half, low_word, forms), weights, rows[i : i + SUM_BLOCK])
-
-        return fill
+    def _fill(
+        self, forms: slice, weights: FloatArray, t: FloatArray, rows: FloatArray, low: FloatArray | None = None
+    ) -> None:
+        """Write the `_functions` of ``forms`` times ``weights`` at times t + low (m,) into rows (m, n)."""
+        for i in range(0, t.size, SUM_BLOCK):
+            block = slice(i, i + SUM_BLOCK)
+            half, low_word, _ = self._phases(t[block], None if low is None else low[block])
+            combined(self._functions(half, low_word, forms), weights, rows[block])
 
     def _functions(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
         """Return [Re N, Im N, K, W], three components of each that is among ``forms``, (k, m) at m times, (k,) at one.
