@@ -207,18 +207,21 @@ class ThetaKernel:
         for x, period in zip(half[:2], self.periods, strict=True):
             half[2] += x * round(float(period.angle.mid()) / (2 * np.pi))
         R, low_word = np.empty((phases.shape[1], 9)), np.zeros_like(half)
-        combined(self._functions(half, low_word, ATTITUDE), self.entries, R)
-        K, W = np.split(self.rate * self._functions(half, low_word, VECTORS).T, 2, axis=1)
+        combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
+        K, W = np.split(self.rate * self._rows(half, low_word, VECTORS).T, 2, axis=1)
         return R.reshape(-1, 3, 3), W - K, K
 
     def _fill(
         self, forms: slice, weights: FloatArray, t: FloatArray, rows: FloatArray, low: FloatArray | None = None
     ) -> None:
         """Write the `_functions` of ``forms`` times ``weights`` at times t + low (m,) into rows (m, n)."""
-        for i in range(0, t.size, SUM_BLOCK):
-            block = slice(i, i + SUM_BLOCK)
-            half, low_word, _ = self._phases(t[block], None if low is None else low[block])
-            combined(self._functions(half, low_word, forms), weights, rows[block])
+        half, low_word, _ = self._phases(t, low)
+        combined(self._rows(half, low_word, forms), weights, rows)
+
+    def _rows(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
+        """Return the `_functions` (k, m) of ``forms`` at half phases in two words, (3, m) each, by blocks."""
+        blocks = [slice(i, i + SUM_BLOCK) for i in range(0, half.shape[1], SUM_BLOCK)]
+        return np.concatenate([self._functions(half[:, x], low_word[:, x], forms) for x in blocks], axis=1)
 
     def _functions(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
         """Return [Re N, Im N, K, W], three components of each that is among ``forms``, (k, m) at m times, (k,) at one.
@@ -244,18 +247,17 @@ class ThetaKernel:
     def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
         """Write the quaternions of R(t) into rows (m, 4), with signs continuous over the torus."""
         table, steps = self._lift
-        for i in range(0, t.size, SUM_BLOCK):
-            half, low_word, turns = self._phases(t[i : i + SUM_BLOCK])
-            quaternions = self._quaternions(half, low_word)
-            index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
-            reference = product(self._turn(half[2]), table[index[0], index[1]])
-            rows[i : i + SUM_BLOCK] = quaternions * np.sign((quaternions * reference).sum(-1, keepdims=True))
-            rows[i : i + SUM_BLOCK] *= (signs(turns) ** steps).prod(axis=0)[:, None]
+        half, low_word, turns = self._phases(t)
+        quaternions = self._quaternions(half, low_word)
+        index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
+        reference = product(self._turn(half[2]), table[index[0], index[1]])
+        np.multiply(quaternions, np.sign((quaternions * reference).sum(-1, keepdims=True)), out=rows)
+        rows *= (signs(turns) ** steps).prod(axis=0)[:, None]
 
     def _quaternions(self, half: FloatArray, low_word: FloatArray) -> FloatArray:
         """Return a quaternion (x, y, z, w) of each R at half phases, (m, 4), with either sign."""
         R = np.empty((half.shape[1], 9))
-        combined(self._functions(half, low_word, ATTITUDE), self.entries, R)
+        combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
         return of_matrix(R.reshape(-1, 3, 3))
 
     def _turn(self, half: FloatArray) -> FloatArray:
@@ -271,10 +273,7 @@ class ThetaKernel:
         for size in SIZES:
             line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
             half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)
-            q = np.empty((half.shape[1], 4))
-            for i in range(0, len(q), SUM_BLOCK):
-                q[i : i + SUM_BLOCK] = self._quaternions(half[:, i : i + SUM_BLOCK], 0 * half[:, i : i + SUM_BLOCK])
-            table = q.reshape(size + 1, size + 1, 4)
+            table = self._quaternions(half, np.zeros_like(half)).reshape(size + 1, size + 1, 4)
             table[0] = _joined(table[0])
             table = _joined(table)
             if max((np.diff(table, axis=k) ** 2).sum(-1).max() for k in (0, 1)) < NEIGHBOURS:
