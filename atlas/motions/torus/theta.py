@@ -219,7 +219,9 @@ class ThetaKernel:
         combined(self._rows(half, low_word, forms), weights, rows)
 
     def _rows(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
-        """Return the `_functions` (k, m) of ``forms`` at half phases in two words, (3, m) each, by blocks."""
+        """Return the `_functions` (k, m) of ``forms`` at half phases in two words, (3, m) each: by blocks, or alone."""
+        if half.shape[1] == 1:
+            return self._functions(half[:, 0], low_word[:, 0], forms)[:, None]
         blocks = [slice(i, i + SUM_BLOCK) for i in range(0, half.shape[1], SUM_BLOCK)]
         return np.concatenate([self._functions(half[:, x], low_word[:, x], forms) for x in blocks], axis=1)
 
