@@ -13,18 +13,22 @@ from importlib import import_module
 from statistics import median
 
 import msgspec
+import numpy as np
 from msgspec.structs import replace
 
 from atlas.checking.benchmark import Run, Status
 from benchmarks.case import Case, FloatArray, Solve, even
-from benchmarks.clock import interleave, once
+from benchmarks.clock import interleave, once, ratio
 from benchmarks.integrators import Integrator, TimedOutError
 from benchmarks.oracle import Reference, reference
-from benchmarks.results import Setup, said
-from benchmarks.rotations import asymmetric_case, elementary_case, general_case
+from benchmarks.results import ONE, Rows, Setup, said
+from benchmarks.rotations import asymmetric_case, elementary_case, general_case, plain
 
 NARROW = elementary_case, general_case, asymmetric_case
 """Cases that are measured without AVX-512 too."""
+
+ONE_TIME = 1.7
+"""The time of `one_time`."""
 
 SHORT = 0.1
 """A solution that takes longer than this many seconds is timed once, a shorter one several times."""
@@ -91,6 +95,17 @@ def narrow() -> list[Run]:
     command = [sys.executable, "-m", "benchmarks.precision"]
     told = subprocess.run(command, capture_output=True, check=True, env=held_back).stdout
     return msgspec.json.decode(told, type=list[Run])
+
+
+def one_time(case: Case, rounds: int) -> Rows:
+    """Return error and time of our R at one time, once the motion is made, beside plain NumPy for as many times."""
+    times, plain_formula = np.array([ONE_TIME]), plain()
+    ours = next(method for method in case.closed if method.name == "ours").prepare()
+    seconds = interleave({"ours": lambda: ours(ONE_TIME), "plain": lambda: plain_formula(times)}, rounds)
+    error = reference(case, times).error(ours(ONE_TIME)[None]) / 2.0**-52
+    return Rows(
+        ONE[case.name][0], "ours", 1, error, median(seconds["ours"]) * 1e9, ratio(seconds["ours"], seconds["plain"])
+    )
 
 
 def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:

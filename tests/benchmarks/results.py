@@ -21,7 +21,12 @@ ANY, EVEN = "R of the general motion at any times", "R of the general motion on 
 SLOPES = "derivatives of R of the general motion in six parameters"
 FITTED = "a fit of 500 attitudes, its error in standard errors"
 FRESH = "R of the elementary motion in a fresh process"
-"""Quantities of many rows, of many matrices of one motion, and of what is made of them."""
+ONE = {
+    "elementary": ("R at one time of the elementary motion", 15.0),
+    "general": ("R at one time of the general motion", 40.0),
+    "asymmetric": ("R at one time of three moments", 120.0),
+}
+"""Quantities of many rows, of many matrices of one motion, of one matrix (with microseconds), and of what is made."""
 
 
 class Setup(Item, frozen=True):

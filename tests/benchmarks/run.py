@@ -15,8 +15,8 @@ from benchmarks import arrays, cost, general, particle, rotations
 from benchmarks.integrators import integrators
 from benchmarks.limits import targets
 from benchmarks.oracle import check
-from benchmarks.precision import Bench, Plan, closed, narrow, stepping
-from benchmarks.results import Rows, Setup, machine, today, versions, write
+from benchmarks.precision import Bench, Plan, closed, narrow, one_time, stepping
+from benchmarks.results import ONE, Rows, Setup, machine, today, versions, write
 
 NEAR = 1e-35
 """How near the reference must be to an integration of the equations of motion."""
@@ -116,6 +116,8 @@ def measure(names: Sequence[str], scope: Scope) -> Iterator[Any]:
             raise AtlasError(f"The reference of {name} is {distance:.0e} from its equations: it is no reference.")
         bench = Bench.of(case, scope.plan)
         yield from closed(bench)
+        if name in ONE:
+            yield one_time(case, scope.plan.rounds)
         for peer in integrators():
             yield from stepping(bench, peer)
     if "elementary" in names:
