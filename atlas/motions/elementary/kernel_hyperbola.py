@@ -412,7 +412,11 @@ class Hyperbola(Shown):
         return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)
 
     def _parameters(self, points: Any, extent: float) -> tuple[FloatArray, FloatArray]:
-        """Return the values of s on either branch."""
+        """Return the values of s on the branch X > 0 and on that X < 0, two arrays.
+
+        ``points`` is their total number, spread evenly, or s itself for both; ``extent`` bounds |X| and |Y|, in
+        rad/time. Raises DomainError where B2 and B3 are too far apart for floats.
+        """
         if np.ndim(points):
             s = real(points, "The parameter")
             return s, s
@@ -427,9 +431,10 @@ class Hyperbola(Shown):
         return lower_branch, upper_branch
 
     def _branch(self, sign: int, s: FloatArray) -> Branch:
-        """Return (omega2, omega3), (m,) in rad/time, at parameters s (m,); ``sign`` is that of X on the branch.
+        """Return (omega2, omega3), (m,) in rad/time, at parameters s (m,), where X = omega2 + B2 has the ``sign``.
 
-        Raises AtlasError for parameters that lead beyond all floats.
+        An omega2 that rounds to the pole is replaced by the next float beside it. Raises AtlasError for parameters
+        that lead beyond all floats.
         """
         with np.errstate(over="ignore", invalid="ignore"):
             omega2 = sign * self._scale() * np.exp(s) - self.B2
@@ -440,7 +445,7 @@ class Hyperbola(Shown):
         return omega2, np.asarray(self.omega3(omega2))
 
     def _scale(self) -> float:
-        """Return |X| at s = 0: the vertical semi-axis of the curve, or |B2| for I = 1."""
+        """Return |X| at s = 0, in rad/time: the vertical semi-axis of the curve, or |B2| for I = 1."""
         I2, I3, B2, _ = self._exact
         with workprec():
             return nearest(root(abs(I2 - I3) / I2 * B2 * B2)) or abs(self.B2)

@@ -40,8 +40,9 @@ class Evaluation:
         self.circles, self.products = np.empty((2, 2, size)), Products(size)
 
     def components(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
-        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m).
+        """Return rows Re alpha, Re beta, Im alpha, Im beta, (4, m), up to a real factor that they share at each time.
 
+        Where the parameters' table has derivatives, their four rows by time follow, with the same factor: (8, m).
         `low` (m,) are corrections to the times t, or None.
         """
         if self.parameters.by_balls:
@@ -185,7 +186,10 @@ class Products:
 
 
 def _entries() -> FloatArray:
-    """Return the weights (10, 3, 3), in the entries of R, of the products of quaternion components in `PAIRS`."""
+    """Return the coefficients (10, 3, 3) of the products `PAIRS` in R: R_ij is the sum over p of [p, i, j].
+
+    Product p is that of a pair of (Re alpha, Re beta, Im alpha, Im beta), of which the squares must sum to one.
+    """
     w, x, y, z = QUATERNION
     table = np.zeros((4, 4, 3, 3))
     for i, j, (row, column), c in (

@@ -42,9 +42,9 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 class CayleyKlein:
     """Constants of alpha and beta of one motion as doubles, from balls at a precision where each is accurate.
 
-    `values` (4, rows) are the weights of Re alpha, Re beta, Im alpha, Im beta; with ``slopes`` eight rows, the last
-    four for the derivatives by time, without the swing of a top. Raises DomainError where `MAX_BITS` digits do not
-    suffice.
+    `values` (4, rows) are the weights of Re alpha, Re beta, Im alpha, Im beta, each sum being over the rows that
+    `functions` fills, up to a common factor; with ``slopes`` eight rows, the last four for the derivatives by time,
+    without the swing of a top. Raises DomainError where `MAX_BITS` digits do not suffice.
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
@@ -53,14 +53,17 @@ class CayleyKlein:
             self.precision = _doubled(self.precision)
 
     def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return the arrays of `Evaluation.components` from balls, for tops whose swing is too fast for two words."""
+        """Return the array (4, m) or (8, m) of `Evaluation.components` from balls, normalised, at times t + low (m,).
+
+        It is for tops whose swing is too fast for two words. Raises DomainError where `MAX_BITS` digits do not suffice.
+        """
         self.phases.check(t)
         lacks = np.zeros(t.size) if low is None else np.broadcast_to(low, t.shape)
         times = [rational(x) + rational(y) for x, y in zip(t.tolist(), lacks.tolist(), strict=True)]
         return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
 
     def _in_balls(self, t: fmpq) -> list[float]:
-        """Return Re alpha, Re beta, Im alpha, Im beta at a time, normalised; with slopes eight floats."""
+        """Return Re alpha, Re beta, Im alpha, Im beta at a time, squares summing to one, then, with slopes, four by time."""
         precision = self.precision
         while True:
             with workprec(precision):

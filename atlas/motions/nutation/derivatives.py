@@ -117,9 +117,12 @@ class Weighted:
     def _directions(
         self, a: Array, b: Array, square: FloatArray, angle: FloatArray
     ) -> tuple[list[FloatArray], list[FloatArray], FloatArray]:
-        """Return (ways, axes, nu (m,)): lists of the vectors of `_ways` and of the body's axis in the laboratory.
+        """Return three of the directions at m times: ways and axes, lists of arrays (3, 4, m) and (3, m), and nu (m,).
 
-        Each list has one item, or two if ``a`` and ``b`` have slopes: then the second is the derivative by time.
+        ``ways`` are those of `_ways`, ``axes`` the unit vector of the body's axis in the laboratory, nu its cosine
+        to the frame's third axis. Each list has one item, or two if ``a`` and ``b`` (alpha and beta, (levels, m))
+        have slopes: then the second is the derivative by time. ``square`` is |a|^2 + |b|^2, ``angle`` that of the
+        frame in rad.
         """
         phase = np.empty(angle.size, complex)
         phase.real, phase.imag = np.cos(angle), np.sin(angle)

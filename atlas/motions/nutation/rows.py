@@ -32,9 +32,9 @@ MAX_RATE_TERMS = 16.0
 
 
 class Third(NamedTuple):
-    """Omega3 of m motions: `value` is the initial one; `size` and `weights` are those of `Change`.
+    """Omega3 of m motions, in rad/time: `value` is the initial one, `size` and `weights` are those of `Change`.
 
-    `start` are cos and sin of 2 y0; `reach` (m,) bounds |Omega3 - omega3|, whose error is some 2^-53 of that.
+    `start` (2, m) are cos and sin of 2 y0; `reach` (m,) bounds |Omega3 - omega3|, whose error is some 2^-53 of that.
     """
 
     value: FloatArray
@@ -59,7 +59,10 @@ def _velocity(block: Block) -> tuple[Constants, Third]:
 
 
 class Rows:
-    """Constants of many motions as arrays in double-double, evaluated at times by the class `motions`."""
+    """Constants of many motions as arrays in double-double, evaluated at times by the class ``motions``.
+
+    The last axis of each array counts the motions, in the order of ``blocks``.
+    """
 
     def __init__(self, blocks: Blocks, motions: "type[MotionsAtTimes]") -> None:
         self.blocks, self.indices, self._motions = blocks, np.arange(blocks.count), motions
@@ -75,6 +78,7 @@ class Rows:
         return self._constants(_velocity)
 
     def _constants(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
+        """Return what ``constants`` makes of each block, a tuple of named tuples, their arrays joined."""
         with np.errstate(all="ignore"):
             kinds = zip(*map(constants, self.blocks), strict=True)
             return tuple(
@@ -82,12 +86,16 @@ class Rows:
             )
 
     def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
-        """Return the motions of these indices paired with times t, as `MotionsAtTimes`."""
+        """Return the motions ``index`` (indices or a slice) as `MotionsAtTimes`, the k-th of them at the time t[k]."""
         return self._motions(self, index, t)
 
 
 class MotionsAtTimes:
-    """Motions paired with times; `extreme` holds the indices that need the scalar path."""
+    """Motions paired with times: row k of each result is the motion ``index``[k] at its own time t[k].
+
+    After each method `extreme` holds the rows k that double-double does not hold for certain: what is written there is
+    to be replaced by that of the single motion. `indices` are the motions' places among all.
+    """
 
     def __init__(self, rows: Rows, index: Any, t: FloatArray) -> None:
         self._rows, self._index, self._times = rows, index, t
@@ -107,7 +115,7 @@ class MotionsAtTimes:
         pair.turn_back(np.swapaxes(out, -1, -2))
 
     def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
-        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        """Write the column R_j, j = 1, 2, 3, of each motion at its time into ``out`` (m, 3); ``t`` is not used."""
         pair = self._pair(*self._rows.field)
         if pair.turns and j != len("123"):
             R = np.empty((len(out), 3, 3))
@@ -118,19 +126,23 @@ class MotionsAtTimes:
             pair.turn_back(out)
 
     def quaternion(self, _: FloatArray, out: FloatArray) -> None:
-        """Write quaternions (x, y, z, w) into (m, 4)."""
+        """Write the unit quaternion (x, y, z, w) of each motion at its time into ``out`` (m, 4)."""
         pair = self._pair(*self._rows.field)
         pair.quaternion(out)
         pair.turn_back(out)
 
     def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
-        """Write K along the body's axes into ``out`` (m, 3)."""
+        """Write K, the field along the body's axes in 1/time, of each motion at its time into ``out`` (m, 3)."""
         pair = self._pair(*self._rows.field)
         pair.vector(out)
         pair.turn_back(out)
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
-        """Write Omega into `out` (m, 3), from the Cayley-Klein pair of (Omega2, Omega1, -sqrt(I) Omega3)."""
+        """Write Omega, along the body's axes in rad/time, of each motion at its time into ``out`` (m, 3).
+
+        It comes from the Cayley-Klein pair of (Omega2, Omega1, -sqrt(I) Omega3); rows where Omega3 changes by more than
+        `MAX_OMEGA3_CHANGE` sizes of Omega are added to `extreme`.
+        """
         constants, third = self._rows.velocity
         pair, third = self._pair(constants), self._selected(third)
         pair.vector(out, offset=1)
@@ -151,7 +163,7 @@ class MotionsAtTimes:
 
 
 class TopsAtTimes(MotionsAtTimes):
-    """Tops paired with times."""
+    """Tops paired with times, as `MotionsAtTimes`."""
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
@@ -159,7 +171,11 @@ class TopsAtTimes(MotionsAtTimes):
         return block.constants, block.swings
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
-        """Write Omega into (m, 3): twice the vector part of the quaternion's logarithmic derivative."""
+        """Write Omega, along the body's axes in rad/time, of each top at its time into ``out`` (m, 3).
+
+        It is twice the vector part of the quaternion's logarithmic derivative; rows in which terms of the rates may
+        cancel are added to `extreme`.
+        """
         constants, swings = self._rows.field
         pair = self._pair(constants, swings)
         bound = velocity(pair, out)
@@ -210,14 +226,17 @@ class CayleyKleinAtTimes:
             self.extreme = np.flatnonzero(~is_good)
 
     def column(self, j: int, out: FloatArray) -> None:
-        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        """Write the column R_j, j = 1, 2, 3, of each motion at its time into ``out`` (m, 3), before `turn_back`."""
         x, y, z = (self._entry(i, j - 1) for i in range(3))
         (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
         side_1, third = (side, 1.0) if j == 3 else (1.0, side)
         out[:, 0], out[:, 1], out[:, 2] = x * side_1, (cos * y + sin * z) * side_1, (cos * z - sin * y) * third
 
     def quaternion(self, out: FloatArray) -> None:
-        """Write the quaternions into (m, 4): that of the pair after the tilt at the start, turned back."""
+        """Write unit quaternions (x, y, z, w) of R into ``out`` (m, 4), along axes with the field in the e2-e3 plane.
+
+        They are those of the pair after the tilt at the start; `turn_back` takes them to the given axes.
+        """
         (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
         longer = np.sqrt((1 + abs(cos)) / 2)
         shorter = sin / (2 * longer)
@@ -227,20 +246,23 @@ class CayleyKleinAtTimes:
 
     @property
     def turns(self) -> bool:
-        """Whether the field is not in the plane of e2 and e3 for all motions."""
+        """Whether `turn_back` does something: some motion's field is not in the plane of e2 and e3."""
         return bool(self.constants.plane[1].any())
 
     def turn_back(self, out: FloatArray) -> None:
-        """Rotate vectors (m, ..., 3) or quaternions in place to the axes in which the field was given."""
+        """Rotate ``out`` in place about e3, from axes with the field in the e2-e3 plane to those it was given in.
+
+        ``out`` has vectors (m, ..., 3) or quaternions (m, 4). Nothing changes where the field was given in that plane.
+        """
         if self.turns:
             x, y = out[..., 0].copy(), out[..., 1]
             cos, sin = (z.reshape(-1, *[1] * (x.ndim - 1)) for z in self.constants.plane)
             out[..., 0], out[..., 1] = cos * x + sin * y, cos * y - sin * x
 
     def vector(self, out: FloatArray, offset: int = 0) -> None:
-        """Write the vector that moves on the sphere into ``out`` (m, 3).
+        """Write the vector that moves on the sphere, K (1/time) or Omega (rad/time), into ``out`` (m, 3).
 
-        With ``offset`` 1 its first two components change places.
+        Which of the two it is the constants say. With ``offset`` 1 its first two components change places.
         """
         (cos, sin), (equatorial, axial) = self.constants.azimuth, self.constants.sizes
         x, y, z = (self._entry(2, j) for j in range(3))
@@ -260,7 +282,7 @@ class CayleyKleinAtTimes:
         return np.asarray(third.value + product)
 
     def _entry(self, i: int, j: int) -> FloatArray:
-        """Return the entry (i, j) of the rotation matrix of (alpha, beta), shape (m,)."""
+        """Return the entry in row i and column j, from 0, of the rotation matrix of (alpha, beta), shape (m,)."""
         w, *v = self.pair[0].real, self.pair[1].real, self.pair[1].imag, self.pair[0].imag
         if i == j:
             k, n = (i + 1) % 3, (i + 2) % 3
@@ -280,9 +302,9 @@ def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
 
 
 def velocity(pair: CayleyKleinAtTimes, out: FloatArray) -> FloatArray:
-    """Write the angular velocity of a pair along the body's axes, e1 across n, into ``out`` (m, 3).
+    """Write the angular velocity of each pair, along the body's axes with e1 across n, in rad/time, to ``out`` (m, 3).
 
-    Return a bound (m,) on the size of its terms, in rad/time.
+    Return a bound (m,) on the magnitude of its terms, in rad/time: where it is far above Omega, digits cancel.
     """
     c, rates = pair.constants, pair.constants.rates
     with np.errstate(all="ignore"):

@@ -149,7 +149,11 @@ class Block:
 
 
 def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
-    """Return (words (2, ...), error bounds) of rates in rad/time as half turns per time, both times 2^``exponents``."""
+    """Return (words (2, ..., m), absolute error bounds (..., m)), both in half turns per time, of rates in rad/time.
+
+    The words are a high and a low one. Both results are multiplied by 2^``exponents``, from the scaled unit to the
+    given.
+    """
     turns = rates * PER_RADIAN
     return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 

@@ -59,7 +59,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def width(self) -> DoubleDouble:
-        """Distance of the turning points."""
+        """Difference of the turning points of u + K_a, 2 u_t, (m,), in 1/time of the scaled unit."""
         return self.turning.scaled(1)
 
     @property
@@ -69,7 +69,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def ends(self) -> DoubleDouble:
-        """Values of -f at low and high, (2, m)."""
+        """Values (2, m) of minus the other quadratic factor f at the turning points low and high; both are alike."""
         ends = self.f[2] * (self.w - self.turning * self.turning)
         return stacked(ends, ends)
 
@@ -102,7 +102,7 @@ class Pencil:
 
     @cached_property
     def order(self) -> Any:
-        """Rank of each e, (3, m): 0 for the least, 1 for the middle one, 2 for the largest."""
+        """Rank of each e_i among the three, shape (3, m): 0 for the least, 1 for the middle one, 2 for the largest."""
         sign, I, z = [np.sign(y.hi) for y in self.x], self.I, np.sign(self.z.hi)
         above = [
             sum((z * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
@@ -112,17 +112,23 @@ class Pencil:
 
     @staticmethod
     def pick(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
-        """Return the component of three ``numbers`` along ``axis``, an index or an array of indices."""
+        """Return the one of three ``numbers``, (m,) each, that belongs to ``axis``: 0, 1, 2, or an array of these."""
         K_b, K_c, third = numbers
         return chosen(axis == 0, K_b, chosen(axis == 1, K_c, third))
 
     def difference(self, i: Any, j: Any) -> DoubleDouble:
-        """Return e_j - e_i as z (I_i - I_j) e_i e_j, without cancellation."""
+        """Return e_j - e_i of axes i and j (0, 1, 2, or arrays of these) without cancellation.
+
+        It is z (I_i - I_j) e_i e_j.
+        """
         pick = self.pick
         return self.z * (pick(i, self.I) - pick(j, self.I)) * pick(i, self.e) * pick(j, self.e)
 
     def share(self, third: Any, outer: Any, axis: Any) -> DoubleDouble:
-        """Return (e_third - e_outer)/(e_third - e_axis) K_outer^2, computed from moments without cancellation."""
+        """Return (e_third - e_outer)/(e_third - e_axis) K_outer^2, (m,) in 1/time^2, a term of u_t^2 or of w.
+
+        The arguments are axes: 0, 1, 2, or arrays (m,) of these. It is computed from moments without cancellation.
+        """
         pick, I, x = self.pick, self.I, self.x
         size = pick(outer, self.K)
         up = (pick(third, I) - pick(outer, I)) * pick(axis, I) * pick(axis, x)
@@ -130,7 +136,10 @@ class Pencil:
 
     @cached_property
     def nutation_axis(self) -> tuple[Any, Any, Any]:
-        """Indices of three axes: the nutating one, the axis of the middle e, and the outer axis that K circles."""
+        """Three axes, (m,) of 0, 1, 2 each: a, whose K_a nutates; that of the middle e; and the one K goes round.
+
+        The first and the third are those of the least and of the largest e, in either order.
+        """
         pick, K, e = self.pick, self.K, self.e
         low, middle, high = (np.argmax(self.order == n, axis=0) for n in range(3))
         # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
@@ -140,7 +149,7 @@ class Pencil:
 
     @cached_property
     def rates(self) -> list[DoubleDouble]:
-        """Factors E_i - 1, i = 1, 2, 3, with Omega_i = (E_i - 1) K_i."""
+        """Factors E_i - 1, a list for i = 1, 2, 3 of arrays (m,), without unit: Omega_i = (E_i - 1) K_i."""
         return [-(self.v * y) - ONE for y in self.e]
 
     def is_elliptic(self, w: DoubleDouble) -> Any:
@@ -161,7 +170,10 @@ class Pencil:
 
 
 def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
-    """Return the `EllipticRoots` of I1, I2, I3, B1, B2, B3, z, branch."""
+    """Return the `EllipticRoots` of I1, I2, I3, B1, B2, B3, z and branch (1 or -1), which broadcast to (m,).
+
+    No row raises: where the motion is not certainly elliptic, `elliptic` is False and the rest without meaning.
+    """
     pencil = Pencil(*inputs)
     pick, I, K, e, v = pencil.pick, pencil.I, pencil.K, pencil.e, pencil.v
     axis, middle, outer = pencil.nutation_axis
@@ -246,7 +258,7 @@ class EllipticBlock(Block):
 
 
 class EllipticBlocks(Blocks):
-    """Motions I1, I2, I3, B1, B2, B3, z, branch, which broadcast to a shape, by blocks."""
+    """Motions I1, I2, I3, B1, B2, B3, z, branch, which broadcast to a shape, iterated by `EllipticBlock`."""
 
     _unit, _block, _roots = slice(3, 6), EllipticBlock, staticmethod(roots_of_elliptic)
 
@@ -293,7 +305,7 @@ class Axes(NamedTuple):
 
 
 class EllipticAtTimes(MotionsAtTimes):
-    """Elliptic motions paired with times."""
+    """Elliptic motions paired with times, as `MotionsAtTimes`: row k is one motion at its own time."""
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
@@ -318,22 +330,22 @@ class EllipticAtTimes(MotionsAtTimes):
         out[:] = C @ out @ C.mT
 
     def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
-        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        """Write the column R_j, j = 1, 2, 3, of each motion's matrix at its time into ``out`` (m, 3)."""
         R = np.empty((len(out), 3, 3))
         self.rotation(t, R)
         out[:] = R[:, :, j - 1]
 
     def quaternion(self, t: FloatArray, out: FloatArray) -> None:
-        """Write quaternions (x, y, z, w) into (m, 4)."""
+        """Write the unit quaternion (x, y, z, w) of each motion at its time into ``out`` (m, 4)."""
         super().quaternion(t, out)
         out[:, :3] = np.matvec(self._frames, out[:, :3])
 
     def field_in_body(self, t: FloatArray, out: FloatArray) -> None:
-        """Write K into (m, 3)."""
+        """Write K, the field along the body's axes in 1/time, of each motion at its time into ``out`` (m, 3)."""
         super().field_in_body(t, out)
         out[:] = np.matvec(self._frames, out)
 
     def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
-        """Write Omega = (E - 1) K along the body's axes into ``out`` (m, 3)."""
+        """Write Omega = (E - 1) K, along the body's axes in rad/time, of each motion at its time to ``out`` (m, 3)."""
         self.field_in_body(t, out)
         out *= self._rows.field[1].rates[:, self._index].T

@@ -17,12 +17,15 @@ from atlas.motions.nutation.rows_roots import Roots, TurningPoints
 
 @dataclass(frozen=True)
 class Sphere:
-    """Poles of alpha and beta and the torques there, (2, m): -Q is the square of a torque.
+    """A vector of constant length that moves with Omega3, of m motions: where it meets the axis, and its start.
 
-    `amplitudes` are cosine and sine of half the polar angle at the start, `slopes` twice the derivatives of alpha and
-    beta there, for the one that is zero, `frames` the rates of the frame that both are seen from. `meets` tells where
-    the vector starts at a pole. `azimuth` are cosine and sine of its azimuth at the start, from the second axis to the
-    first; `sizes` are the factors from the unit sphere to the vector, across the axis and, with a sign, along it.
+    Arrays (2, m) are of alpha, then of beta. `poles` are the values of v = Omega3 - omega3 at which the vector
+    would be along the axis, so that alpha (the upper pole) or beta (the lower one) is zero; `torques` are those
+    there: -Q is the square of a torque. `amplitudes` are cosine and sine of half the polar angle at the start;
+    `meets` is the mask of vectors that start at a pole, and for these `slopes` are twice the time derivatives of
+    the one that is zero. `frames` are the rates of the frame that both are seen from. `azimuth` are cosine and
+    sine, (m,) each, of the vector's azimuth at the start, from the second axis to the first; `sizes` are the
+    factors from the unit sphere to the vector, across the axis and, with a sign, along it.
     """
 
     roots: TurningPoints
@@ -54,7 +57,7 @@ class Sphere:
 
 
 def sphere_of_field(r: Roots) -> Sphere:
-    """Return the sphere of K, or of n in the body, and of the axis: the poles are where nu is -1 and 1.
+    """Return the `Sphere` of K, or of n in the body, and of the axis: the poles are where nu is 1 and -1.
 
     The torques are b [(M, n) - nu M3] there. The frame is Larmor's, with the turn (1-I) c3 about the axis.
     """
@@ -84,9 +87,10 @@ def half_angles(axial: DoubleDouble, flat: DoubleDouble, b: DoubleDouble) -> Dou
 
 
 def sphere_of_velocity(r: Roots) -> Sphere:
-    """Return the sphere of (Omega2, Omega1, -sqrt(I) Omega3), of the length sqrt(E'): the poles are Omega3 = ± `end`.
+    """Return the `Sphere` of (Omega2, Omega1, -sqrt(I) Omega3), of length sqrt(E').
 
-    The torques are P(u) = u^2 - (2-I) c3 u + c5, which starts as omega2 B2; there is no frame.
+    Its poles are Omega3 = ± sqrt(E'/I). The torques are P(u) = u^2 - (2-I) c3 u + c5, which starts as omega2 B2;
+    there is no frame.
     """
     w1, w2, w3 = r.omega
     short, up = r.I.sqrt(), w3.hi <= 0

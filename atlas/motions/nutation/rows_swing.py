@@ -41,9 +41,11 @@ LAST = float(np.finfo(np.longdouble).eps)
 
 
 class SwingSums(NamedTuple):
-    """The rate, and the weights of cos 2 n y in E and of sin 2 n y in O, (MAX_TERMS, m); y is 0 at the largest nu.
+    """Theta sums E and O of m tops, see the module's head: `even` weighs cos 2 n y in E, `odd` sin 2 n y in O.
 
-    `w_error` bounds the relative error of the weights.
+    Both are (MAX_TERMS, m); y is M t less its value where nu is largest. `rate` is the mean of b nu, that is the
+    rate of its integral over time; `w_error` (m,) bounds the relative error of the weights, inf where more terms
+    would matter.
     """
 
     rate: DoubleDouble
@@ -53,10 +55,13 @@ class SwingSums(NamedTuple):
 
 
 class Swings(NamedTuple):
-    """Evaluator at times of half the part of the rotation that is no multiple of time, of tops along the last axis.
+    """Half the oscillating part of each top's rotation by kappa times the integral of nu, to be evaluated at times.
 
-    `factor` is kappa/sqrt(|A|), `size` sqrt(|A|), where A = 0 kappa and 0; `start` (2, m) are cosine and sine of 2 y at
-    t = 0, `before` is half the turn there; `slope` bounds its change by a radian of y; `fastest` is the largest rate.
+    Arrays are (m,), or end with that axis. `twisted` is the mask of tops with such a rotation; `factor` is
+    kappa/sqrt(|A|) and `size` sqrt(|A|), or kappa and 0 where A = 0, `sign` that of A; `start` (2, m) are cosine
+    and sine of 2 y at t = 0, `before` is half the rotation there, in rad; `slope` bounds its change by a radian of
+    y; `frequency_error` is that of M/pi in 1/time, `w_error` bounds the relative error of the weights `even` and
+    `odd`; `fastest` is the largest rate, in rad/time.
     """
 
     twisted: Any
@@ -100,9 +105,9 @@ class Swings(NamedTuple):
         return swings._replace(before=swings.half_of(*start)[0])
 
     def half(self, phase: tuple[FloatArray, FloatArray], t: FloatArray) -> tuple[Extended, FloatArray]:
-        """Return (half the swing since t = 0 in rad, a bound on its error), (m,) each.
+        """Return (half the oscillating part since t = 0 in rad, a bound on its error), (m,) each, at times t (m,).
 
-        ``phase`` is half the phase in rad, in two words.
+        ``phase`` is M t/2 in rad, in two words. A top without such a rotation has 0.
         """
         angle = 4 * (phase[0].astype(np.longdouble) + phase[1])
         (c, s), cos, sin = self.start, np.cos(angle), np.sin(angle)
@@ -110,7 +115,10 @@ class Swings(NamedTuple):
         return turn - self.before, 2 * error + np.pi * self.slope * self.frequency_error * abs(t)
 
     def half_of(self, cos: Extended, sin: Extended) -> tuple[Extended, FloatArray]:
-        """Return (half the swing in rad, a bound on its error), (m,) each, from cos and sin of 2 y."""
+        """Return (half the oscillating part in rad, a bound on its error), (m,) each, from cos and sin of 2 y.
+
+        It is counted from y = 0, where nu is largest.
+        """
         even, odd, multiple, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
         lost_even, lost_odd = abs(self.even[0]), 0 * abs(sin)
         for n in range(1, MAX_TERMS):
@@ -127,7 +135,10 @@ class Swings(NamedTuple):
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
-    """Return the `SwingSums` of tops, from b nu at t = 0 and A/b^2."""
+    """Return the `SwingSums` of the tops of ``means``, from ``nu``, b times nu at t = 0, and A over b^2.
+
+    Where the sums do not end within MAX_TERMS, the errors of the rate and of the weights are inf.
+    """
     r, square = means.roots, means.nome * means.nome
     is_at_low = r.ends.hi[0] < r.ends.hi[1]
     size = abs(A).sqrt()
@@ -163,9 +174,10 @@ def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
 
 
 def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle:
-    """Return the weights (of cos, of sin) of term n without the power of q.
+    """Return the weights (of cos, of sin) of term n without the power of q, from cos and sin/sqrt(|A|) of n c.
 
-    Where two roots are complex, q stands for i q, and the angle c is shifted.
+    ``size`` is sqrt(|A|), ``four`` the mask of tops with four real roots. Where two roots are complex, q stands for
+    i q, and the angle c is shifted.
     """
     (cos, sin), sign = circle, np.where(four, (-1.0) ** n, (-1.0) ** ((n + 1) // 2))
     if n % 2:

@@ -60,9 +60,10 @@ PAIRS = tuple(combinations(range(4), 2))
 
 @dataclass(frozen=True)
 class Lattice:
-    """Periods [T_H, T_F, T_c] of the torus: two that generate the real ones, two more, and a symplectic basis.
+    """Periods of the torus, each a list [T_H, T_F, T_c] of complex balls in the unit of time; nothing of it is proved.
 
-    The basis is (a1, a2, b1, b2), `a` and `b` two each.
+    `real` are two that generate the real ones, `other_periods` two that complete them to a basis of all; the symplectic
+    basis is (a1, a2, b1, b2), `a` and `b` two each.
     """
 
     real: tuple[list[acb], list[acb]]
@@ -76,13 +77,13 @@ class Lattice:
 
     @property
     def X(self) -> acb_mat:
-        """Period matrix (2, 2): columns are the cycles a1 and a2/2, rows their times T_H and T_F."""
+        """Period matrix (2, 2), in the unit of time: columns are the cycles a1 and a2/2, rows the times T_H and T_F."""
         (p, q, _), (r, s, _) = self.a
         return acb_mat([[p, r / 2], [q, s / 2]])
 
     @property
     def tau(self) -> acb_mat:
-        """Riemann matrix X^-1 (b1 | b2), its off-diagonal entries replaced by their mean."""
+        """Riemann matrix X^-1 (b1 | b2), (2, 2) without unit, its off-diagonal entries replaced by their mean."""
         (p, q, _), (r, s, _) = self.b
         tau = self.X.solve(acb_mat([[p, r], [q, s]]))
         off_diagonal = (tau[0, 1] + tau[1, 0]) / 2

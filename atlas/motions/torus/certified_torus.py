@@ -231,6 +231,11 @@ class Torus:
         return (g * Y[i] - f * Y[j]) / determinant, (f * X[j] - g * X[i]) / determinant
 
     def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
+        """Return the proved `Period` near r = (T_H, T_F), to ``bits`` binary digits, by Newton's method in intervals.
+
+        ``chosen`` are the indices of two components of the state that determine the position on the torus. Raises
+        NotCertifiedError where the proof fails.
+        """
         with workprec(bits + 2 * GUARD_BITS):
             arrival = self.flow.go(*r, bits + GUARD_BITS)
             step_1 = self._newton(arrival, self.W, self.K, chosen)
@@ -252,7 +257,12 @@ class Torus:
             return Period(r[0] + step[0], r[1] + step[1], angle)
 
     def _are_told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
-        """Whether the chosen components distinguish any two states near the start with equal integrals."""
+        """Whether states from the start to ``wide`` with equal integrals and equal chosen components must be equal.
+
+        ``wide`` are six balls W and K of states near the start, ``chosen`` two indices among the six components. It
+        is proved by a determinant of the integrals' gradients that is not zero anywhere between; False says that
+        this proof fails.
+        """
         doubles = [arb(x).union(w) for x, w in zip((*self.W, *self.K), wide, strict=True)]
         W, K, J = doubles[:3], doubles[3:], self.moments
         D = J[0] * J[1] * J[2]
@@ -284,7 +294,7 @@ def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
 
 
 def rotated(q: list[arb], V: list[arb]) -> list[arb]:
-    """Return a unit quaternion (w, x, y, z) after a rotation by the angular velocity V for a unit of time.
+    """Return a unit quaternion (w, x, y, z) after unit time at the angular velocity V along the body's axes.
 
     V is three balls about 0; the result encloses all of these rotations.
     """

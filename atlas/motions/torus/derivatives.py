@@ -94,6 +94,10 @@ class TorusVaried:
         return out
 
     def _block(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
+        """Return [v], or [v, R dOmega/dp] if ``slopes``, for each input at times t (m,), shape (inputs, m, 3).
+
+        Axes are the kernel's. Raises DomainError where too many digits cancel.
+        """
         half, low_words, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
         half = half + low_words
         x = self.ways @ half[:2]
@@ -137,10 +141,11 @@ class TorusVaried:
 
 
 class Neighbours:
-    """Constants of a motion on a torus, and their derivatives in three moments, field K and omega, `values` (9,).
+    """Constants of a motion on a torus, and their derivatives in nine inputs: three moments, field K and omega.
 
-    Constants are four rows: weights over the largest of the denominator, ways, frequencies and frame. Terms of the
-    theta sums have the `orders` P, Q, (2, terms), counted from the centre of the sums.
+    `values` are the inputs; `constants` are four flat complex arrays: weights of the theta sums over the largest of
+    the denominator, ways (coefficients of the half angles f1 t/2 and f2 t/2 in the sums' phases), frequencies f1,
+    f2, f3 and frame. The sums' terms have the `orders` P, Q, shape (2, terms), counted from the centre of the sums.
     """
 
     def __init__(self, exact: Any, kernel: ThetaKernel) -> None:
@@ -156,9 +161,12 @@ class Neighbours:
         self.constants = [np.array([complex_of(x) for x in kind]) for kind in self.exact]
 
     def slopes(self, places: Sequence[int]) -> list[Array]:
-        """Return four arrays (places, n): derivatives of weights, ways, frequencies and frame in inputs at ``places``.
+        """Return [weights, ways, frequencies, frame]: their derivatives in the inputs at ``places``, (places, n) each.
 
-        They are difference quotients; for the largest input of a group they follow from the others by homogeneity.
+        ``places`` are indices in `values`; the derivatives are by the caller's units of inertia and of 1/time. They
+        are difference quotients; that in the largest input of a group, if all of it is asked for, follows from the
+        others by homogeneity. Raises DomainError where a neighbour has no theta functions, or those of another
+        form.
         """
         # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
         to_laboratory = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
@@ -171,9 +179,10 @@ class Neighbours:
         ]
 
     def _by_step(self, place: int) -> list[Array]:
-        """Return four arrays of derivatives by a difference quotient in one input.
+        """Return the derivatives [weights, ways, frequencies, frame], (n,) each, in the scaled input at ``place``.
 
-        In a weak field its step is shorter.
+        They are difference quotients; in a weak field the step in a component of it is shorter. Raises DomainError as
+        `slopes` does.
         """
         field = max(map(abs, self.sizes[3:6]))
         weak = min(max(round(-2 * np.log2(field)), 0), WEAK_FIELD_BITS)
@@ -235,7 +244,10 @@ def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: 
 
 
 def _followed(lattice: Lattice, like: Lattice) -> Lattice:
-    """Return a lattice in the basis nearest to that of ``like``. Raises DomainError where none is near."""
+    """Return a ``lattice`` in the basis whose periods are nearest to those of ``like``.
+
+    Raises DomainError where no combination with whole coefficients is near.
+    """
     periods = [*lattice.real, *lattice.other_periods]
 
     def reals(rows: Sequence[Sequence[acb]]) -> FloatArray:
