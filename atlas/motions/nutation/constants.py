@@ -63,7 +63,7 @@ class CayleyKlein:
         return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
 
     def _in_balls(self, t: fmpq) -> list[float]:
-        """Return Re alpha, Re beta, Im alpha, Im beta at t, with squares summing to one; with slopes four rates follow."""
+        """Return Re alpha, Re beta, Im alpha, Im beta at t, squares summing to one; with slopes four rates follow."""
         precision = self.precision
         while True:
             with workprec(precision):
