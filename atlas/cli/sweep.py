@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Any
 
 import click
 
@@ -38,9 +38,6 @@ or an address such as s3://bucket/table.parquet (and the package of fsspec for i
 which pandas and Dask read as one table. A file that you edited or made yourself is kept: the new table is then
 OUT.new.csv, and the exit status is 2.
 """
-
-MAX_RECIPE_SIZE = 10**7
-"""Bytes of a file of a sweep."""
 
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
@@ -84,12 +81,6 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         ),
         several("quantity", "NAME [NAME ...]", "Quantities to compute, such as k, R11 or R.", "quantities"),
         click.option(
-            "--file",
-            "toml",
-            type=click.Path(dir_okay=False, path_type=Path),
-            help="TOML file with family, parameters and quantities, instead of the options.",
-        ),
-        click.option(
             "--out",
             type=OUT,
             help="Table to write: a file .csv, .npz or .parquet, a folder table.parquet/, or an address.",
@@ -104,49 +95,21 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
     )
 
 
-class Request(NamedTuple):
-    """A sweep as requested, with the values of its parameters as typed.
+def requested(options: dict[str, Any]) -> tuple[str, dict[str, Any], str]:
+    """Return (family, values of its parameters by name, the principal axes of a tensor in terms of the given ones).
 
-    `axes` are the principal axes of a tensor in terms of the given ones, "" where they are equal.
+    Values are numbers, or texts as typed; the axes are "" where they are equal. Raises click.UsageError for parameters
+    that do not fit the family.
     """
-
-    family: str
-    quantities: tuple[str, ...]
-    parameters: Mapping[str, Any]
-    listing: Path | None
-    out: str | None
-    digits: int | None
-    rows: int | None
-    axes: str = ""
-
-    @classmethod
-    def of_options(cls, options: dict[str, Any]) -> "Request":
-        """Return the sweep of a command line. Raises click.UsageError for parameters that do not fit its family."""
-        if options["family"] is None:
-            raise click.UsageError(f"FAMILY is missing: name the family to sweep, {NAMES}.")
-        settings = [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in options["settings"]]
-        fixed, axes = (_uncertain_body(options), "") if uncertain(options) else _body(options)
-        names = [*fixed, *(name.strip() for name, _ in settings)]
-        _once(names, "--set" + " and the options of body and field" * bool(fixed))
-        family = _meant(options["family"], {*names})
-        _check_moments(family, fixed, options)
-        parameters = fixed | {name.strip(): values for name, values in settings}
-        settings_of_table = {name: options[name] for name in ("quantities", "listing", "out", "digits", "rows")}
-        return cls(family, parameters=parameters, axes=axes, **settings_of_table)
-
-    @classmethod
-    def of_file(cls, options: dict[str, Any]) -> "Request":
-        """Return the sweep of a TOML file. Raises click.UsageError for options that the file has to give."""
-        if any(options[name] for name in ("family", "settings", "listing", "quantities", "digits", "rows")) or (
-            body.body_parameters(options)
-        ):
-            raise click.UsageError(
-                "--file has family, parameters and quantities: beside it give only --out and --jobs."
-            )
-        recipe = read(options["toml"])
-        listing = Path(recipe.listing) if recipe.listing else None
-        out = options["out"] or recipe.out
-        return cls(recipe.family, (*recipe.quantities,), recipe.parameters, listing, out, recipe.digits, recipe.rows)
+    if options["family"] is None:
+        raise click.UsageError(f"FAMILY is missing: name the family to sweep, {NAMES}.")
+    settings = [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in options["settings"]]
+    fixed, axes = (_uncertain_body(options), "") if uncertain(options) else _body(options)
+    names = [*fixed, *(name.strip() for name, _ in settings)]
+    _once(names, "--set" + " and the options of body and field" * bool(fixed))
+    family = _meant(options["family"], {*names})
+    _check_moments(family, fixed, options)
+    return family, fixed | {name.strip(): values for name, values in settings}, axes
 
 
 def _check_moments(family: str, fixed: Mapping[str, Any], options: Mapping[str, Any]) -> None:
@@ -167,17 +130,17 @@ def swept(**options: Any) -> None:
     from atlas.sweeps.plan import Plan
     from atlas.sweeps.run import write_plan
 
-    request = Request.of_options(options) if options["toml"] is None else Request.of_file(options)
-    family, listing = request.family, request.listing
+    family, requested_values, axes = requested(options)
+    listing = options["listing"]
     option_names = {name: option for name, (option, _) in _options(family).items()}
     typed = {
         name: _numbers(name, option_names.get(name, name), text)
-        for name, text in request.parameters.items() if isinstance(text, str)
+        for name, text in requested_values.items() if isinstance(text, str)
     }  # fmt: skip
     check_bare_numbers(options, ((name, option_names.get(name, name), numbers) for name, numbers in typed.items()))
     parameters = {
         name: _values(name, values, typed[name]) if name in typed else values
-        for name, values in request.parameters.items()
+        for name, values in requested_values.items()
     }
     columns, units = _listed(family, listing) if listing else ({}, set())
     _once([*columns, *parameters], f"{listing} and elsewhere")
@@ -185,18 +148,22 @@ def swept(**options: Any) -> None:
     typed_starts = [_parameter_values(inputs.get(f"omega{i}", 0.0)) for i in (1, 2, 3)]
     start = [max((abs(float(getattr(x, "n", x))) for x in values), default=0.0) for values in typed_starts]
     body.check_speeds(options, start if any(start) else None)
-    if request.out is None:
+    if options["out"] is None:
         raise click.UsageError("--out is missing: name the file of the table, such as --out table.csv.")
     has_units = bool(units) or any(x.unit for numbers in typed.values() for x in numbers)
     time = "s" if has_units else body.units_of(options).get("time", "time")
     plan = Plan.of(
-        family, inputs, request.quantities,
-        listed=listing is not None, digits=request.digits, time=time, axes=request.axes,
+        family, inputs, options["quantities"],
+        listed=listing is not None, digits=options["digits"], time=time, axes=axes,
     )  # fmt: skip
     _tell_rounding(plan)
     with bar("sweep", every=60) as tell:
         path = write_plan(
-            plan, request.out, request.rows, jobs=options["jobs"], progress=lambda done, total: tell(done, total, "")
+            plan,
+            options["out"],
+            options["rows"],
+            jobs=options["jobs"],
+            progress=lambda done, total: tell(done, total, ""),
         )
     click.echo(str(path))
 
@@ -236,7 +203,6 @@ def of_three_moments() -> click.Command:
         "atlas sweep general --ratio 1.5 --field 1kHz 2kHz --set omega1=0 omega2=0 omega3=1kHz:2MHz:100:log --quantity "
         "precession_rate --out spins.csv",
         "atlas sweep asymmetric --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --quantity f1 --out f.csv",
-        "atlas sweep --file sweep.toml --out table.parquet/",
     ),
 )
 @options_of(
@@ -314,45 +280,6 @@ def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
     if start is not None:
         values |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)
     return values | {name: float(x) for name, x in given(options, ["omega2"]).items()}, ""
-
-
-def read(path: Path) -> Any:
-    """Return the sweep in a TOML file. Raises click.UsageError for an error in the file."""
-    import msgspec
-
-    class Recipe(msgspec.Struct, forbid_unknown_fields=True):
-        """A sweep as written in a TOML file."""
-
-        family: str
-        quantities: list[str]
-        parameters: dict[str, float | int | str | list[float | int]] = {}
-        # not called list itself, which annotations above would mean from Python 3.14 on
-        listing: str | None = msgspec.field(default=None, name="list")
-        out: str | None = None
-        digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None
-        rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
-
-    try:
-        with path.open("rb") as file:
-            text = file.read(MAX_RECIPE_SIZE)
-        if len(text) == MAX_RECIPE_SIZE:
-            raise click.UsageError(f"{path} is larger than {MAX_RECIPE_SIZE // 10**6} MB: it is no recipe of a sweep.")
-        recipe = msgspec.toml.decode(text, type=Recipe)
-    except OSError as error:
-        raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise click.UsageError(f"{path}: {error}.") from error
-    except RecursionError as error:
-        raise click.UsageError(f"{path} is nested too deeply: write the parameters as in the guide.") from error
-
-    def beside(name: str) -> str:
-        if "\0" in name or not name:
-            raise click.UsageError(f"{path}: out = {name!r} is no name of a file: write one such as 'table.csv'.")
-        return name if "://" in name else str(path.parent / name) + "/" * name.endswith("/")
-
-    recipe.listing = None if recipe.listing is None else beside(recipe.listing)
-    recipe.out = None if recipe.out is None else OUT.convert(beside(recipe.out), None, None)
-    return recipe
 
 
 def _once(names: Sequence[str], source: str) -> None:

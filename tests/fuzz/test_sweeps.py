@@ -1,4 +1,4 @@
-"""A sweep of any words or file: a whole table of numbers, or one line and no file."""
+"""A sweep of any words: a whole table of numbers, or one line and no file."""
 
 from pathlib import Path
 from typing import Any
@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from test_commands import number, ran
-from test_reports import written
 from values import share
 
 from atlas.files import WRITTEN
@@ -73,33 +72,3 @@ def test_any_sweep_is_a_table_or_a_line(folder: Path, words: list[str], kind: st
     else:
         assert out.stat().st_size, told
     assert {path.name for path in folder.iterdir()} <= {out.name, WRITTEN}, told
-
-
-@st.composite
-def recipes(draw: Any) -> tuple[str, dict[str, Any]]:
-    """Draw the family of a sweep's file and its parameters, of which one has any type."""
-    family = draw(st.sampled_from(list(FAMILIES)))
-    given: dict[str, Any] = {name: float(value) for name, value in FAMILIES[family].items()}
-    any_type = st.recursive(
-        st.one_of(number, st.integers(), st.floats(), st.booleans()), lambda inner: st.lists(inner, max_size=3)
-    )
-    given[draw(st.sampled_from([*given, *KNOWN[family].optional]))] = draw(any_type)
-    return family, given
-
-
-@pytest.mark.slow
-@share(0.02, 10)
-@given(recipe=recipes())
-def test_any_file_of_a_sweep_is_a_table_or_a_line(folder: Path, recipe: tuple[str, dict[str, Any]]) -> None:
-    """A TOML file in which a value has any type."""
-    family, given = recipe
-    file, out = folder / "sweep.toml", folder / "mine.csv"
-    quantity = next(iter(KNOWN[family].quantities))
-    head = {"family": family, "quantities": [quantity], "out": str(out), "parameters": given}
-    file.write_text(written(head), encoding="utf-8")
-    status, _, err = ran(["sweep", "--file", str(file), "-j", "1"])
-    assert "Traceback" not in err, (recipe, err)
-    assert status in {0, 2}, (recipe, err)
-    assert (err.count("\n") == 1 and not out.exists()) if status else out.exists(), (recipe, err)
-    out.unlink(missing_ok=True)
-    file.unlink()
