@@ -23,7 +23,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) of the ball, given as to ``BallMotion``, over ``periods`` of the turn about k."""
+    """Draw R_3(t) and Omega(t) of the ball, given as to ``BallMotion``, over ``periods`` of the turn about k.
+
+    The elevation of the view is in degrees.
+    """
     motion = BallMotion(inertia, larmor, momentum)
     period = 2 * pi / motion.gamma if motion.gamma else 0.0
     m2, m3 = momentum

@@ -34,7 +34,10 @@ SIZE, REACH = 0.72, 1.75
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, elevation: float = 12.0) -> Scene:
-    """Draw seven bodies, their places on the scale of I, and their quadrics in the field B' = (0, B2, B3)."""
+    """Draw seven bodies, their places on the scale of I, and their quadrics in the field B' = (0, B2, B3).
+
+    ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees.
+    """
     if not all(field):
         raise DomainError(f"figure body_ruler needs B2, B3 not zero, not field = {field}.")
     prime = drawn_field(field, azimuth)

@@ -13,7 +13,10 @@ SEEN = "A ball's surface of initial data is a cone."
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
-    """Show the cone with all that lies in the plane omega_1 = 0; ``field`` = (B2, B3) of B'."""
+    """Show the cone with all that lies in the plane omega_1 = 0; ``field`` = (B2, B3) of B'.
+
+    Azimuth and elevation of the view are in degrees.
+    """
     if Quadric(1.0, field).kind != "cone":
         raise DomainError(
             f"figure cone takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."

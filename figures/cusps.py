@@ -37,7 +37,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw the axis for each push ``omega2``, and where these motions lie beside the line of cusps."""
+    """Draw the axis for each push ``omega2``, and where these motions lie beside the line of cusps.
+
+    ``ratio`` is I3/I2; the elevation of the view is in degrees.
+    """
     if not (linear > 0 and omega3 and direction[0] and 1 <= len(omega2) <= 3):
         raise DomainError(
             "figure cusps needs a weight linear > 0, a spin omega3, an axis that is not upright and 1 to 3 pushes, not "

@@ -35,7 +35,10 @@ def scene(
     reach: float = 2.6,
     unit: str = "time",
 ) -> Scene:
-    """Draw the curves of the bodies (``first``, 1, ``ratio``) with the hyperbola of (1, 1, ``ratio``)."""
+    """Draw the curves of the bodies (``first``, 1, ``ratio``) with the hyperbola of (1, 1, ``ratio``).
+
+    ``field`` is (B2, B3) of B', in 1/time.
+    """
     if not 0 < len(first) <= 3:
         raise AtlasError(f"first must hold one to three values of I1, not {len(first)}.")
     for I1 in first:

@@ -22,7 +22,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) of the motion, given as to ``EllipticMotion``, over ``periods`` of the field in it."""
+    """Draw R_3(t) and Omega(t) of the motion, given as to ``EllipticMotion``, over ``periods`` of the field in it.
+
+    ``field`` is B' along the principal axes, in 1/time; the elevation of the view is in degrees.
+    """
     motion = EllipticMotion(inertia, field, z, branch)
     body = rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$"
     setting = (

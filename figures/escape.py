@@ -32,7 +32,10 @@ def scene(
     pushes: tuple[float, ...] = (1e-2, 1e-4, 1e-6),
     unit: str = "time",
 ) -> Scene:
-    """Draw Omega3(t) for each push omega1, and the period over the push with its logarithmic law."""
+    """Draw Omega3(t) for each push omega1, and the period over the push with its logarithmic law.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time.
+    """
     hyperbola = Hyperbola(ratio, field)
     squared = float(hyperbola.stability(omega2))
     if squared >= 0:

@@ -33,7 +33,10 @@ def scene(
     elevation: float = 40.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) of the bodies (``first``, 1, ``ratio``) up to the time ``stop``; B stands upright."""
+    """Draw R_3(t) of the bodies (``first``, 1, ``ratio``) up to the time ``stop``; B stands upright.
+
+    ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    """
     if not 0 < len(first) <= 6 or not any(field):
         raise DomainError(f"figure flattening takes one to six values of I1 and a field, not {first} and {field}.")
     longest = 2 * np.pi * MAX_TURNS / float(np.abs([*field, *omega[:2]]).sum())

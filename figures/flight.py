@@ -35,7 +35,10 @@ def scene(
     stop: float | None = None,
     unit: str = "length",
 ) -> Scene:
-    """Draw the paths of the centre of mass and of x_N(0) = ``point``, for ``turns`` of the former or up to ``stop``."""
+    """Draw the paths of the centre of mass and of x_N(0) = ``point``, for ``turns`` of the former or up to ``stop``.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     mu = number(mu, "mu")
     B2, B3 = components(field)
     if mu == 0:

@@ -44,7 +44,10 @@ def scene(
     azimuth: float = 40.0,
     elevation: float = 30.0,
 ) -> Scene:
-    """Draw ``count`` attitudes of a body of this ``size`` in ``turns`` of its centre; the centre starts at 0."""
+    """Draw ``count`` attitudes of a body of this ``size`` in ``turns`` of its centre; the centre starts at 0.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees.
+    """
     mu, c, size, count = number(mu, "mu"), positive(c, "c"), positive(size, "size"), whole(count, "count")
     I = quotient(ratio)
     if not (mu and any(field) and I < 2 and 2 <= count <= 60):

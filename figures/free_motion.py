@@ -23,7 +23,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the precession about m."""
+    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the precession about m.
+
+    ``ratio`` is I3/I2 or a body; the elevation of the view is in degrees.
+    """
     motion = FreeMotion(ratio, omega)
     moment, words = any_motion.start(omega)
     rates = rf"$k{tex_equals(motion.k)}$, $\phi{tex_equals(motion.phi)}$"

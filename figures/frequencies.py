@@ -37,7 +37,10 @@ def scene(
     order: int = 3,
     unit: str = "time",
 ) -> Scene:
-    """Draw k, phi and phi/k up to ``reach`` times B2 from the pole; p/q is marked for |p| and q up to ``order``."""
+    """Draw k, phi and phi/k up to ``reach`` times B2 from the pole; p/q is marked for |p| and q up to ``order``.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     order = whole(order, "order", 1)
     if order > MAX_ORDER:
         raise DomainError(f"figure frequencies marks p/q up to order = {MAX_ORDER}, not {order}.")

@@ -23,7 +23,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the nutation."""
+    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the nutation.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    """
     motion = GeneralMotion(ratio, field, omega)
     moment, words = any_motion.start(omega)
     setting = (

@@ -34,7 +34,10 @@ def scene(
     shown: float = -0.3,
     count: int = 48,
 ) -> Scene:
-    """Draw the turn and its parts between two places ``z``, at ``count`` of them, and the curve of one ``shown``."""
+    """Draw the turn and its parts between two places ``z``, at ``count`` of them, and the curve of one ``shown``.
+
+    ``field`` is B' along the principal axes, in 1/time.
+    """
     if not (z[0] < z[1] and z[0] <= shown <= z[1] and 2 <= count <= 1000):
         raise DomainError(
             "figure geometric_phase takes z from low to high, a place shown between them and 2 to 1000 points, not "

@@ -24,7 +24,10 @@ def scene(
     reach: float = 1.7,
     unit: str = "time",
 ) -> Scene:
-    """Draw both branches, the asymptotes and the named points as far as ``reach`` times the larger of B2 and B3."""
+    """Draw both branches, the asymptotes and the named points as far as ``reach`` times the larger of B2 and B3.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     view, (B2, B3) = window(field, reach, square=True), components(field)
     bands = unstable(ratio, field)
     pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))

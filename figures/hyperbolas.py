@@ -24,7 +24,10 @@ def scene(
     reach: float = 2.6,
     unit: str = "time",
 ) -> Scene:
-    """Draw the hyperbolas of the bodies with these ``ratios``; ``reach`` sets how far, in units of the field."""
+    """Draw the hyperbolas of the bodies with these ``ratios``; ``reach`` sets how far, in units of the field.
+
+    ``field`` is (B2, B3) of B', in 1/time.
+    """
     if not 0 < len(ratios) <= len(LINES):
         raise AtlasError(f"ratios must hold one to {len(LINES)} values of I, not {len(ratios)}.")
     view, (B2, B3) = window(field, reach), components(field)

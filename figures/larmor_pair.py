@@ -34,7 +34,10 @@ def scene(
     nutations: float = 1.0,
     elevation: float = 40.0,
 ) -> Scene:
-    """Draw R_3(t) of both launches over ``nutations`` periods, in both frames; B is upright."""
+    """Draw R_3(t) of both launches over ``nutations`` periods, in both frames; B is upright.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    """
     if not all(field):
         raise DomainError(f"figure larmor_pair needs both components of the field, not field = {field}.")
     B = np.array([0.0, *field])

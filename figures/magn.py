@@ -30,7 +30,10 @@ def scene(
     azimuth: float = 32.0,
     elevation: float = 18.0,
 ) -> Scene:
-    """Show E = (0, E_y, E_z), B = (0, 0, B) and a path that starts at the origin with ``speed`` along x."""
+    """Show E = (0, E_y, E_z), B = (0, 0, B) and a path that starts at the origin with ``speed`` along x.
+
+    Azimuth and elevation of the view are in degrees.
+    """
     if not (B and mu):
         raise DomainError(f"figure magn needs a field B and a ratio mu that are not zero, not B = {B} and mu = {mu}.")
     particle = ParticleMotion(mu, (0.0, *E), (0.0, 0.0, B), (0.0, 0.0, 0.0), (speed, 0.0, 0.0), c)

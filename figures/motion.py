@@ -36,7 +36,10 @@ def scene(
     turns: float = 2.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where (71) leaves it free."""
+    """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where (71) leaves it free.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     turns = positive(turns, "turns")
     k, phi = abs(motion.k), abs(motion.phi)

@@ -39,7 +39,10 @@ def scene(
     cells: int = 240,
     unit: str = "time",
 ) -> Scene:
-    """Draw the map for each of the ``ratios`` with ``cells`` by ``cells`` initial velocities."""
+    """Draw the map for each of the ``ratios`` with ``cells`` by ``cells`` initial velocities.
+
+    ``field`` is (B2, B3) of B', in 1/time.
+    """
     if not (all(field) and 1 <= len(ratios) <= 4 and 2 <= cells <= 2000):
         raise DomainError(
             f"figure motion_map needs B2, B3 not zero, 1 to 4 ratios and 2 to 2000 cells, not field = {field}, "

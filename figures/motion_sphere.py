@@ -35,7 +35,11 @@ def scene(
     azimuth: float = 25.0,
     elevation: float = 18.0,
 ) -> Scene:
-    """Show ``turns`` periods of the precession; ``omega3`` is given only where (71) leaves it free."""
+    """Show ``turns`` periods of the precession; ``omega3`` is given only where (71) leaves it free.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
+    degrees.
+    """
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     pole = in_plane(*field) if any(field) else motion.angular_momentum(0.0)
     size = float(np.linalg.norm(pole))

@@ -26,7 +26,10 @@ def scene(
     nutations: float = 8.0,
     elevation: float = 25.0,
 ) -> Scene:
-    """Draw R_3(t) from (0, omega2, omega3) for each ``omega2`` over ``nutations`` periods; B stands upright."""
+    """Draw R_3(t) from (0, omega2, omega3) for each ``omega2`` over ``nutations`` periods; B stands upright.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    """
     if not all(field):
         raise DomainError(f"figure nutation_traces needs both components of the field, not field = {field}.")
     motions = [GeneralMotion(ratio, field, (0.0, start, omega3)) for start in omega2]

@@ -38,7 +38,10 @@ def scene(
     unit: str = "time",
     length: str = "length",
 ) -> Scene:
-    """Draw path and velocity over ``turns`` turns; without a magnetic field, while E doubles or makes the speed."""
+    """Draw path and velocity over ``turns`` turns; without a magnetic field, while E doubles or makes the speed.
+
+    Azimuth and elevation of the view are in degrees.
+    """
     particle = ParticleMotion(mu, electric, magnetic, position, velocity, c)
     stop = positive(turns, "turns") * _unit_of_time(particle)
     pieces = max(32, round(12 * turns))

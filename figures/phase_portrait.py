@@ -36,7 +36,10 @@ def scene(
     levels: int = 4,
     unit: str = "time",
 ) -> Scene:
-    """Draw the portrait of the momenta of ``omega2``, with ``levels`` closed curves about each equilibrium."""
+    """Draw the portrait of the momenta of ``omega2``, with ``levels`` closed curves about each equilibrium.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time.
+    """
     if not all(field):
         raise DomainError(f"figure phase_portrait needs both components of the field, not field = {field}.")
     top = Top(ratio, field, omega2)

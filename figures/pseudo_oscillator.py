@@ -39,7 +39,8 @@ def scene(
 ) -> Scene:
     """Draw Q, V and Omega3(t), over ``turns`` oscillations, for the initial angular velocity ``omega``.
 
-    An oscillation that is small beside omega3 is drawn from there.
+    An oscillation that is small beside omega3 is drawn from there. ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in
+    1/time.
     """
     oscillator = PseudoOscillator(ratio, field, omega)
     motion = GeneralMotion(ratio, field, omega)

@@ -40,7 +40,10 @@ def scene(
     turns: float = 1.5,
     unit: str = "time",
 ) -> Scene:
-    """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``."""
+    """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     if not 0 < len(omega1) <= len(LINES) or not all(omega1):
         raise DomainError(f"omega1 must hold one to {len(LINES)} numbers, none of them zero, not {omega1}.")
     oscillator = start(ratio, field, 0.0, omega2)

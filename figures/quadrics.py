@@ -19,7 +19,10 @@ def scene(
     azimuth: float = 25.0,
     elevation: float = 14.0,
 ) -> Scene:
-    """Show the bowl through the origin of one body, the tube of the other; ``field`` = (B2, B3) of B'."""
+    """Show the bowl through the origin of one body, the tube of the other; ``field`` = (B2, B3) of B'.
+
+    Azimuth and elevation of the view are in degrees.
+    """
     kinds = [Quadric(ratio, field).kind for ratio in ratios]
     if kinds != ["two-sheet hyperboloid", "one-sheet hyperboloid"]:
         raise DomainError(

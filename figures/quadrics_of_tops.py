@@ -34,7 +34,10 @@ def scene(
     azimuth: float = 20.0,
     elevation: float = 14.0,
 ) -> Scene:
-    """Draw six tops in units of b: weight and moment are |a0|, ``outside`` is k3/(I k2) of the charge outside."""
+    """Draw six tops in units of b: weight and moment are |a0|, ``outside`` is k3/(I k2) of the charge outside.
+
+    ``ratio`` is I3/I2; azimuth and elevation of the view are in degrees.
+    """
     n2, n3 = direction
     if not (n2 and n3 > 0 and 0 < ratio <= 2):
         raise DomainError(

@@ -32,7 +32,11 @@ def scene(
     azimuth: float = 20.0,
     elevation: float = 12.0,
 ) -> Scene:
-    """Show the cones in the field and, beside them, the cones of the free body with the same precession."""
+    """Show the cones in the field and, beside them, the cones of the free body with the same precession.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
+    degrees.
+    """
     motion = ElementaryMotion(ratio, field, omega2)
     if motion.case != "precession" or not field[1]:
         raise DomainError(
@@ -95,7 +99,7 @@ def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
 
 
 def reach(line: FloatArray, omega: FloatArray) -> float:
-    """Return the length of an arrow along a line: 1.35, beyond the rims, on the side of omega; else 0.6."""
+    """Return the length of an arrow along a ``line`` (3,): 1.35, beyond the rims, on the side of omega; else 0.6."""
     return 1.35 if line @ omega > 0.0 else 0.6
 
 

@@ -34,7 +34,10 @@ def scene(
     fractions: tuple[tuple[int, int], ...] = ((1, 2), (2, 3), (3, 5)),
     turns: float = 13.0,
 ) -> Scene:
-    """Show a motion with phi/k = p/q for each of the ``fractions``, and the golden one over ``turns`` turns."""
+    """Show a motion with phi/k = p/q for each of the ``fractions``, and the golden one over ``turns`` turns.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time.
+    """
     if not all(field):
         raise DomainError(f"figure rosettes needs both components of the field, not field = {field}.")
     hyperbola = Hyperbola(ratio, field)

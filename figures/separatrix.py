@@ -37,7 +37,11 @@ def scene(
     elevation: float = 18.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/growth before and after."""
+    """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/growth before and after.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
+    degrees.
+    """
     stability = float(Hyperbola(ratio, field).stability(omega2))
     if not stability < 0:
         raise DomainError(

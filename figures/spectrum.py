@@ -30,7 +30,10 @@ def scene(
     names: int = 12,
     unit: str = "time",
 ) -> Scene:
-    """Draw lines down to ``least`` of the whole, with the whole numbers of the ``names`` highest ones of each panel."""
+    """Draw lines down to ``least`` of the whole, with the whole numbers of the ``names`` highest ones of each panel.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     least, names = number(least, "least"), whole(names, "names", 0)
     if not 1e-12 <= least <= 0.1:
         raise DomainError(f"figure spectrum draws lines down to least = 1e-12 to 0.1, not {least:g}.")

@@ -37,7 +37,10 @@ def scene(
     reach: float = 2.2,
     unit: str = "time",
 ) -> Scene:
-    """Draw nu^2 over omega2, and its ``levels`` in units of B2^2 in the plane of tau and x, for all fields."""
+    """Draw nu^2 over omega2, and its ``levels`` in units of B2^2 in the plane of tau and x, for all fields.
+
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    """
     B2, B3 = components(field)
     if B2 == 0:
         raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")

@@ -43,7 +43,10 @@ def scene(
     elevation: float = 14.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw the body at ``count`` moments of one excursion, and the angle of its axis over three."""
+    """Draw the body at ``count`` moments of one excursion, and the angle of its axis over three.
+
+    ``ratio`` is I3/I2 or a body; azimuth and elevation of the view are in degrees.
+    """
     I, one_less, _ = shape_factors(ratio)
     D = (I * (omega3 + B3)) ** 2 + 4 * one_less * B3**2
     if D >= 0:

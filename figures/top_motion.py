@@ -24,7 +24,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) of the top, given as to ``TopMotion``, over ``periods`` of the nutation."""
+    """Draw R_3(t) and Omega(t) of the top, given as to ``TopMotion``, over ``periods`` of the nutation.
+
+    The elevation of the view is in degrees.
+    """
     motion = TopMotion(inertia, coupling, direction, omega, linear, quadratic)
     moment, words = any_motion.start(omega)
     has = [

@@ -40,7 +40,10 @@ def scene(
     nutations: float = 6.0,
     elevation: float = 25.0,
 ) -> Scene:
-    """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential."""
+    """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential.
+
+    ``ratio`` is I3/I2; the elevation of the view is in degrees.
+    """
     if not larmor > 0:
         raise DomainError(f"figure tops needs a positive larmor, which scales coupling and potential, not {larmor}.")
     motions = [_motion(ratio, direction, omega, larmor, *cause) for _, _, *cause in TOPS]

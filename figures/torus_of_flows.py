@@ -31,7 +31,10 @@ def scene(
     turns: float = 18.0,
     stop: float | None = None,
 ) -> Scene:
-    """Draw the motion from ``omega`` for ``turns`` or up to the time ``stop``, and one way back to its start."""
+    """Draw the motion from ``omega`` for ``turns`` or up to the time ``stop``, and one way back to its start.
+
+    ``field`` is B' along the principal axes, in 1/time.
+    """
     first_period, second_period = periods(inertia, field, omega)
     area = first_period[0] * second_period[1] - first_period[1] * second_period[0]
     rates = (

@@ -30,7 +30,10 @@ def scene(
     pushes: tuple[float, ...] = (1e-3, 1e-2, 1e-1),
     reach: float = 12.0,
 ) -> Scene:
-    """Draw how far K is from its start for each of ``pushes``, angular velocities about e2, up to ``reach`` over it."""
+    """Draw how far K is from its start for each of ``pushes``, angular velocities about e2, up to ``reach`` over it.
+
+    ``field`` is B' along the principal axes, in 1/time.
+    """
     if not 0 < len(pushes) <= len(ROLES) or not all(0 < abs(push) <= 1 for push in pushes) or not any(field):
         raise DomainError(
             f"figure turnover takes one to three pushes, from 0 to 1, and a field, not {pushes} and {field}."

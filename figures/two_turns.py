@@ -32,7 +32,11 @@ def scene(
     azimuth: float = 48.0,
     elevation: float = 14.0,
 ) -> Scene:
-    """Draw the attitudes 1, R_z and R_B R_z at the time ``part`` of a period of the precession."""
+    """Draw the attitudes 1, R_z and R_B R_z at the time ``part`` of a period of the precession.
+
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
+    degrees.
+    """
     motion = ElementaryMotion(ratio, field, omega2)
     if not (motion.k and motion.phi and all(field)):
         raise DomainError(

@@ -186,7 +186,10 @@ class DoubleRotation:
         return combinations(self.phases, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), j = 1, 2, 3: the body's axis j in the laboratory, shape (..., 3)."""
+        """Return the column R_j(t), j = 1, 2, 3: the body's axis j in the laboratory, shape (..., 3).
+
+        ``out``, if given, is filled and returned.
+        """
         if j == 3 and not self.inverse:
             return combinations(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
         return combinations(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
@@ -205,7 +208,10 @@ class DoubleRotation:
         return weights
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4).
+
+        ``out``, if given, is filled and returned.
+        """
         return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
     def vector(self, name: str) -> Any:
@@ -213,13 +219,17 @@ class DoubleRotation:
         return self.vectors[name]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
+
+        ``out``, if given, is filled and returned.
+        """
         return (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
     def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_n(k t) v for a constant vector v (3,), shape t.shape + (3,), in the unit of v.
 
-        Only one phase is evaluated. Raises AtlasError if v is too large for floats.
+        Only one phase is evaluated. Raises AtlasError if v is too large for floats. ``out``, if given, is filled and
+        returned.
         """
         with np.errstate(over="ignore", invalid="ignore"):
             weights = self.rodrigues @ np.asarray(vector)
@@ -230,7 +240,7 @@ class DoubleRotation:
     def swung(self, vector: tuple[float, float, float], t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_z(-phi t) v for a constant vector v, shape t.shape + (3,), in the unit of v.
 
-        Raises AtlasError if v is too large for floats.
+        Raises AtlasError if v is too large for floats. ``out``, if given, is filled and returned.
         """
         x, y, z = vector
         if max(abs(x), abs(y)) > LARGEST:
@@ -293,8 +303,8 @@ def evaluate(
 ) -> FloatArray:
     """Return an array of shape times.shape + ``shape``, filled block by block.
 
-    ``prepare(size)`` returns a function (times, rows) that fills rows for at most ``size`` times. Blocks may run in two
-    threads.
+    ``prepare(size)`` returns a function (times, rows) that fills rows for at most ``size`` times. Blocks may run in
+    two threads. ``out``, if given, is filled and returned.
     """
     out = target(out, times.shape + shape)
     rows = out.reshape(times.size, prod(shape))

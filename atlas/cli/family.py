@@ -513,7 +513,10 @@ def _kernel(family: Family, options: dict[str, Any]) -> Any:
 
 
 def _balls(family: Family, options: dict[str, Any]) -> Any:
-    """Return the certified object of the options, in the given axes and with the given attitude."""
+    """Return the certified object of a family that the options describe.
+
+    Where a tensor or an attitude is given and the family takes them, it is the `PlacedMotion` along the given axes.
+    """
     if family.in_given_axes and (body.given_tensor(options) is not None or options["attitude"] is not None):
         from atlas.motions.torus.certified_placed import PlacedMotion
 

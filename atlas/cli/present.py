@@ -124,7 +124,7 @@ def _notes(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _text(console: "Console", count: Any, **how: Any) -> str:
-    """Return the text that this console prints for a renderable of Rich."""
+    """Return the text that a console prints for ``count``, a renderable of Rich, with options ``how`` of its print."""
     with console.capture() as printed:
         console.print(count, **how)
     return printed.get()

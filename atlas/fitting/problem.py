@@ -230,7 +230,7 @@ class Problem:
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 
     def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of the named parameters in the varied ones, shape (len(names), n)."""
+        """Return the derivatives of the named parameters in the varied ones ``x`` (n,), shape (len(names), n)."""
         if not self.tied and all(name in self.model.names for name in names):
             return np.array([[float(name == free_name) for free_name in self.names] for name in names])
         out = np.empty((len(names), len(self.names)))
@@ -241,7 +241,10 @@ class Problem:
         return out
 
     def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
-        """Return the residuals in units of the standard errors, (N k,); HUGE where there is no motion."""
+        """Return the residuals in units of the standard errors, (N k,); HUGE where there is no motion.
+
+        ``x`` (n,) are the varied parameters, ``places`` the indices or the slice of the N data.
+        """
         if self.followed:
             return self._integrated(x, places)[0]
         data = self.data.part(places)
@@ -265,7 +268,10 @@ class Problem:
         return int({"axis": 2, "signal": self.data.values.shape[-1]}.get(self.data.kind, 3))
 
     def jacobian(self, x: Vector, places: Any = slice(None)) -> FloatArray:
-        """Return the derivatives of the residuals in the varied parameters, shape (N k, n)."""
+        """Return the derivatives of the residuals in the varied parameters ``x`` (n,), shape (N k, n).
+
+        ``places`` are the indices or the slice of the N data, of k numbers each.
+        """
         return np.asarray(self.slopes(x, places).reshape(-1, len(self.names)))
 
     def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:

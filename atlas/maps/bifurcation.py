@@ -138,7 +138,10 @@ class Bifurcation:
         return np.stack([linear - self.e2 * square, H], axis=-1)
 
     def splitting(self, z: FloatArray, branch: int) -> FloatArray:
-        """Return C/D^2 (N,) at places z (N,): positive where the elliptic motion is stable, theorem-splitting."""
+        """Return C/D^2 (N,), in 1/time^2, at places z (N,): positive where the motion is stable, theorem-splitting.
+
+        ``branch`` is 1 or -1, the sign of v.
+        """
         v = branch * np.sqrt(self._cubic(z)[0])
         return np.asarray(split(tuple(self.inertia), self.b * self.b, -self.c / v, z))
 
@@ -204,7 +207,10 @@ class Bifurcation:
             yield int(axis), max(start, border), float("inf"), after
 
     def _borders(self, start: float, stop: float, branch: int) -> list[float]:
-        """Return the values z between start and stop where stability changes: the cusps of the curve."""
+        """Return places z between start and stop, a list of floats, where stability changes: the cusps of the curve.
+
+        ``branch`` is as for `splitting`. Two cusps between neighbouring trial places are missed.
+        """
         z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, STRETCH_PLACES + 2)[1:-1]) ** 2
         stable = self.splitting(z, branch) > 0
         borders = []

@@ -76,7 +76,10 @@ class Wells:
         return plain(self.energy(nu, 0.0) + (p - self.M3 * nu) ** 2 / ((1 - nu) * (1 + nu)))
 
     def energy(self, nu: Any, w: Any) -> Any:
-        """Return g, in 1/time^2, where theta rests at nu = cos theta, and the axis precesses at the rate w - k2."""
+        """Return g = A nu^2 + w^2 (1 - nu^2) + 2 a nu, in 1/time^2, where theta rests at nu = cos theta.
+
+        ``w`` is the rate of the axis' precession plus k2, in rad/time. Both may be arrays, which broadcast.
+        """
         return self.A * nu * nu + w * w * (1 - nu) * (1 + nu) + 2 * self.a * nu
 
     def spin(self, end: int) -> tuple[float, float, float]:

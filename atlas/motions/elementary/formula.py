@@ -12,7 +12,10 @@ from atlas.motions.elementary.formula_hyperbola import ordinate, precession, pro
 def constants(
     case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
 ) -> tuple[Number, tuple[Number, Number], Number, Number]:
-    """Return (omega3, (x, y) along the axis, k, phi); in the first FREE_CASES cases omega3 is the input."""
+    """Return (omega3, (x, y) along the precession's axis, k, phi): rates in rad/time, x and y along e2 and e3.
+
+    ``case`` is one of `CASES`. In the first FREE_CASES of them omega3 is the input, in others it is that of (71).
+    """
     if case == "free body":
         axis_vector = omega2, I3 * omega3 / I2
         return omega3, axis_vector, length(*axis_vector), (I2 - I3) * omega3 / I2

@@ -215,7 +215,10 @@ class Nutation:
 
 
 def _balanced(half: arb, imaginary: arb, *, oblique: bool) -> Lattice:
-    """Return the `Lattice` of these half periods in the form, trigonometric or hyperbolic, with the smaller nome."""
+    """Return the `Lattice` of a real half period and an ``imaginary`` one, in the form with the smaller nome.
+
+    That is trigonometric where ``half`` is at most ``imaginary``, else hyperbolic; `oblique` is passed on.
+    """
     form = "trigonometric" if half.mid() <= imaginary.mid() else "hyperbolic"
     rate = arb.pi() / (2 * (half if form == "trigonometric" else imaginary))
     return Lattice(form, half, imaginary, oblique, rate)

@@ -197,7 +197,10 @@ def _beside_imaginary(
 
 
 def _inclined(lattice: Lattice, y: arb) -> Sum:
-    """Return exp(-i v) times the theta function with a zero at i y, v = rate s, in trigonometric form."""
+    """Return exp(-i v) times the theta function with a zero at i y, as a `Sum` in trigonometric form, v = rate s.
+
+    Its weights are NaN where nome or rate y is not finite, and where |nome| is not certainly below 1.
+    """
     nome, eta, odd, even, n = lattice.nome, lattice.rate * y, list[acb](), list[acb](), 0
     size = abs(nome)
     if not (size.is_finite() and eta.is_finite() and size < 1):

@@ -86,7 +86,10 @@ def _value(x: Surd, y: Surd, d: Surd) -> Real:
 
 
 def stable(q: TopQuartic) -> bool:
-    """Whether a motion with constant theta is stable against nutation, decided exactly."""
+    """Whether a motion with constant theta is stable against nutation, decided exactly.
+
+    ``q`` is its quartic, with a double root at `nu`; where that root is of higher order the next derivatives decide.
+    """
     second = derivative(derivative(q.polynomial))
     sign = evaluated(second, -q.nu).sign
     if sign:
@@ -98,9 +101,10 @@ def stable(q: TopQuartic) -> bool:
 
 
 def sleeping_band(I: fmpq, kappa: fmpq, k3: fmpq, potential: tuple[fmpq, fmpq], side: int) -> tuple[Real, Real] | None:
-    """Return the interval of omega3 in which a top along n (`side` 1) or against n (-1) is unstable; None if empty.
+    """Return (low, high) of omega3, rad/time, between which a top along n (`side` 1) or against n (-1) is unstable.
 
-    With M3 = I omega3 + side k3 it is (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A).
+    None if there is no such omega3. With M3 = I omega3 + side k3 it is (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0
+    + A); ``potential`` is (a0, A).
     """
     a0, A = potential
     square = kappa * kappa + side * a0 + A

@@ -86,7 +86,11 @@ class VariedPair:
         self.frequencies.append(frequencies[:count])
 
     def _place(self, tilt: FloatArray, tilts: FloatArray, order: FloatArray) -> None:
-        """Set the axes of the frame of the field in the body, and their rotation vectors for each input."""
+        """Set the axes of the frame of the field in the body, and its rotation vectors (inputs, 3) by each input.
+
+        ``tilt`` are cosine and sine of half the angle between axis and field, then of the azimuth, at t = 0;
+        ``tilts`` their derivatives by the inputs; ``order`` (3, 3) takes the class's axes to the body's.
+        """
         (c, sine, C, S), (dc, ds, dC, dS) = tilt, tilts
         cos, sin = c * c - sine * sine, 2 * c * sine
         self.chi, lean = C * dS - S * dC, -2 * (c * ds - sine * dc)
@@ -103,7 +107,10 @@ class VariedPair:
         return turn[0], values * self.cell, np.rint(t / self.cell + self.start - values)
 
     def functions(self, s: FloatArray, doubled: bool, count: int) -> FloatArray:
-        """Return sin and cos of k x by turns, x = rate s, or exp(k x) and exp(-k x); k = 1, 3, ... or 0, 2, ...."""
+        """Return ``count`` pairs of functions of x = rate s, s (m,): rows sin k x, cos k x by turns, (2 count, m).
+
+        Of a hyperbolic pair they are exp(k x) and exp(-k x). k is 0, 2, 4, ... if ``doubled``, else 1, 3, 5, ....
+        """
         x = self.rate * s
         out = np.empty((count, 2, s.size))
         if self.hyperbolic:
@@ -148,7 +155,11 @@ class Swing:
         self.columns[:, 6] = -self.change(np.eye(len(As)), start, zero)[:, 0]
 
     def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
-        """Return derivatives of the swing's angle, without terms linear in t, in N combinations of inputs, (N, m)."""
+        """Return derivatives of the swing's angle, in rad, without terms linear in t, by N combinations, (N, m).
+
+        ``names`` (N, inputs) are combinations of inputs, ``s`` (m,) the times in the period, ``count`` (m,) the
+        whole periods before.
+        """
         values, bys, functions = [], [], []
         for i, weights in enumerate(self.sums):
             doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
@@ -191,7 +202,11 @@ class Swing:
         return integral, by_A
 
     def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
-        """Return the rates of the derivatives of the angle, kappa nu, but for those that are constant."""
+        """Return the rates (N, m), in rad/time, of the derivatives of the angle, without their constant parts.
+
+        The angle's own rate is kappa nu. ``names`` (N, inputs) are combinations of inputs, ``nu`` (m,) is the cosine,
+        ``changes`` (N, m) are its derivatives.
+        """
         varied = names @ self.spins
         return np.asarray(varied[:, :1] * nu + varied[:, 1:] + self.kappa * changes)
 

@@ -32,7 +32,8 @@ SECH_SCALE = 2.0**500
 class Steady:
     """Basis of a steady motion: the single function 1.
 
-    The classes of this module have the number of functions `count`, `weights` of a sum in these, and `fill`.
+    Each class of this module has the number `count` of its real functions of time, `weights` of a sum in these, a
+    list of `count`, and `fill`, which writes the functions at N times into an array (count, N).
     """
 
     def __init__(self, _found: Solution, _sums: Sequence[Sum]) -> None:

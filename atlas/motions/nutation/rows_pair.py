@@ -111,7 +111,7 @@ class SpherePair:
 
     @cached_property
     def rates(self) -> DoubleDouble:
-        """The frequencies l of alpha and beta, and M, (3, m).
+        """The frequencies l of alpha and beta, and M, (3, m), in rad/time of the scaled unit.
 
         Of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error.
         """

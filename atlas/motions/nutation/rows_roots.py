@@ -67,7 +67,7 @@ class TurningPoints:
 
     @cached_property
     def ends(self) -> DoubleDouble:
-        """Values of -f at low and high, (2, m)."""
+        """Values of -f at low and high, (2, m), f the other quadratic factor of Q: positive where `exact`."""
         f0, f1, f2 = self.f
         v = stacked(self.low, self.high)
         return -((f2 * v + f1) * v + f0)

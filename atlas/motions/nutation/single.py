@@ -82,7 +82,10 @@ class SingleMotion:
         return self._linear(np.ascontiguousarray(self.entries[:, j - 1 :: 3]), t, (3,), out)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t with w >= 0 at t = 0, shape t.shape + (4,)."""
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t with w >= 0 at t = 0, shape t.shape + (4,).
+
+        ``out``, if given, is filled and returned.
+        """
 
         def prepare(size: int) -> Any:
             """Return the function that fills a block of times."""
@@ -105,7 +108,10 @@ class SingleMotion:
         return np.asarray(-matrix if start[3] < 0 else matrix)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._linear(self.field, t, (3,), out)
 
     def _linear(
@@ -118,7 +124,8 @@ class SingleMotion:
     ) -> FloatArray:
         """Return linear combinations, shape t.shape + ``shape``, of the ten products of (alpha, beta) at times t.
 
-        ``weights`` (10, prod(shape)) are constant; ``pair`` replaces (alpha, beta) of the motion.
+        ``weights`` (10, prod(shape)) are constant; ``pair`` replaces (alpha, beta) of the motion. ``out``, if given,
+        is filled and returned.
         """
         times, pair = real(t, "The time"), pair or self.pair
         if 0 < times.size <= FEW_TIMES and pair.at_one_time:
@@ -164,7 +171,7 @@ class SingleGeneral(SingleMotion):
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), shape t.shape + (4,).
 
-        Components zero at all times are exactly zero.
+        Components zero at all times are exactly zero. ``out``, if given, is filled and returned.
         """
         q = super().quaternion(t, out)
         q[..., self._zeros] = 0.0
@@ -184,7 +191,10 @@ class SingleGeneral(SingleMotion):
         return [i for i, (a, b) in enumerate(terms) if a * k == 0 and (b if i == 2 else b * k) == 0]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) along the axes of the body, shape (..., 3), in rad/time."""
+        """Return Omega(t) along the axes of the body, shape (..., 3), in rad/time.
+
+        ``out``, if given, is filled and returned.
+        """
         pair, weights, equatorial, axial = self.velocity
         Omega = self._linear(weights, t, (3,), out, pair)
         # Omega3 is within some u of the largest that it could be; of a slender body that exceeds all there is of Omega
@@ -225,7 +235,8 @@ class SingleTop(SingleMotion):
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
 
-        It is twice the vector part of the quaternion's logarithmic derivative.
+        It is twice the vector part of the quaternion's logarithmic derivative. ``out``, if given, is filled and
+        returned.
         """
         kappa = nearest(self.exact.quartic.kappa) if self._sloping.swing else 0.0
 

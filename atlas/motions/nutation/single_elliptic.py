@@ -39,7 +39,10 @@ class SingleElliptic(SingleMotion):
         return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) along the body's axes, shape t.shape + (3,): (E_i - 1) K_i, or I^-1 m of a free body."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,): (E_i - 1) K_i, or I^-1 m of a free body.
+
+        ``out``, if given, is filled and returned.
+        """
         Omega = self._linear(self.field, t, (3,), out)
         Omega *= self._rates
         return Omega
@@ -59,7 +62,10 @@ class SingleEulerTop(SingleElliptic):
         self._constant = field
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the constant K along the body's axes, shape t.shape + (3,), in 1/time."""
+        """Return the constant K along the body's axes, shape t.shape + (3,), in 1/time.
+
+        ``out``, if given, is filled and returned.
+        """
         K = target(out, (*np.shape(t), 3))
         K[...] = self._constant
         return K

@@ -82,7 +82,7 @@ def carried(_: Number, c: Number, *x: Number) -> Vector:
 
 
 def centre(mu: Number, c: Number, *x: Number) -> Vector:
-    """Return the point O(0) of (99) and its velocity: six components."""
+    """Return the components of the point O(0) of (99), then three of its velocity, from inputs ``x`` as for `arm`."""
     return [*(y - a for y, a in zip(x[9:12], arm(mu, c, *x), strict=True)), *carried(mu, c, *x)]
 
 
@@ -112,7 +112,10 @@ def position(v: Any, a: Any, t: Number, s: Number, f: Number, g: Number, h: Numb
 
 
 def velocity(v: Any, a: Any, t: Number, cos: Number, sin: Number, s: Number, g: Number) -> Number:
-    """Return one component of y'(t), (90), from that of the three parts of v and of a; s, g as in `Gyration`."""
+    """Return one component of y'(t), (90), from that component of the three parts of v and of a.
+
+    ``cos`` and ``sin`` are of the phase at t; s, g as in `Gyration`.
+    """
     return v[0] + cos * v[1] + sin * v[2] + t * (a[0] + s * a[1] + g * a[2])
 
 

@@ -211,7 +211,7 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
 
 
 def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the alternating integer form (4, 4) of the lattice.
+    """Return the alternating integer form E (4, 4) of the lattice of four ``periods`` [T_H, T_F, T_c]: E(i, j) of two.
 
     Raises NotCertifiedError unless one of type (1, 2) is found.
     """
@@ -292,7 +292,10 @@ def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.comple
 
 
 def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
-    """Return the symplectic basis changed so that the off-diagonal entry of Im tau is small."""
+    """Return the symplectic ``basis`` (4, 4), integer rows in terms of the periods ``vectors``, with a small Im tau_12.
+
+    It is changed by at most MAX_REDUCTIONS single moves.
+    """
     for _ in range(MAX_REDUCTIONS):
         Y = _riemann(vectors, basis).imag
         a1, a2, b1, b2 = basis

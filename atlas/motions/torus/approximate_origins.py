@@ -66,7 +66,10 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
 
 
 def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
-    """Return Taylor coefficients of M, K and N along the flow of H: nine or six lists of `TAYLOR_TERMS` + 1."""
+    """Return Taylor coefficients, by time along the flow of H, of M, K and, if ``start`` has it, N.
+
+    They are nine or six lists, one for each component, of `TAYLOR_TERMS` + 1 numbers, the constant one first.
+    """
     rows = [[x] for x in start.components]
     A = [1 / I for I in moments]
     for n in range(TAYLOR_TERMS):
@@ -93,7 +96,10 @@ def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
 
 
 def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
-    """Return `FIT_POINTS` pairs (complex time, state) on a circle about time zero, along the flow of H."""
+    """Return `FIT_POINTS` pairs (t, `State`) of the flow of H from ``start``, complex times t on a circle about zero.
+
+    The circle's radius is a fixed fraction of that of the series' convergence, estimated from its last terms.
+    """
     rows = series(moments, start)
     growth = max(
         abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TAYLOR_TERMS, TAYLOR_TERMS - 1, TAYLOR_TERMS - 2)

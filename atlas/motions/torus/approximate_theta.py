@@ -212,7 +212,10 @@ class ThetaMotion:
         return l, w
 
     def _forms_of_N(self) -> list[Form]:
-        """Return three forms; N is these over the denominator times exp(i l (zeta - start))."""
+        """Return the three `Form` numerators of N, component by component.
+
+        N is these over the denominator, times exp(i l (zeta - start)).
+        """
         points = around(self.motion.moments, self.at_start)
         shifted, factors = list[list[ComplexPair]](), Vector()
         for t, _ in points:

@@ -160,9 +160,10 @@ def _root(square: acb) -> acb:
 
 
 def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX_HALVINGS) -> acb:
-    """Return the root of r^2 at `to`, continued along the path from its value `root` at `place`.
+    """Return the root of r^2 at `to`, a ball, continued along the straight path from its value `root` at `place`.
 
-    Raises NotCertifiedError where the root changes too fast.
+    ``forms`` returns (numerators, r^2) at a place. Raises NotCertifiedError where the root changes too fast for so many
+    ``halvings`` of the path.
     """
     here = forms(place)[1]
     if (forms(place.union(to))[1] / here).real > 0:
@@ -180,9 +181,9 @@ def _zero_at(curve: Curve, place: acb) -> acb:
 
 
 def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
-    """Return bounds on the four forms divided by r on the ellipse about an interval of a path.
+    """Return bounds on the four forms divided by r on the ellipse about an interval of a path, a list of balls.
 
-    None if none are found.
+    ``middle`` and ``half`` are the interval's midpoint and half its length. None if r may be zero there.
     """
     most, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2

@@ -213,7 +213,10 @@ class _Way:
         return 1.01 * (sqrt(sum(x * x for x in defects)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
 
     def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
-        """Return the derivative (6, 6) of the step's flow of (W, K), and a bound on its error."""
+        """Return (derivative (6, 6) of the step's flow of (W, K) by its start, a bound on its error in norm).
+
+        ``rows`` is the step's series, ``h`` its length, ``spread`` the factor by which an error may grow in the step.
+        """
         floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
         changes = jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
         terms = min(TERMS, len(changes))
@@ -339,7 +342,11 @@ def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
 
 
 def jacobian(state: Matrix, V: Matrix, w_rates: Matrix, second: Matrix) -> Matrix:
-    """Return the coefficients (terms, 6, 6) of the derivative of the right-hand side along a series (6, terms)."""
+    """Return the Taylor coefficients (terms, 6, 6) of the derivative of the right-hand side, times h, by (W, K).
+
+    ``state`` (6, terms) are those of W and K in the step, whose length h is contained in ``V``, ``w_rates`` and
+    ``second``, three factors each.
+    """
     W, K = state[:3], state[3:]
     J = np.zeros((state.shape[1], 6, 6))
     for i, (j, k) in enumerate(CYCLE):

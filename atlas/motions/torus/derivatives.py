@@ -70,7 +70,10 @@ class TorusVaried:
 
     @property
     def of_frequencies(self) -> FloatArray:
-        """Derivatives of f1, f2 and f3 in the inputs, shape (inputs, 3); of f3 that of the least angles."""
+        """Derivatives of the frequencies f1, f2 and f3, in rad/time, in each of the inputs: shape (inputs, 3).
+
+        Of f3 it is that of the least angles of the periods.
+        """
         turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
         return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
 

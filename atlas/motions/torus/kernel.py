@@ -176,15 +176,24 @@ class SingleAsymmetric:
         return self._choice[1]
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape t.shape + (3, 3); exactly 1 at t = 0."""
+        """Return R(t), body to laboratory, shape t.shape + (3, 3); exactly 1 at t = 0.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._started("rotation", (3, 3), lambda: IDENTITY, t, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); exact at t = 0."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); exact at t = 0.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._started("column", (3,), lambda: IDENTITY[j - 1], t, out, j)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4).
+
+        ``out``, if given, is filled and returned.
+        """
         return self._started("quaternion", (4,), lambda: np.eye(4)[3], t, out)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -195,14 +204,20 @@ class SingleAsymmetric:
         return self._started("angular_velocity", (3,), lambda: floats(self.exact.omega), t, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time; exactly the initial one at t = 0."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time; exactly the initial one at t = 0.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._started("field_in_body", (3,), lambda: floats(self.exact.field), t, out)
 
     def _started(
         self, name: str, shape: tuple[int, ...], start: Callable[[], FloatArray], t: Any, out: FloatArray | None,
         *column_number: int,
     ) -> FloatArray:  # fmt: skip
-        """Return the named function at times t, exactly start() at t = 0; from balls without a closed form."""
+        """Return the named function at times t, exactly start() at t = 0; from balls without a closed form.
+
+        ``out``, if given, is filled and returned.
+        """
         times = real(t, "The time")
         moving = np.count_nonzero(times)
         if moving:

@@ -35,17 +35,23 @@ class Certified:
         self.exact, self.size = exact, size
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape (..., 3, 3), each entry proved and rounded once."""
+        """Return R(t), body to laboratory, shape (..., 3, 3), each entry proved and rounded once.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._filled(self.exact.rotation, t, (3, 3), 1.0, out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,), each entry proved and rounded once."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,), each entry proved and rounded once.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._filled(lambda t: self.exact.column(j, t), t, (3,), 1.0, out)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t: its sign is that of an integration, (..., 4).
 
-        Raises NotCertifiedError for times beyond its reach.
+        Raises NotCertifiedError for times beyond its reach. ``out``, if given, is filled and returned.
         """
         times = real(t, "The time")
         if times.size and not np.abs(times).max() * self.size <= MAX_STEPPED_PHASE:
@@ -72,11 +78,17 @@ class Certified:
         return quaternions
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time, proved and rounded once."""
+        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time, proved and rounded once.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._filled(self.exact.angular_velocity, t, (3,), self.size, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time, proved and rounded once."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time, proved and rounded once.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._filled(self.exact.field_in_body, t, (3,), self.size, out)
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
@@ -89,7 +101,8 @@ class Certified:
     ) -> FloatArray:
         """Return function(t) at times of any shape as an array t.shape + ``shape``.
 
-        Radii are below 2^-52 ``size`` or so. Raises AtlasError for times whose phases exceed MAX_PHASE.
+        Radii are below 2^-52 ``size`` or so. Raises AtlasError for times whose phases exceed MAX_PHASE. ``out``, if
+        given, is filled and returned.
         """
         times = real(t, "The time")
         if times.size and not np.abs(times).max() * self.size <= MAX_PHASE:

@@ -170,17 +170,26 @@ class ThetaKernel:
         return self._evaluate(ATTITUDE, self.entries[:, j - 1 :: 3], t, (3,), out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time."""
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._evaluate(slice(D, 7), self.rate * np.eye(3), t, (3,), out)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) = W - K along the body's axes, shape t.shape + (3,), in rad/time."""
+        """Return Omega(t) = W - K along the body's axes, shape t.shape + (3,), in rad/time.
+
+        ``out``, if given, is filled and returned.
+        """
         return self._evaluate(VECTORS, self.rate * np.concatenate([-np.eye(3), np.eye(3)]), t, (3,), out)
 
     def _evaluate(
         self, forms: slice, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None
     ) -> FloatArray:
-        """Return ``weights`` times the `_functions` of ``forms`` at times t, shape t.shape + ``shape``."""
+        """Return ``weights`` times the `_functions` of ``forms`` at times t, shape t.shape + ``shape``.
+
+        ``out``, if given, is filled and returned.
+        """
         times = real(t, "The time")
         if times.size != 1:
             return evaluate(times, shape, out, lambda _: partial(self._fill, forms, weights))
@@ -243,7 +252,10 @@ class ThetaKernel:
         return np.concatenate([N.real, N.imag, functions])
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4).
+
+        ``out``, if given, is filled and returned.
+        """
         return evaluate(real(t, "The time"), (4,), out, lambda _: self._fill_quaternions)
 
     def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:

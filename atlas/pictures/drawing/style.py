@@ -25,7 +25,10 @@ HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 
 
 def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> FloatArray:
-    """Return the base of an arrow's head, which has a fixed length on paper, at most half of the arrow."""
+    """Return the base of an arrow's head, a point (3,) or (2,) as its ``tail`` and ``tip`` are.
+
+    The head has a fixed length on paper, ``scale`` points to a unit of the panel, but at most half of the arrow's.
+    """
     step = tip - tail
     length = float(np.linalg.norm(step))
     head = min((HEAD_LENGTH + 2.2 * look.width) / scale, 0.5 * length)
