@@ -98,7 +98,10 @@ def _figures(broken: list[str]) -> Listing:
 
 
 def _reports(broken: list[str]) -> Listing:
-    """Read the titles of the reports from their heads."""
+    """Return the titles of the reports as a `Listing`, from their heads.
+
+    Reports whose heads cannot be read are left out, and their names are added to ``broken``.
+    """
     from atlas.book import files
 
     titles = {name: title for name in files.names() if (title := _read(report_title, name, broken)) is not None}

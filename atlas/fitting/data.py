@@ -227,9 +227,9 @@ def of_arrays(
 
 
 def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
-    """Return the measured values (N, ...) of a kind, and the function of a signal or None.
+    """Return (values (N, ...), function of a signal or None) of the measured ``value`` of a ``kind``.
 
-    Raises AtlasError for a wrong shape, and for a signal that is no pair (values, function).
+    Raises AtlasError for another shape than N ``times`` ask for, and for a signal that is no pair (values, function).
     """
     if kind != "signal":
         values, shape = measured(value, f"The {kind}", nan_policy), (times.size, *KINDS[kind])

@@ -35,8 +35,9 @@ HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, 
 class Flow:
     """S motions from their states at t = 0, integrated together by Taylor series.
 
-    `moments` (in units of I2), `coupling` (the moments for a body in a field), `field` in the laboratory and `omega` in
-    the body have the shape (S, 3), `attitude` R(0) (S, 3, 3); `error` is the allowed error of a step.
+    `moments` (in units of I2), `coupling` (the moments for a body in a field), `field` in the laboratory (1/time)
+    and `omega` in the body (rad/time) have the shape (S, 3), `attitude` R(0) (S, 3, 3); `error` is the allowed last
+    term of the series of an entry of R in a step.
     """
 
     moments: FloatArray

@@ -162,9 +162,10 @@ class Problem:
         return np.where(abs(r) < LOST, r, HUGE).reshape(len(r), -1)
 
     def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
-        """Return the residuals of M motions (M, N k), and their derivatives (M, n, N k).
+        """Return the residuals of M motions (M, N k), in standard errors, and their derivatives (M, n, N k).
 
-        The derivatives are forward differences of integrations, or those of `jacobian` for motions in closed form.
+        ``X`` (M, n) are the motions' varied parameters, `places` the indices or the slice of the N data. The
+        derivatives are forward differences of integrations, or those of `jacobian` for motions in closed form.
         """
         M, n = X.shape
         if self.is_closed_form:
@@ -275,7 +276,10 @@ class Problem:
         return np.asarray(self.slopes(x, places).reshape(-1, len(self.names)))
 
     def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
-        """Return the derivatives of the residuals in the varied parameters, shape (N, k, n)."""
+        """Return the derivatives of the residuals in the varied parameters ``x`` (n,), shape (N, k, n).
+
+        `places` are the indices or the slice of the N data, of k numbers each.
+        """
         x, data = list(x), self.data.part(places)
         if self.followed:
             J = self._integrated(x, places)[1]

@@ -88,10 +88,10 @@ def centre_of(data: Data, rate: float, share: float) -> float:
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
-    """Return the measured quantity and its derivative at t = 0, by a robust parabola through data near t = 0.
+    """Return the measured quantity and its derivative by time at t = 0, by a robust parabola through data near t = 0.
 
-    Both have the shape of a datum; for rotations they are R (3, 3) and Omega (3,) in the body. Through six data or
-    fewer a straight line is taken.
+    ``rate`` is that of the motion in rad/time, which says what is near. Both results have the shape of a datum; for
+    rotations they are R (3, 3) and Omega (3,) in the body. Through six data or fewer a straight line is taken.
     """
     order = np.argsort(abs(data.t), kind="stable")
     rows = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]

@@ -163,9 +163,10 @@ def rest(M3: float, p: float, nu: FloatArray) -> FloatArray:
 
 
 def border(M3: float, p: float, nu: FloatArray) -> FloatArray:
-    """Return (a, A), shape (N, 2), of the potentials in which the rest at nu is a triple root of q.
+    """Return (a, A), shape (N, 2), in 1/time^2, of the potentials in which the rest at nu (N,) is a triple root of q.
 
-    The curve is the envelope of the lines `rest`: there a well and the barrier beside it appear or vanish. A < 0 on it.
+    ``M3`` and ``p`` are the momenta along the axis and along n, in 1/time. The curve is the envelope of the lines
+    `rest`: there a well and the barrier beside it appear or vanish. A < 0 on it.
     """
     w, force = (p - M3 * nu) / ((1 - nu) * (1 + nu)), rest(M3, p, nu)
     A = -(w * w - 2 * nu * force + (M3 - nu * w) ** 2) / ((1 - nu) * (1 + nu))

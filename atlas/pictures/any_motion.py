@@ -161,7 +161,10 @@ def picture(
 
 
 def slow_turn(motion: Any, length: float) -> float:
-    """Return the time 2 pi/|precession_rate| if the axis hardly moves in a time `length`, else 0.0."""
+    """Return the time 2 pi/|precession_rate| if the axis hardly moves in a time `length`, else 0.0.
+
+    It is 0.0 too where a motion has no such rate, or the rate is 0.
+    """
     rate = _number(motion, "precession_rate")
     looks = motion.third_axis(np.linspace(0.0, length, 65))
     return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < MIN_SEEN_LENGTH else 0.0

@@ -58,7 +58,7 @@ def traced_sphere(
 
 
 def _turn(x: float, y: float, z: float) -> FloatArray:
-    """Return the matrix (3, 3) that takes a vector to e3: about e3 into the plane (e2, e3), then about e1."""
+    """Return the matrix (3, 3) that turns (x, y, z) to e3: about e3 into the plane (e2, e3), then about e1."""
     level = float(np.hypot(x, y))
     cos, sin = (y / level, x / level) if level and x else (1.0, 0.0)
     tilt_sine, tilt_cosine = np.array((level if x else y, z)) / np.hypot(level, z)

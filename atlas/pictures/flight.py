@@ -166,7 +166,10 @@ def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: 
 
 
 def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: str) -> list[Layer]:
-    """Return layers: a bar of a round length, at most `longest`, along a unit vector, and its length as a label."""
+    """Return two layers: a bar from ``start`` along a unit vector, and its length with the ``unit`` as a label.
+
+    The length is 1, 2 or 5 times a power of ten, at most `longest`.
+    """
     size = 10.0 ** np.floor(np.log10(longest))
     size *= max(step for step in (1, 2, 5) if step * size <= longest)
     bar = start + np.array([[0.0], [size]]) * direction

@@ -130,7 +130,10 @@ def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
 
 
 def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
-    """Return the intervals (low, high) of omega2 with motions unstable against nutation: none, one or two."""
+    """Return the intervals (low, high) of omega2, in rad/time, of unstable elementary motions: none, one or two.
+
+    ``ratio`` is I3/I2 or a body, ``field`` a `Field` or (B2, B3). None are given for B2 = 0.
+    """
     B2, _ = components(field)
     band = Hyperbola(ratio, field).unstable_band if B2 else None
     if band is None:
@@ -144,7 +147,10 @@ def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
 
 
 def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
-    """Return two points (2, 2) of the asymptote through -B' along I^-1 B', at the window's border."""
+    """Return two points (2, 2), (omega2, omega3) each, of the asymptote through -B' along I^-1 B'.
+
+    They lie at the border of the window ``view``.
+    """
     I, _, _ = shape_factors(ratio)
     B2, B3 = components(field)
     direction = np.array([I * B2, B3])

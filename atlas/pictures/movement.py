@@ -42,7 +42,7 @@ def body_path(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArr
 
 
 def translations(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return identity matrices (N, D, D) and the translations (N, D) from a point (D,) to others."""
+    """Return identity matrices (N, D, D) and the translations (N, D) from the point ``start`` (D,) to ``places``."""
     return np.broadcast_to(np.eye(len(start)), (*places.shape, len(start))), places - start
 
 

@@ -179,7 +179,10 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
 
 
 def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[Layer]:
-    """Return the arc of an angle ``value`` in rad, from e2 towards e3, and its label: two layers."""
+    """Return two layers: the arc of an angle ``value`` in rad, from e2 towards e3, and its label ``name``.
+
+    ``radius`` is the arc's, in 1/time as its ``centre`` (3,).
+    """
     arc = solids.arc(centre, radius * E2, radius * E3, 0.0, value, tolerance(2.0 * radius))
     directions = [in_plane(float(np.cos(share * value)), float(np.sin(share * value))) for share in (0.5, 0.25, 0.0)]
     offset = (4.0 * float(directions[0][1]), 4.0 * float(directions[0][2]))

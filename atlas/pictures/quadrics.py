@@ -15,9 +15,10 @@ _WIRES, _PARALLELS = 12, 5
 
 
 def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
-    """Return the (4, 4) matrix of (50), negative inside the sheets (around their axis).
+    """Return the (4, 4) matrix Q of (50), (w, 1) Q (w, 1) = 0, negative inside the sheets (around their axis).
 
-    B3 (w1^2 + w2^2) - I B2 w2 w3 + (2 - I) B2 B3 w2 - I B2^2 w3, divided by B3 where that is not zero.
+    It is B3 (w1^2 + w2^2) - I B2 w2 w3 + (2 - I) B2 B3 w2 - I B2^2 w3, divided by B3 where that is not zero;
+    ``field`` is (B2, B3).
     """
     B2, B3 = field
     unit = B3 or 1.0
@@ -110,7 +111,7 @@ def top_matrix(I: float, quadric: TopQuadric) -> FloatArray:
 def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
     """Return the sheets of the quadric (51) of a body, as `sheets` does, within ``reach`` of the centre.
 
-    ``field`` is (B2, B3), neither zero.
+    ``ratio`` is I3/I2, ``field`` (B2, B3), neither zero; ``reach`` and ``tolerance`` are in 1/time as the field.
     """
     return sheets(Quadric(ratio, field), quadric_matrix(ratio, field), -reach, reach, tolerance)
 
@@ -118,7 +119,8 @@ def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: fl
 def sheets(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: float) -> list[Surface]:
     """Return the sheets of a quadric with the matrix ``Q`` from ``low`` to ``high`` along its axis, from its centre.
 
-    A hyperboloid of one sheet and a cone are one surface; of two sheets the upper one is the first.
+    A hyperboloid of one sheet and a cone are one surface; of two sheets the upper one is the first. All are drawn
+    within ``tolerance``, in the unit of ``low`` and ``high``.
     """
     if quadric.kind == "two-sheet hyperboloid":
         vertex = abs(float(quadric.semi_axes[sheet_axis(quadric)]))
@@ -133,7 +135,10 @@ def centre_value(Q: FloatArray, centre: FloatArray) -> float:
 
 
 def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatArray]:
-    """Return the part of the hyperbola (67), omega_1 = 0, on a drawn surface, as polylines (N, 3)."""
+    """Return the part of the hyperbola (67), omega_1 = 0, on a drawn surface, as polylines (N, 3).
+
+    ``Q`` is the surface's matrix; chords are within ``tolerance`` of the curve.
+    """
     points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
@@ -141,7 +146,10 @@ def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatAr
 
 
 def placed(surfaces: Sequence[Surface], Q: FloatArray, shift: FloatArray, tolerance: float) -> list[Layer]:
-    """Return surfaces of a quadric moved by ``shift`` (3,), each followed by its part of the hyperbola."""
+    """Return surfaces of a quadric moved by ``shift`` (3,), each followed by its part of the hyperbola.
+
+    ``Q`` is the quadric's matrix, ``tolerance`` as for `hyperbola`.
+    """
     layers: list[Layer] = []
     for surface in surfaces:
         layers.append(moved_surface(surface, np.eye(3), shift))

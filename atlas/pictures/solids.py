@@ -20,7 +20,7 @@ def transverse_axes(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
-    """Return the circle around ``axis`` (unit vector), shape (N, 3), sampled to a tolerance."""
+    """Return points (N, 3) on the circle around ``axis`` (unit vector), with chords within ``tolerance`` of it."""
     east, north = transverse_axes(axis)
     return arc(centre, radius * east, radius * north, 0.0, TURN, tolerance)
 
@@ -28,7 +28,10 @@ def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float
 def arc(
     centre: FloatArray, east: FloatArray, north: FloatArray, start: float, stop: float, tolerance: float
 ) -> FloatArray:
-    """Return points (N, 3) of centre + east cos s + north sin s for s from start to stop, sampled to a tolerance."""
+    """Return points (N, 3) of centre + east cos s + north sin s for s from start to stop, in rad.
+
+    The chords between them are within ``tolerance``, a length, of the curve.
+    """
     return sample.curve(ellipse(centre, east, north), start, stop, tolerance)
 
 
@@ -56,7 +59,10 @@ def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
 
 
 def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sphere") -> Surface:
-    """Return a sphere as a `Surface`, with parallels and meridians as wires, sampled to a tolerance."""
+    """Return a sphere as a `Surface` of this ``role``, with parallels and meridians as wires.
+
+    Its mesh and wires are within ``tolerance``, a length, of it.
+    """
     e1, e2, e3 = np.eye(3)
     Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     east = around(Q, centre, radius * e1, radius * e2, tolerance)
@@ -96,7 +102,10 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
 
 
 def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
-    """Return a disk as a `Surface`, across the unit vector ``axis``, which points to its outer side."""
+    """Return a disk as a `Surface`, across the unit vector ``axis``, which points to its outer side.
+
+    Its rim is drawn within ``tolerance``, a length.
+    """
     east, north = transverse_axes(axis)
     ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
@@ -109,7 +118,10 @@ def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, 
 def cylinder(
     centre: FloatArray, axis: FloatArray, radius: float, height: float, tolerance: float, role: str = "body"
 ) -> Surface:
-    """Return the side wall of a cylinder as a `Surface`, around the unit vector ``axis``, without its lids."""
+    """Return the side wall of a cylinder as a `Surface`, around the unit vector ``axis``, without its lids.
+
+    It reaches half the ``height`` to either side of its centre; its rims are drawn within ``tolerance``, a length.
+    """
     east, north = transverse_axes(axis)
     form = np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)

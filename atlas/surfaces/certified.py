@@ -11,7 +11,7 @@ from atlas.surfaces import formula as quadric
 
 
 class Quadric(BodyInField):
-    """The surface (51) for I = I3/I2 and the field (B2, B3), with its canonical form (54)."""
+    """The surface (51) for I = I3/I2 and the field (B2, B3) of B', with its canonical form (54), in exact numbers."""
 
     @property
     def kind(self) -> str:

@@ -96,7 +96,7 @@ class TopQuadric(Quadric):
         return residual.value
 
     def canonical(self, omega: Any) -> list[Real]:
-        """Return the three coordinates of a point along the axes (53), from the centre."""
+        """Return the three coordinates, in rad/time, of a point ``omega`` (3,) along the axes (53), from the centre."""
         shifted = [x - c for x, c in zip(rationals(omega, "omega", 3), self.centre, strict=True)]
         return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]
 

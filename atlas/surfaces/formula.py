@@ -4,7 +4,7 @@ from atlas.arithmetic.numbers import Number, root, select
 
 
 def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
-    """Return tan(beta), for B2 != 0."""
+    """Return tan(beta) = I2 B3/(I3 B2), beta being the angle from e2 to I^-1 B', (53), for B2 != 0."""
     return (I2 * B3) / (I3 * B2)
 
 

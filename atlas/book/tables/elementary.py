@@ -195,7 +195,10 @@ def motion(request: Request, setup: Motion) -> Data:
 
 
 def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
-    """Return the quantities of a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
+    """Return the quantities of the motion of a body from the omega2 and omega3 of ``setup``, to ``digits`` digits.
+
+    They are (67), k and phi of (72), nutation, the integrals (36) to (41) and (88).
+    """
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 

@@ -85,7 +85,7 @@ def _precession(motion: TopMotion) -> float:
 
 
 class Lines(Dipole, frozen=True):
-    """A ball with a dipole, its rates of spin, and the least amplitude of a line."""
+    """A `Dipole` with its rates of spin, and the least amplitude of a line of its axis, as a fraction of the whole."""
 
     least: float = 1e-3
 

@@ -99,7 +99,10 @@ def _cut(corners: FloatArray, field: Field) -> FloatArray:
 
 
 def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: Field) -> FloatArray:
-    """Return the points between a and b (N, K) where a function with the values u and v there is zero."""
+    """Return the points, (N, K), between a and b (N, K) where the function ``field`` is zero, by a parabola.
+
+    ``u`` and ``v`` (N,) are its values at a and b, of different signs; it is asked for the value half way.
+    """
     middle = field(0.5 * (a + b)[:, :3])
     square, slope = 2.0 * (u - 2.0 * middle + v), 4.0 * middle - 3.0 * u - v
     with np.errstate(all="ignore"):
@@ -251,7 +254,10 @@ def _rgb(colour: str) -> FloatArray:
 def _to_the_eye(
     points: FloatArray, side_normals: FloatArray, paint: NDArray[np.uint8], view: View
 ) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
-    """Return points, normals and colours of triangles with their corners anticlockwise as seen."""
+    """Return points, normals and colours of triangles (T, 3, ...) with their corners anticlockwise as seen.
+
+    The arguments are the same three in any order of corners, normals on the side that is seen.
+    """
     flat = points @ view.frame[:2].T
     a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     way = np.where((a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0])[:, None], np.array([2, 1, 0]), np.array([0, 1, 2]))

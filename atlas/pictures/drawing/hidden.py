@@ -97,7 +97,7 @@ def _image(surface: Surface, plane_axes: bytes) -> tuple[FloatArray, FloatArray]
 
 
 def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the quadratic form F(x) = (x, 1) Q (x, 1) at points (..., 3)."""
+    """Return the quadratic form F(x) = (x, 1) Q (x, 1), shape (...), at points (..., 3); ``quadric`` is Q (4, 4)."""
     x = _lift(points)
     return np.einsum("...i,...i->...", (x.reshape(-1, 4) @ quadric).reshape(x.shape), x)  # in a sixth of `_form`'s time
 
@@ -113,7 +113,10 @@ def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _weight(quadric: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the sums of the magnitudes of F's terms at points (..., 3), relative to which F counts as zero."""
+    """Return the sums (...) of the magnitudes of F's terms at points (..., 3): F counts as zero relative to these.
+
+    ``quadric`` (4, 4) is the matrix of F, see `values`.
+    """
     x = np.abs(_lift(points))
     return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * 1e-3)
 
@@ -153,7 +156,7 @@ def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) 
 
 
 def _within(surface: Surface, x: FloatArray) -> BoolArray:
-    """Return a mask of the points (..., 3) inside all half spaces and quadrics that cut the surface out."""
+    """Return a mask (...) of the points x (..., 3) inside all half spaces and quadrics that cut the surface out."""
     inside = np.ones(x.shape[:-1], dtype=bool)
     for *n, d in surface.clip:
         inside &= x @ np.array(n) <= d + _ON * np.linalg.norm(n)
@@ -163,7 +166,11 @@ def _within(surface: Surface, x: FloatArray) -> BoolArray:
 
 
 def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: FloatArray) -> FloatArray:
-    """Return the parameters s (N, K) on chords start + s step at which visibility may change; NaN for none."""
+    """Return the parameters s (N, K) on chords start + s step at which visibility may change; NaN for none.
+
+    ``start`` and ``step`` are (N, 3), ``towards`` (3,) is the direction to the eye, ``surface`` the one that may
+    hide them.
+    """
     quadric, d = surface.quadric, _lift(towards, 0.0)
     a, b = _lift(start), _lift(step, 0.0)
     A = float(_form(quadric, d, d))
@@ -197,7 +204,10 @@ def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: Flo
 
 
 def _coefficients(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return c0, c1, c2 in F(a + s b) = c0 + c1 s + c2 s^2, for homogeneous a (points) and b (directions)."""
+    """Return c0, c1, c2 (...) in F(a + s b) = c0 + c1 s + c2 s^2, F with the matrix ``quadric`` (4, 4).
+
+    ``a`` (points) and ``b`` (directions) are homogeneous, (..., 4).
+    """
     return _form(quadric, a, a), 2.0 * _form(quadric, a, b), _form(quadric, b, b)
 
 
@@ -215,7 +225,10 @@ def _roots(c2: FloatArray, c1: FloatArray, c0: FloatArray) -> list[FloatArray]:
 
 
 def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> FloatArray:
-    """Return half of grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen."""
+    """Return half of grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen.
+
+    ``quadric`` (4, 4) is the matrix of F, see `values`; ``towards`` (3,) is d, the direction to the eye.
+    """
     return np.asarray(points @ (quadric[:3, :3] @ towards) + quadric[:3, 3] @ towards)
 
 

@@ -115,7 +115,8 @@ def _doubt(
 ) -> FloatArray:
     """Return the cost (N,) of centres (N, 2) of a text whose own ink is not clearly the nearest, or further than `far`.
 
-    `owned` is the mask of the points `ink` (M, 2) that are its own. 0 if all or none of them are.
+    `extent` is the text's (width, height); `owned` is the mask of the points `ink` (M, 2) that are its own; all are in
+    points of paper. 0 if all or none of them are.
     """
     if not owned.any() or owned.all():
         return np.zeros(len(centres))
@@ -159,7 +160,10 @@ def _covers(
 
 
 def _meets(centres: FloatArray, extent: tuple[float, float], obstacles: FloatArray, sizes: FloatArray) -> FloatArray:
-    """Return the cost (N,) of the overlap of a text at centres (N, 2) with other texts at centres (M, 2)."""
+    """Return the cost (N,) of the overlap of a text at centres (N, 2) with other texts at centres ``obstacles`` (M, 2).
+
+    `extent` is the text's (width, height), ``sizes`` (M, 2) are those of the others, in points of paper.
+    """
     half, reach = 0.5 * np.array(extent) + _AIR, 0.5 * sizes + _APART
     high = np.minimum((centres + half)[:, None], obstacles + reach)
     overlap = high - np.maximum((centres - half)[:, None], obstacles - reach)

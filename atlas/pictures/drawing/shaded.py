@@ -135,7 +135,7 @@ def _arrow(arrow: Arrow, look: Style, view: View, pixel: float) -> Iterator[pv.P
 
 
 def _ball(centre: FloatArray, look: Style, view: View, pixel: float) -> pv.PolyData:
-    """Return the mesh of a marked point, a ball."""
+    """Return the mesh of a marked point, a ball as wide as a tube of this ``look``; ``pixel`` is a pixel's size."""
     radius = 0.5 * look.tube / view.scale
     sides = _sides(radius / pixel)
     return pv.Sphere(radius=radius, center=centre, theta_resolution=sides, phi_resolution=sides // 2)
