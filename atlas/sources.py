@@ -30,7 +30,10 @@ _PARSING = Lock()
 
 
 def digest(*parts: Any) -> str:
-    """Return the digest of values that JSON can write, the same on every machine."""
+    """Return the SHA-256, 64 hexadecimal digits, of values that JSON can write, the same on every machine.
+
+    Other values are taken by their `str`.
+    """
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 

@@ -159,7 +159,10 @@ def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, ste
 
 
 def bodies(ratio: float, field: tuple[float, float], b: float) -> list[Layer]:
-    """Return small bodies beside the named points of the hyperbola, with arrows along omega."""
+    """Return small bodies beside the named points of the hyperbola, with arrows along omega.
+
+    ``ratio`` is I3/I2, ``field`` (B2, B3) of B' and ``b`` its length, to which sizes and distances are proportional.
+    """
     Q = quadrics.quadric_matrix(ratio, field)
     layers: list[Layer] = []
     for place in places(ratio, field):

@@ -156,7 +156,7 @@ class Phases:
 
     @cached_property
     def _is_even(self) -> list[bool]:
-        """Whether whole turns of a phase are left out, not half turns."""
+        """For each phase whether whole turns of it are left out, not half turns."""
         return [bool(x) for x in np.broadcast_to(np.ravel(self.rounder) == EVEN, len(self._small))]
 
     def _phases_of_one(self, t: float) -> Iterator[tuple[int, int]]:

@@ -57,14 +57,14 @@ def check_ratio(I: Number) -> None:
 
 
 def check_moments(I2: Number, I3: Number) -> None:
-    """Raise DomainError for moments of inertia that no symmetric top has."""
+    """Raise DomainError for moments that no symmetric top has: not both positive, or I3 above 2 I2."""
     impossible = (I2 <= 0) | (I3 <= 0) | (I3 > 2 * I2)
     sentence = "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2 = {}."
     refuse(impossible, sentence, I2, I3, 2 * I2)
 
 
 def check_direction(n2: Number, n3: Number) -> None:
-    """Raise DomainError for a direction that is zero."""
+    """Raise DomainError for a direction (n2, n3) that is zero."""
     refuse((n2 == 0) & (n3 == 0), "The direction (n2, n3) must not be the zero vector.")
 
 
@@ -74,7 +74,10 @@ def check_ball(inertia: Number) -> None:
 
 
 def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> str:
-    """Return the name of the case of an elementary motion. Raises DomainError where (67) has no point."""
+    """Return the name of the case of an elementary motion, one of `CASES`. Raises DomainError where (67) has no point.
+
+    That is for B2 = 0 with omega2 not zero, and at the pole omega2 = -B2 unless B3 = 0 or I = 1.
+    """
     if B2 == 0:
         if B3 == 0:
             return "free body"
@@ -91,7 +94,10 @@ def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> s
 
 
 def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
-    """Raise DomainError if omega3 is free but not given, or given but different from (71)."""
+    """Raise DomainError if omega3 is free but None, or given but not, as a float, ``curve``, the omega3 by (71).
+
+    ``case`` is one of `CASES`; in the first FREE_CASES omega3 is free.
+    """
     if case in CASES[:FREE_CASES]:
         general = "or omega = (0, omega2, omega3) to the general motion"
         refuse(omega3 is None, f"In the case {case!r} omega3 is free: give it, {general}.")
@@ -106,29 +112,29 @@ def check_curve(B2: Number, omega2: Number) -> None:
 
 
 def check_asymptotes(B2: Number, B3: Number) -> None:
-    """Raise DomainError where the curve (67) is none, but two lines."""
+    """Raise DomainError where the curve (67) is none, but two lines: for B2 = 0 or B3 = 0."""
     refuse((B2 == 0) | (B3 == 0), "The curve (67) has asymptotes only if neither B2 nor B3 is zero.")
 
 
 def check_beta(B2: Number, B3: Number) -> None:
-    """Raise DomainError where I^-1 B' has no direction."""
+    """Raise DomainError where I^-1 B' has no direction: for B = 0."""
     refuse((B2 == 0) & (B3 == 0), "With B = 0 there is no angle beta: I^-1 B' has no direction.")
 
 
 def check_a2(B2: Number, B3: Number) -> None:
-    """Raise DomainError where a2 is infinite."""
+    """Raise DomainError where a2 of (54) is infinite, for B2 = 0 < B3, and for B = 0."""
     check_beta(B2, B3)
     refuse((B2 == 0) & (B3 > 0), "With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
 
 
 def check_a3(B2: Number, B3: Number) -> None:
-    """Raise DomainError where a3 is infinite."""
+    """Raise DomainError where a3 of (54) is infinite, for B2 = 0 > B3, and for B = 0."""
     check_beta(B2, B3)
     refuse((B2 == 0) & (B3 < 0), "With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
 
 
 def check_D(n3: Number, linear: Number) -> None:
-    """Raise DomainError where D of a top is infinite."""
+    """Raise DomainError where D of a top is infinite: for n3 = 0 with a ``linear`` potential that is not zero."""
     sentence = "With n3 = 0 and a linear potential D = A + kappa^2 + a0/n3 is infinite."
     refuse((n3 == 0) & (linear != 0), sentence)
 

@@ -18,10 +18,10 @@ PARALLEL_TOLERANCE = 1e-14
 
 
 def inputs_of_top(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> list[FloatArray]:
-    """Return I2, I3, k2, k3, n2, n3, a0, A0 of tops as arrays.
+    """Return I2, I3, k2, k3, n2, n3, a0, A0 of tops, a list of arrays that broadcast with each other.
 
-    Raises DomainError for moments that no body has and for a direction that is zero, AtlasError for what is no finite
-    number.
+    a0 and A0 are ``linear`` and ``quadratic``. Raises DomainError for moments that no body has and for a direction
+    that is zero, AtlasError for what is no finite number.
     """
     columns = [
         *components(inertia, ("I2", "I3"), "The inertia", INERTIA),

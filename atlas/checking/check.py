@@ -100,7 +100,11 @@ class Check:
         return asdict(self)
 
     def column_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return (heading, rows) of the table of columns: five texts, and five texts for each column."""
+        """Return (heading, rows) of the table of columns, five texts each.
+
+        They are the column's name, its median and its least number of digits, the time of the latter, and the time
+        from which digits stay below the threshold, or "-".
+        """
         heading = ["column", "median digits", "worst digits", "at t", f"below {self.threshold:g} digits from t"]
         rows = [
             [

@@ -87,10 +87,10 @@ class Truth:
 
 @dataclass(frozen=True)
 class KernelTruth:
-    """Reference R, Omega and quaternion of a motion by its kernel, accurate to a few units in the last place.
+    """Reference R, Omega and quaternion of a motion by its kernel `single`, accurate to a few units in the last place.
 
-    The values are accurate to `uncertainty`; `in_balls` says whether there is a certified counterpart. Errors below
-    `near` are computed in balls; errors below `floor` cannot be distinguished from `floor`.
+    It holds for |t| <= `reach`. The values are accurate to `uncertainty`; `in_balls` says whether there is a certified
+    counterpart. Errors below `near` are computed in balls; errors below `floor` cannot be distinguished from `floor`.
     """
 
     single: Any

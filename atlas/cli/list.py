@@ -80,7 +80,10 @@ Listing = tuple[dict[str, Any], list[Row]]
 
 
 def _figures(broken: list[str]) -> Listing:
-    """Read titles, parameters and widths from the source of each recipe."""
+    """Return titles, parameters and widths of the recipes as a `Listing`, read from their sources.
+
+    Recipes that cannot be read are left out, and the reasons are appended to ``broken``.
+    """
     from atlas.pictures import recipes
 
     loaded_recipes = {name: recipe for name in recipes.names() if (recipe := _read(recipes.load, name, broken))}
@@ -100,7 +103,7 @@ def _figures(broken: list[str]) -> Listing:
 def _reports(broken: list[str]) -> Listing:
     """Return the titles of the reports as a `Listing`, from their heads.
 
-    Reports whose heads cannot be read are left out, and their names are added to ``broken``.
+    Reports whose heads cannot be read are left out, and the reasons are appended to ``broken``.
     """
     from atlas.book import files
 

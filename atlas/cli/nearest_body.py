@@ -144,6 +144,9 @@ def _with_value(x: Typed, value: float, exact: Fraction | None) -> Typed:
 
 
 def _tell(param: click.Parameter, numbers: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
-    """Print on standard error that the body of the numbers `new` replaces the typed one."""
+    """Print on standard error that the body of the numbers `new` replaces the typed one, of ``numbers``.
+
+    ``fault`` says what that has, ``remedy`` what is taken instead, both as clauses.
+    """
     was, text = " ".join(x.text for x in numbers), " ".join(f"{float(x):.10g}" for x in new)
     click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {text}", err=True)

@@ -55,9 +55,9 @@ class Conserved:
 
 
 def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
-    """Return the constants M3, p, h of states as `Conserved`, theorem-top, in units of I2.
+    """Return the constants M3, p, h of states as `Conserved`, theorem-top, in units of I2: 1/time, 1/time, 1/time^2.
 
-    `Omega`, `K` (..., 3) are in the body and in 1/time. Raises DomainError for K = 0.
+    ``ratio`` is I3/I2 or a body; `Omega`, `K` (..., 3) are in the body and in 1/time. Raises DomainError for K = 0.
     """
     I = number(shape_factors(ratio)[0], "The ratio I")
     spin, field = vectors(Omega, "Omega"), vectors(K, "K")

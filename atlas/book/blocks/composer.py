@@ -109,7 +109,7 @@ class Composer:
     def anchor(self, kind: str, ident: str | None, word: str, number: int) -> str:
         """Return the anchor "kind-ID" of a figure or table, and make it the target of citations of kind:ID.
 
-        ID is ``ident``, or the number.
+        ID is ``ident``, or the number; citations read "word number", such as "Figure 3".
         """
         name = ident or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")

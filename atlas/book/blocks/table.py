@@ -43,7 +43,10 @@ class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
 
 
 class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
-    """A table of words and formulas, written out in the file."""
+    """A table of words and formulas, written out in the file.
+
+    `rows` have as many Markdown cells as `columns`; `sorts` says whether heads of columns sort them on a page.
+    """
 
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]

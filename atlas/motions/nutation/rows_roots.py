@@ -56,7 +56,7 @@ class TurningPoints:
 
     @cached_property
     def width(self) -> DoubleDouble:
-        """Distance high - low of the turning points, (m,)."""
+        """Distance high - low of the turning points, (m,), in the scaled unit of v."""
         return self.high - self.low
 
     @cached_property

@@ -40,7 +40,7 @@ class Sphere:
 
     @cached_property
     def far_distance(self) -> DoubleDouble:
-        """Distances of the poles from the turning point that is farther away, (2, m)."""
+        """Distances in v of the poles from the turning point farther away, (2, m), in rad/time of the scaled unit."""
         return stacked(self.poles[0] - self.roots.low, self.roots.high - self.poles[1])
 
     @cached_property

@@ -299,9 +299,9 @@ class ThetaKernel:
         return table, np.array([*steps, True], dtype=int)[:, None]
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
-        """Return half the phases less whole turns, their rounding errors, and the turns + `rounder`.
+        """Return (half the phases less half turns left out, rounding errors, half turns + `rounder`), (3, m) each.
 
-        (3, m) each, in rad.
+        The first two are in rad, at times t + low (m,). Raises AtlasError for a phase beyond MAX_PHASE.
         """
         return self.phases.reduced(t, room(3, t.size), low)[:3]
 

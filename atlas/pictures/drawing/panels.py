@@ -241,7 +241,10 @@ def write_names(axes: Axes, panel: Plane) -> None:
     size = (float(box.width * scale), float(box.height * scale))
 
     def places(points: FloatArray) -> FloatArray:
-        """Return positions in points from the lower left corner; NaN where undefined, and within _FAR."""
+        """Return the positions of points (N, 2) in the data's coordinates, (N, 2) in points from the lower left corner.
+
+        They are NaN where undefined, as a logarithm, and cut to within _FAR.
+        """
         with np.errstate(all="ignore"):
             pixels = axes.transData.transform(np.atleast_2d(np.asarray(points, dtype=float)))
             return np.asarray(np.clip((pixels - box.p0) * scale, -_FAR, _FAR))
