@@ -73,15 +73,15 @@ NEITHER = ("approximate", "family", "formula", "register")
 def modules(floor: str) -> list[tuple[str, str]]:
     """Return the modules of a floor, each with the name of its file, without the floor's own prefix."""
     paths = [*(path for home in HOMES for path in import_module(f"atlas.{home}").__path__)]
-    found = [
+    modules_named = [
         (module.name.rpartition(".")[2], module.name)
         for home, path in zip(HOMES, paths, strict=True)
         for module in pkgutil.walk_packages([path], f"atlas.{home}.")
         if not module.ispkg
     ]
     if floor == "certified":
-        return [(stem.removeprefix("certified_"), name) for stem, name in found if stem.startswith("certified")]
-    return [(stem, name) for stem, name in found if not stem.startswith((*NEITHER, "certified"))]
+        return [(stem.removeprefix("certified_"), name) for stem, name in modules_named if stem.startswith("certified")]
+    return [(stem, name) for stem, name in modules_named if not stem.startswith((*NEITHER, "certified"))]
 
 
 def source(module: str) -> str:
@@ -105,7 +105,7 @@ Size = Callable[[list[Fraction], Any], float | None]
 """From the true numbers and the point to the size of which an ulp is meant; None for that of each number."""
 
 
-def own(_true: list[Fraction], _point: Any) -> float | None:
+def own_unit(_true: list[Fraction], _point: Any) -> float | None:
     """Measure every number by itself."""
     return None
 
@@ -142,7 +142,7 @@ class Tie:
     read: Callable[[Any, Any], Any]
     truth: Callable[[Ledger, Any], Any]
     points: Sequence[Any]
-    size: Size = own
+    size: Size = own_unit
     ulps: float = 4.0
     floors: tuple[str, ...] = FLOORS
 
@@ -158,8 +158,8 @@ def of(make: Callable[[Any, Any], Any], points: Sequence[Any], at: str = "t") ->
 
     def tie(quantity: str, names: str, truth: Any, points: Sequence[Any] = points, **more: Any) -> Tie:
         def read(floor: Any, point: Any) -> Any:
-            found = getattr(make(floor, point), quantity.partition(".")[2])
-            return found(getattr(point, at)) if callable(found) else found
+            quantity_value = getattr(make(floor, point), quantity.partition(".")[2])
+            return quantity_value(getattr(point, at)) if callable(quantity_value) else quantity_value
 
         return Tie(quantity, names, read, truth, points, **more)
 
@@ -229,26 +229,26 @@ def agree(tie: Tie, floor: str, points: Sequence[Any] | None = None) -> None:
 
 def disagree(ties: Iterable[Tie], *quantities: str, floor: str = "kernel") -> None:
     """Check that the agreement of these quantities, of all their ties, is gone."""
-    found = [tie for tie in ties if tie.quantity in quantities and floor in tie.floors]
-    assert {tie.quantity for tie in found} == set(quantities)
-    for tie in found:
+    chosen_ties = [tie for tie in ties if tie.quantity in quantities and floor in tie.floors]
+    assert {tie.quantity for tie in chosen_ties} == set(quantities)
+    for tie in chosen_ties:
         with pytest.raises(AssertionError):
             agree(tie, floor)
 
 
 def _compare_doubles(tie: Tie, point: Any, true: list[Fraction]) -> None:
-    found = [Fraction(x) for x in _flat(tie.read(Floor("kernel"), point))]
-    assert len(found) == len(true), tie
+    kernel_numbers = [Fraction(x) for x in _flat(tie.read(Floor("kernel"), point))]
+    assert len(kernel_numbers) == len(true), tie
     size = tie.size(true, point)
-    for x, y in zip(found, true, strict=True):
-        near = math.ulp(abs(float(y)) if size is None else size)
-        assert abs(x - y) <= tie.ulps * near, (str(tie), float(x), float(y), float(abs(x - y)) / near)
+    for x, y in zip(kernel_numbers, true, strict=True):
+        ulp = math.ulp(abs(float(y)) if size is None else size)
+        assert abs(x - y) <= tie.ulps * ulp, (str(tie), float(x), float(y), float(abs(x - y)) / ulp)
 
 
 def _compare_balls(tie: Tie, point: Any, true: list[Fraction]) -> None:
-    found = list(numbers(enclosed(lambda: tie.read(Floor("certified"), point), 200)))
-    assert len(found) == len(true), tie
-    for ball, y in zip(found, true, strict=True):
+    balls = list(numbers(enclosed(lambda: tie.read(Floor("certified"), point), 200)))
+    assert len(balls) == len(true), tie
+    for ball, y in zip(balls, true, strict=True):
         middle, radius = (_dyadic(ball.mid()), _dyadic(ball.rad())) if isinstance(ball, arb) else (_dyadic(ball), 0)
         assert radius <= abs(middle) * Fraction(2) ** -199, tie
         assert abs(middle - y) <= radius + abs(y) * Fraction(10) ** (1 - DIGITS), (str(tie), float(middle), float(y))
@@ -281,8 +281,8 @@ def _flat(value: Any) -> Iterator[Any]:
     if isinstance(value, np.ndarray):
         yield from value.ravel().tolist()
     elif isinstance(value, sympy.MatrixBase) or (hasattr(value, "__iter__") and not isinstance(value, sympy.Basic)):
-        for part in value:
-            yield from _flat(part)
+        for entry in value:
+            yield from _flat(entry)
     else:
         yield value
 
@@ -294,8 +294,8 @@ def negated(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return type(value)([*value[:1], *map(negated, value[1:])])
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        parts = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
-        return dataclasses.replace(value, **negated(parts))
+        members = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
+        return dataclasses.replace(value, **negated(members))
     return -value if hasattr(value, "__neg__") else _Mirror(value)
 
 
@@ -317,8 +317,8 @@ def negate(monkeypatch: pytest.MonkeyPatch, quantity: str, floor: str) -> None:
     if was is None:
         _negate_attribute(monkeypatch, owner, name)
     elif isinstance(was, classmethod):
-        wrong = classmethod(lambda cls, *a, **k: negated(was.__func__(cls, *a, **k)))
-        monkeypatch.setattr(owner, name, wrong)
+        negated_method = classmethod(lambda cls, *a, **k: negated(was.__func__(cls, *a, **k)))
+        monkeypatch.setattr(owner, name, negated_method)
     elif callable(was):
         monkeypatch.setattr(owner, name, lambda *a, **k: negated(was(*a, **k)))
     else:
@@ -352,21 +352,21 @@ def bodies(seed: int, count: int = 6, **fixed: Any) -> list[Any]:
     The body is a ratio, 1 and 2 among them, or its two moments, which no double has the quotient of; `I` is exact.
     `fixed` are letters with the same value at every point, or with that of a function of the point.
     """
-    draw, found = np.random.default_rng(seed), []
+    draw, points = np.random.default_rng(seed), []
     for n in range(count):
         I2 = draw.uniform(0.5, 3)
         body = (draw.uniform(0.05, 2), SymmetricBody(I2, I2 * draw.uniform(0.05, 1.95)), 1.0, 2.0)[n % 4]
         p = SimpleNamespace(body=body, B2=signed(draw), B3=signed(draw), t=5 * signed(draw), u=signed(draw))
         p.omega, p.K, p.point = vector(draw), vector(draw), vector(draw)
-        for name, given in fixed.items():
-            setattr(p, name, given(p) if callable(given) else given)
+        for name, entry in fixed.items():
+            setattr(p, name, entry(p) if callable(entry) else entry)
         moments = (p.body.I2, p.body.I3) if isinstance(p.body, SymmetricBody) else (1.0, p.body)
         p.I2, p.I3 = (sympy.Rational(x) for x in moments)
         p.I, p.field = p.I3 / p.I2, (p.B2, p.B3)
         p.omega1, p.omega2, p.omega3 = p.omega
         p.scale = max(map(abs, (*p.omega, *p.K, *p.field, p.u)))
-        found.append(p)
-    return found
+        points.append(p)
+    return points
 
 
 def letters(p: Any, names: str) -> dict[str, Any]:
@@ -383,9 +383,9 @@ def unit_field(p: Any) -> dict[str, Any]:
 
 def elementary(say: Ledger, p: Any) -> dict[str, Any]:
     """Return the letters omega3, phi and k of the elementary motion that starts with omega2, by (71), (72), (79)."""
-    given = letters(p, "omega2 I B2 B3")
+    inputs = letters(p, "omega2 I B2 B3")
     k = say("(79)", "k", omega2=p.omega2, **unit_field(p))
-    return {"omega3": say("(71)", "omega3", **given), "phi": say("(72)", "phi", **given), "k": k}
+    return {"omega3": say("(71)", "omega3", **inputs), "phi": say("(72)", "phi", **inputs), "k": k}
 
 
 def rotation(say: Ledger, p: Any, t: Any) -> Any:

@@ -38,20 +38,24 @@ def changes(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[
     most  how many at most, chosen by `seed`; None for all
     """
     tokens = _TOKEN.findall(tex)
-    found: dict[str, str] = {}
+    changed_forms: dict[str, str] = {}
     for place, token in enumerate(tokens):
         before = next((earlier for earlier in reversed(tokens[:place]) if not earlier.isspace()), "")
-        for what, other in _others(token, before, tokens, place):
-            space = " " if other[-1:].isalpha() and other.startswith("\\") else ""
-            found.setdefault("".join([*tokens[:place], other + space, *tokens[place + 1 :]]), f"{token} {what} {other}")
-    found = {other: what for other, what in found.items() if other != tex and not any(s in other for s, _ in SAME)}
-    every = list(found.items())
+        for kind, token_new in _replacements(token, before, tokens, place):
+            space = " " if token_new[-1:].isalpha() and token_new.startswith("\\") else ""
+            changed_forms.setdefault(
+                "".join([*tokens[:place], token_new + space, *tokens[place + 1 :]]), f"{token} {kind} {token_new}"
+            )
+    changed_forms = {
+        form: kind for form, kind in changed_forms.items() if form != tex and not any(s in form for s, _ in SAME)
+    }
+    every = list(changed_forms.items())
     if most is None or len(every) <= most:
         return every
     return random.Random(seed).sample(every, most)  # noqa: S311  a choice that is the same in every run
 
 
-def _others(mark: str, before: str, tokens: list[str], place: int) -> list[tuple[str, str]]:
+def _replacements(mark: str, before: str, tokens: list[str], place: int) -> list[tuple[str, str]]:
     """Return what one token may be changed to."""
     kind, others = "letter", list[str]()
     if mark in _SWAPS:
@@ -73,11 +77,11 @@ def _others(mark: str, before: str, tokens: list[str], place: int) -> list[tuple
 
 def _letters(letters: list[str], token: str, tokens: list[str]) -> list[str]:
     """Return a letter that the formula does not have, and another one that it has."""
-    others = [other for other in letters if other != token]
+    alternatives = [letter for letter in letters if letter != token]
     return [
-        next(other for other in others if (other in tokens) is known)
-        for known in (False, True)
-        if any((other in tokens) is known for other in others)
+        next(letter for letter in alternatives if (letter in tokens) is is_present)
+        for is_present in (False, True)
+        if any((letter in tokens) is is_present for letter in alternatives)
     ]
 
 
@@ -86,9 +90,9 @@ def _begins_a_term(tokens: list[str], place: int) -> bool:
     if "".join(tokens[:place]).rstrip().endswith((r"\cos", r"\cosh")):
         return False
     after = next((later for later in tokens[place + 1 :] if not later.isspace() and later != "&"), "")
-    rest = re.sub(r"[\s&]|\\boxed\{", "", "".join(tokens[place:]))
-    if re.match(r"=([^=]*=)?0\b", rest):
+    following = re.sub(r"[\s&]|\\boxed\{", "", "".join(tokens[place:]))
+    if re.match(r"=([^=]*=)?0\b", following):
         return False
-    if re.match(r"\([^()]*\)\}?(\^2|=0|=\\text\{const)", rest.replace("(t)", "").replace("(0)", "")):
+    if re.match(r"\([^()]*\)\}?(\^2|=0|=\\text\{const)", following.replace("(t)", "").replace("(0)", "")):
         return False
     return after not in {"+", "-", "0", r"\pm", r"\mp", r"\text", "", r"\begin{aligned}", "]", ")"}

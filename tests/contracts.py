@@ -72,8 +72,8 @@ def imported_by_string(module: str) -> Iterator[str]:
     file = place / "__init__.py" if place.is_dir() else place.with_suffix(".py")
     for node in ast.walk(ast.parse(file.read_text("utf-8"))):
         if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module") and node.args:
-            (said, *_), whole = node.args, True
-            if isinstance(said, ast.JoinedStr) and said.values:
-                said, whole = said.values[0], False
-            if isinstance(said, ast.Constant) and isinstance(said.value, str):
-                yield said.value if whole else said.value.rpartition(".")[0]
+            (text, *_), is_whole = node.args, True
+            if isinstance(text, ast.JoinedStr) and text.values:
+                text, is_whole = text.values[0], False
+            if isinstance(text, ast.Constant) and isinstance(text.value, str):
+                yield text.value if is_whole else text.value.rpartition(".")[0]

@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 
 
 @lru_cache(maxsize=200)
-def made(name: str, **parameters: Any) -> Scene:
+def scene_of(name: str, **parameters: Any) -> Scene:
     """Return the scene of a recipe; tests look at it and leave it as it is."""
     return recipes.load(name).scene(**parameters)
 
@@ -42,6 +42,6 @@ def distance(points: FloatArray, line: FloatArray) -> float:
     nearest = np.full(len(points), np.inf)
     for a, b in pairwise(line):
         chord = b - a
-        along = np.clip((points - a) @ chord / (float(chord @ chord) or 1.0), 0.0, 1.0)
-        nearest = np.minimum(nearest, np.linalg.norm(points - a - along[:, None] * chord, axis=1))
+        fraction = np.clip((points - a) @ chord / (float(chord @ chord) or 1.0), 0.0, 1.0)
+        nearest = np.minimum(nearest, np.linalg.norm(points - a - fraction[:, None] * chord, axis=1))
     return float(nearest.max())

@@ -44,8 +44,8 @@ class Lines(SingleFileSnapshotExtension):
 
 def alike(a: str, b: str) -> bool:
     """Compare texts: numbers within their brackets, the rest to the letter."""
-    one, other = (NUMBERS.split(text) for text in (a, b))
-    return len(one) == len(other) and all(map(_same, one, other))
+    tokens, tokens_other = (NUMBERS.split(text) for text in (a, b))
+    return len(tokens) == len(tokens_other) and all(map(_same, tokens, tokens_other))
 
 
 def _same(a: str, b: str) -> bool:
@@ -56,16 +56,16 @@ def _same(a: str, b: str) -> bool:
     return x.shape == y.shape and bool((np.abs(x - y) <= most).all())
 
 
-def scene(made: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> Iterator[str]:
+def scene(picture: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> Iterator[str]:
     """Yield what a scene shows; of noisy panels only what there is, with words only if what they say is certain."""
-    yield f"{made.title}: {made.size[0]:g} x {made.size[1]:g} mm, columns {made.columns}"
+    yield f"{picture.title}: {picture.size[0]:g} x {picture.size[1]:g} mm, columns {picture.columns}"
     if words:
-        yield from (made.caption, made.alt)
-    for k, panel in enumerate(made.panels):
+        yield from (picture.caption, picture.alt)
+    for k, panel in enumerate(picture.panels):
         yield from shown(panel, noise=k in noisy)
-    if made.lasts or made.rows:
-        yield f"lasts and rows {_text('[]', np.array([made.lasts, *made.rows]))}"
-    for panel in made.narrow:
+    if picture.lasts or picture.rows:
+        yield f"lasts and rows {_text('[]', np.array([picture.lasts, *picture.rows]))}"
+    for panel in picture.narrow:
         yield f"narrow, {len(panel.layers)} layers: " + next(shown(replace(panel, layers=())))
         if isinstance(panel, Space) and any(panel.span):
             yield "span " + _text("<>", np.array(panel.span))
@@ -73,19 +73,21 @@ def scene(made: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> It
 
 def shown(panel: Panel, *, noise: bool = False) -> Iterator[str]:
     """Yield what a panel shows, and its layers."""
-    settings = {one.name: getattr(panel, one.name) for one in fields(panel) if one.name not in {"layers", "span"}}
-    yield from written([(type(panel).__name__, *_parted(settings, noise=noise))])
-    yield from written(
+    settings = {
+        field.name: getattr(panel, field.name) for field in fields(panel) if field.name not in {"layers", "span"}
+    }
+    yield from grouped_lines([(type(panel).__name__, *_parted(settings, noise=noise))])
+    yield from grouped_lines(
         (
             f"{type(layer).__name__} {getattr(layer, 'role', '')}".strip(),
-            "".join(f" {text!r}" for name, text in vars(layer).items() if _said(name, text)),
+            "".join(f" {text!r}" for name, text in vars(layer).items() if _is_written(name, text)),
             {} if noise else measured(layer),
         )
         for layer in panel.layers
     )
 
 
-def _said(name: str, value: Any) -> bool:
+def _is_written(name: str, value: Any) -> bool:
     """Tell whether a field of a layer is words; most layers ride on nothing."""
     return isinstance(value, str) and name != "role" and (name, value) != ("rides", "")
 
@@ -94,11 +96,11 @@ def _parted(settings: dict[str, Any], *, noise: bool) -> tuple[str, Numbers]:
     """Return settings as words, and those that are numbers; the limits of noise are noise."""
     numbers = {name: value for name, value in settings.items() if isinstance(value, float) or "limits" in name}
     words = "".join(f" {name}={value!r}" for name, value in settings.items() if name not in numbers and value)
-    known = {name: ("[]", np.array(value)) for name, value in numbers.items() if value is not None and not noise}
-    return words, known
+    arrays = {name: ("[]", np.array(value)) for name, value in numbers.items() if value is not None and not noise}
+    return words, arrays
 
 
-def written(parts: Iterable[tuple[str, str, Numbers]]) -> Iterator[str]:
+def grouped_lines(parts: Iterable[tuple[str, str, Numbers]]) -> Iterator[str]:
     """Yield a line for each part, or for many of one name in a row, from its name, its words and its numbers."""
     for name, group in groupby(parts, key=itemgetter(0)):
         _, words, numbers = zip(*group, strict=True)
@@ -112,11 +114,11 @@ def written(parts: Iterable[tuple[str, str, Numbers]]) -> Iterator[str]:
 def _together(numbers: Sequence[Numbers]) -> Numbers:
     """Return the means of many parts' numbers, and those weighted by their place, so that none moves unseen."""
     weights = np.arange(1.0, len(numbers) + 1.0)
-    found = {}
+    merged = {}
     for name, (brackets, _) in numbers[0].items():
-        values = np.stack([one[name][1].ravel() for one in numbers])
-        found[name] = brackets, np.concatenate([values.mean(axis=0), weights @ values / weights.sum()])
-    return found
+        values = np.stack([numbers_of_layer[name][1].ravel() for numbers_of_layer in numbers])
+        merged[name] = brackets, np.concatenate([values.mean(axis=0), weights @ values / weights.sum()])
+    return merged
 
 
 def _line(numbers: Numbers) -> str:
@@ -137,38 +139,38 @@ def measured(layer: Layer) -> Numbers:
         return _of_surface(layer)
     if isinstance(layer, Image):
         few = [np.linspace(0, size - 1, 8).round().astype(int) for size in layer.values.shape]
-        found = {"cells": layer.values.shape, "x": layer.x[[0, -1]], "y": layer.y[[0, -1]], "limits": layer.limits}
-        found["values"] = layer.values[np.ix_(*few)]
+        measures = {"cells": layer.values.shape, "x": layer.x[[0, -1]], "y": layer.y[[0, -1]], "limits": layer.limits}
+        measures["values"] = layer.values[np.ix_(*few)]
     elif isinstance(layer, Curve | Region):
         low, extent = layer.points.min(axis=0), np.ptp(layer.points, axis=0)
         box = {"box": ("<>", np.concatenate([low, low + extent])), "count": ("~~", np.array([len(layer.points)]))}
         return {"ends": ("<>", layer.points[[0, -1]])} | (box if len(layer.points) > 2 else {})
     else:
-        found = {name: value for name, value in vars(layer).items() if not isinstance(value, str)}
-        if len(points := np.atleast_2d(found.get("points", 0.0))) > MANY:
-            found["points"] = [len(points), *points[0], *points[-1], *points.mean(axis=0), *points.std(axis=0)]
-    return {name: ("[]", np.asarray(value, dtype=float)) for name, value in found.items() if value is not None}
+        measures = {name: value for name, value in vars(layer).items() if not isinstance(value, str)}
+        if len(points := np.atleast_2d(measures.get("points", 0.0))) > MANY:
+            measures["points"] = [len(points), *points[0], *points[-1], *points.mean(axis=0), *points.std(axis=0)]
+    return {name: ("[]", np.asarray(value, dtype=float)) for name, value in measures.items() if value is not None}
 
 
 def _of_surface(layer: Surface) -> Numbers:
     corners = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
-    found: Numbers = {
+    matrix: Numbers = {
         "quadric": ("[]", layer.quadric[np.triu_indices(4)]),
         "box": ("<>", np.array([corners.min(axis=0), corners.max(axis=0)])),
         "count": ("~~", np.array([len(corners)])),
         "lines": ("[]", np.array([len(layer.wires), len(layer.rims)])),
     }
-    for name, rows in {"clip": layer.clip, "within": [one[np.triu_indices(4)] for one in layer.within]}.items():
+    for name, rows in {"clip": layer.clip, "within": [form[np.triu_indices(4)] for form in layer.within]}.items():
         if len(rows):
-            found[name] = "[]", np.arange(1.0, len(rows) + 1.0) @ np.asarray(rows)
+            matrix[name] = "[]", np.arange(1.0, len(rows) + 1.0) @ np.asarray(rows)
     for name, lines in {"wires": layer.wires, "rims": layer.rims}.items():
         if lines:
-            way = [_along(line, np.array([0.4]))[0] for line in lines]
-            found[name] = "<>", np.array([np.mean(way, axis=0), np.arange(1.0, len(way) + 1.0) @ way])
-    return found
+            way = [_at_fractions(line, np.array([0.4]))[0] for line in lines]
+            matrix[name] = "<>", np.array([np.mean(way, axis=0), np.arange(1.0, len(way) + 1.0) @ way])
+    return matrix
 
 
-def _along(points: FloatArray, parts: FloatArray) -> FloatArray:
+def _at_fractions(points: FloatArray, parts: FloatArray) -> FloatArray:
     """Return the points at these parts of the length of a line, each coordinate counted in its extent if it has one."""
     size = np.ptp(points, axis=0)
     steps = np.diff(points, axis=0) / np.where(size > 1e-12 * np.abs(points).max(), size, np.inf)

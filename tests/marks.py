@@ -33,27 +33,27 @@ class Marks(Texts):
         """The sizes of all letters in points, those in formulas too."""
         sizes = [text.get_fontsize() for text, _ in self.texts]
         formulas = [text for text, _ in self.texts if text.get_text().count("$") > 1]
-        parsed = [_FORMULAS.parse(one.get_text(), _POINTS, one.get_fontproperties()) for one in formulas]
+        parsed = [_FORMULAS.parse(text.get_text(), _POINTS, text.get_fontproperties()) for text in formulas]
         return [*sizes, *(glyph[1] for formula in parsed for glyph in formula.glyphs)]
 
 
 def faults(figure: Figure, target: Target) -> list[str]:
     """Return what of a figure breaks the law of its target: size, type, lines, names off the page, names that meet."""
-    marks, found = Marks(figure), []
+    marks, messages = Marks(figure), []
     width, height = _INCH * np.asarray(figure.get_size_inches())
     if abs(width - target.width) > 0.05 or height > target.height + 0.05:
-        found.append(f"it is {width:.1f} mm x {height:.1f} mm")
+        messages.append(f"it is {width:.1f} mm x {height:.1f} mm")
     if min(marks.types) < 0.7 * target.type - 1e-9 or min(marks.types) < 6.0:
-        found.append(f"its least type has {min(marks.types):.2f} pt")
+        messages.append(f"its least type has {min(marks.types):.2f} pt")
     if min(marks.widths) < target.lines[0] - 1e-9 or max(marks.widths) > target.lines[1] + 1e-9:
-        found.append(f"its lines have {min(marks.widths):.2f} to {max(marks.widths):.2f} pt")
+        messages.append(f"its lines have {min(marks.widths):.2f} to {max(marks.widths):.2f} pt")
     pixel = figure.dpi / _POINTS
     page = Bbox.from_bounds(0.0, 0.0, figure.bbox.width, figure.bbox.height).padded(pixel)
-    found += [f"{text.get_text()!r} leaves the page" for text, box in marks.texts if not _within(box, page)]
-    return found + [
-        f"{one.get_text()!r} covers {other.get_text()!r}"
-        for (one, a), (other, b) in combinations(marks.texts, 2)
-        if _meet(a, b, pixel * min(one.get_fontsize(), other.get_fontsize()))
+    messages += [f"{text.get_text()!r} leaves the page" for text, box in marks.texts if not _within(box, page)]
+    return messages + [
+        f"{text.get_text()!r} covers {text_other.get_text()!r}"
+        for (text, a), (text_other, b) in combinations(marks.texts, 2)
+        if _meet(a, b, pixel * min(text.get_fontsize(), text_other.get_fontsize()))
     ]
 
 
@@ -64,5 +64,5 @@ def _within(box: Bbox, page: Bbox) -> bool:
 
 def _meet(a: Bbox, b: Bbox, size: float) -> bool:
     """Whether letters of this size meet: a box is as high as a line, of which letters fill two thirds."""
-    across, up = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
-    return bool(across > 0.1 * size and up > 0.35 * size)
+    overlap, up = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+    return bool(overlap > 0.1 * size and up > 0.35 * size)

@@ -73,12 +73,12 @@ SAME = (
 
 def rewritings(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[str, str]]:
     """Return formulas that differ from this one by one rule at one place, each with what it is."""
-    found = dict(_each(tex))
-    every = [pair for pair in found.items() if pair[0] != tex and not any(same in pair[0] for same, _ in SAME)]
+    forms = dict(_rewritten(tex))
+    every = [pair for pair in forms.items() if pair[0] != tex and not any(same in pair[0] for same, _ in SAME)]
     return every if most is None or len(every) <= most else random.Random(seed).sample(every, most)  # noqa: S311
 
 
-def _each(tex: str) -> Iterator[tuple[str, str]]:
+def _rewritten(tex: str) -> Iterator[tuple[str, str]]:
     for pattern, other, what in RULES:
         for match in re.finditer(pattern, tex):
             if what != "has a factor more" or not tex.endswith(("const}", "=0")):  # twice a constant is one

@@ -33,11 +33,11 @@ def dask_client(workers: int) -> Iterator[Any]:
         yield client
 
 
-def ulps_apart(found: float, certified: str, size: float) -> float:
+def ulps_apart(computed: float, certified: str, size: float) -> float:
     """Return the distance of a float from a decimal text, in units in the last place of a number of that size."""
     if size == 0:
-        return 0.0 if found == 0 else math.inf
-    return abs(float(Fraction(found) - Fraction(certified))) / math.ulp(size)
+        return 0.0 if computed == 0 else math.inf
+    return abs(float(Fraction(computed) - Fraction(certified))) / math.ulp(size)
 
 
 def stale(records: Mapping[str, Verdict]) -> list[str]:
@@ -46,11 +46,11 @@ def stale(records: Mapping[str, Verdict]) -> list[str]:
 
 
 @contextmanager
-def few_figures(**left: str) -> Iterator[None]:
+def few_figures(**figures_of: str) -> Iterator[None]:
     """Leave each of these families one figure on its pages, for each takes half a second."""
-    kept = {name: FAMILIES[name].figures for name in left}
-    for name, figure in left.items():
+    figures_before = {name: FAMILIES[name].figures for name in figures_of}
+    for name, figure in figures_of.items():
         object.__setattr__(FAMILIES[name], "figures", (figure,))
     yield
-    for name, figures in kept.items():
+    for name, figures in figures_before.items():
         object.__setattr__(FAMILIES[name], "figures", figures)

@@ -12,7 +12,7 @@ def use(*results: object) -> None:
     """Take results, which have to be right."""
 
 
-def right() -> None:
+def accepted_calls() -> None:
     """Numbers, arrays, fractions, bodies and fields."""
     body = atlas.SymmetricBody(2.0, [2.5, 3.0])
     ring = atlas.SymmetricBody.ring(mass=1, radius=np.linspace(1.0, 2.0, 5))
@@ -38,7 +38,7 @@ def right() -> None:
     use(moving.plot(style="default").get_axes(), atlas.figure("hyperbola", ["default", {"font.size": 9}], ratio=1.5))
 
 
-def wrong(motion: atlas.GeneralMotion) -> None:  # noqa: PLR0915  a list of calls
+def refused_calls(motion: atlas.GeneralMotion) -> None:  # noqa: PLR0915  a list of calls
     """Text, None, other objects, names that there are not, and results taken for what they are not."""
     atlas.ElementaryMotion("oops", (1.0, 2.0), omega2=0.7)
     atlas.ElementaryMotion(1.5, None, omega2=0.7)

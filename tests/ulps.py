@@ -49,28 +49,28 @@ def turn(axis: Sequence[float] | FloatArray, angle: float) -> FloatArray:
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
-def error(found: float, true: Real, unit: float) -> float:
+def error(value: float, true: Real, unit: float) -> float:
     """Return an upper bound on |found - true| in units; 0 where an infinity stands for a number beyond the doubles."""
-    if not math.isfinite(found):
-        return 0.0 if found == approximate(true) else math.inf
-    return float(abs((arb(float(found)) - true) / arb(unit)).upper())
+    if not math.isfinite(value):
+        return 0.0 if value == approximate(true) else math.inf
+    return float(abs((arb(float(value)) - true) / arb(unit)).upper())
 
 
-def own(found: Iterable[float], true: Iterable[Real]) -> list[float]:
+def own_ulps(found: Iterable[float], true: Iterable[Real]) -> list[float]:
     """Return the errors of numbers, each in ulps of itself."""
     return [error(x, y, ulp(y)) for x, y in zip(found, true, strict=True)]
 
 
-def absolute(found: Iterable[float], true: Iterable[Real]) -> list[float]:
+def absolute(values: Iterable[float], true: Iterable[Real]) -> list[float]:
     """Return the errors of numbers, each in ulps of 1."""
-    return [error(x, y, ONE) for x, y in zip(found, true, strict=True)]
+    return [error(x, y, ONE) for x, y in zip(values, true, strict=True)]
 
 
-def of_length(found: Iterable[float], true: Sequence[Real]) -> float:
+def of_length(values: Iterable[float], true: Sequence[Real]) -> float:
     """Return the largest error of a vector's components in ulps of its length."""
     square = sum((x * x for x in true), fmpq(0))
     unit = ulp(arb(square).sqrt())
-    return max(error(x, y, unit) for x, y in zip(found, true, strict=True))
+    return max(error(x, y, unit) for x, y in zip(values, true, strict=True))
 
 
 def rigidity(R: FloatArray) -> tuple[list[float], list[float]]:

@@ -16,7 +16,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from ulps import absolute, own
+from ulps import absolute, own_ulps
 
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.numbers import workprec
@@ -51,7 +51,7 @@ class Task:
     ours: Callable[[], FloatArray]
     plain: Callable[[], FloatArray]
     true: Callable[[int], Any]
-    errors: Callable[[Any, Any], list[float]] = own
+    errors: Callable[[Any, Any], list[float]] = own_ulps
     alone: Callable[[], FloatArray] | None = None
 
 
@@ -179,9 +179,9 @@ def _plain_quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:
     a2, a3 = (2 * np.sin(beta) / (1 + sign * np.sin(beta)) for sign in (-1, 1))
     square = abs(1 - I) * B2**2
     cos, sin = np.cos(beta / 2 + np.pi / 4), np.sin(beta / 2 + np.pi / 4)
-    zero, one = np.zeros_like(I), np.ones_like(I)
+    zero, ones = np.zeros_like(I), np.ones_like(I)
     roots = (np.sqrt(square), np.sqrt(square * abs(a2)), np.sqrt(square * abs(a3)))
-    return np.stack([a2, a3, *roots, one, zero, zero, zero, cos, sin, zero, -sin, cos], -1)
+    return np.stack([a2, a3, *roots, ones, zero, zero, zero, cos, sin, zero, -sin, cos], -1)
 
 
 def _plain_matrix(I: FloatArray, B2: FloatArray, B3: FloatArray, w2: FloatArray, t: FloatArray) -> FloatArray:

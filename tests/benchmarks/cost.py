@@ -34,7 +34,7 @@ from benchmarks.case import FloatArray
 from benchmarks.clock import Job, interleave, one_core, ratio
 from benchmarks.oracle import BITS, nearest
 from benchmarks.peers import composed, lambdified
-from benchmarks.results import FRESH, Rows, said, spread
+from benchmarks.results import FRESH, Rows, sentence, spread
 from benchmarks.rotations import SOLENOID, formula, frequencies, plain, turns
 
 SEED = 89
@@ -75,12 +75,12 @@ class Work:
         """Return the largest error at a few of the times, spread evenly; none for what computes nothing."""
         if self.truth is None:
             return None
-        where = spread(len(self.times), SAMPLES)
+        indices = spread(len(self.times), SAMPLES)
         with workprec(BITS):
             true = np.array(
-                [np.vectorize(nearest)(self.truth(Exact(*SOLENOID.values()), float(self.times[i]))) for i in where]
+                [np.vectorize(nearest)(self.truth(Exact(*SOLENOID.values()), float(self.times[i]))) for i in indices]
             )
-        return float(np.abs(values[where] - true).max())
+        return float(np.abs(values[indices] - true).max())
 
 
 def costs(count: int, rounds: int, limit: float, before: Sequence[Cost] = ()) -> list[Cost]:
@@ -113,9 +113,9 @@ def _timed(
             errors.append((work, work.error(work.job())))
             jobs[work.key] = work.job
         except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
-            rows.append(replace(row, status="failed", note=said(raised)))
-    needed = {"fill/1", *(f"{work.against}/1" for work, _ in errors)}
-    jobs |= {work.key: work.job for work in bases if work.key in needed} if errors else {}
+            rows.append(replace(row, status="failed", note=sentence(raised)))
+    measured_keys = {"fill/1", *(f"{work.against}/1" for work, _ in errors)}
+    jobs |= {work.key: work.job for work in bases if work.key in measured_keys} if errors else {}
     times = interleave(jobs, rounds, clock=perf_counter if bases else process_time)
     for work, error in errors:
         seconds, base = times[work.key], times.get(f"{work.against}/1")
@@ -138,7 +138,7 @@ def _timed(
 def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
     """Return all jobs for ``count`` matrices; the atlas takes two threads by itself where they help."""
     generator = np.random.default_rng(SEED)
-    near, far = (generator.uniform(-size, size, count) for size in (NEAR, FAR))
+    small, large = (generator.uniform(-size, size, count) for size in (NEAR, FAR))
     grid = STEP * np.arange(count)
     out = np.zeros((count, 3, 3))
     motion, constants = ElementaryMotion(*SOLENOID.values()), frequencies()
@@ -152,26 +152,26 @@ def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
         return run
 
     works = [
-        Work("fill", lambda: out.fill(1.0), near, truth=None),
-        Work("plain", lambda: formula(constants, near), near),
-        Work("plain_out", lambda: formula(constants, near, out), near),
-        Work("plain_out_far", lambda: formula(constants, far, out), far, against="plain_out_far"),
-        Work("lambdify", lambda: compiled(near), near),
-        Work("rotation", lambda: composition(near), near),
-        Work("ours", lambda: motion.rotation(near), near),
-        Work("ours_out", lambda: motion.rotation(near, out=out), near),
-        Work("ours_out_far", lambda: motion.rotation(far, out=out), far, against="plain_out_far"),
+        Work("fill", lambda: out.fill(1.0), small, truth=None),
+        Work("plain", lambda: formula(constants, small), small),
+        Work("plain_out", lambda: formula(constants, small, out), small),
+        Work("plain_out_far", lambda: formula(constants, large, out), large, against="plain_out_far"),
+        Work("lambdify", lambda: compiled(small), small),
+        Work("rotation", lambda: composition(small), small),
+        Work("ours", lambda: motion.rotation(small), small),
+        Work("ours_out", lambda: motion.rotation(small, out=out), small),
+        Work("ours_out_far", lambda: motion.rotation(large, out=out), large, against="plain_out_far"),
         Work("grid", lambda: motion.rotation_grid(0.0, STEP, count), grid),
         Work("grid_out", lambda: motion.rotation_grid(0.0, STEP, count, out=out), grid),
         Work("even_out", lambda: motion.rotation(grid, out=out), grid),
-        Work("third_axis", lambda: motion.third_axis(near), near, truth=lambda exact, t: exact.third_axis(t)),
-        Work("omega", lambda: motion.angular_velocity(near), near, truth=lambda exact, t: exact.angular_velocity(t)),
+        Work("third_axis", lambda: motion.third_axis(small), small, truth=lambda exact, t: exact.third_axis(t)),
+        Work("omega", lambda: motion.angular_velocity(small), small, truth=lambda exact, t: exact.angular_velocity(t)),
     ]
     if count >= PARALLEL:
         works += [
-            Work("fill", both(lambda half: out[half].fill(1.0)), near, 2, truth=None),
-            Work("plain_out", both(lambda half: formula(constants, near[half], out[half])), near, 2),
-            Work("ours_out", lambda: motion.rotation(near, out=out), near, 2),
+            Work("fill", both(lambda half: out[half].fill(1.0)), small, 2, truth=None),
+            Work("plain_out", both(lambda half: formula(constants, small[half], out[half])), small, 2),
+            Work("ours_out", lambda: motion.rotation(small, out=out), small, 2),
             Work("grid_out", lambda: motion.rotation_grid(0.0, STEP, count, out=out), grid, 2),
         ]
     return works
@@ -182,8 +182,8 @@ def fresh(counts: tuple[int, ...]) -> Iterator[Rows]:
     for count in counts:
         for method, settings in (("ours", {}), ("kept", KEEPING)):
             command = [sys.executable, "-m", "benchmarks.cost", str(count)]
-            told = subprocess.run(command, capture_output=True, check=True, env=os.environ | settings).stdout
-            error, ours, over = json.loads(told)
+            output = subprocess.run(command, capture_output=True, check=True, env=os.environ | settings).stdout
+            error, ours, over = json.loads(output)
             yield Rows(FRESH, method, count, error, ours, over)
 
 

@@ -69,8 +69,10 @@ def matrices(count: int, rounds: int) -> Iterator[Rows]:
         for i in spread(count, MATRICES_CHECKED):
             true = chain(*enclosed(partial(exact.rotation, float(times[i])), 80))
             worst = max(worst, *absolute(values[i].flat, true))
-        each = seconds[quantity, method]
-        yield Rows(quantity, method, count, worst, median(each) / count * 1e9, ratio(each, seconds["plain"]))
+        times_taken = seconds[quantity, method]
+        yield Rows(
+            quantity, method, count, worst, median(times_taken) / count * 1e9, ratio(times_taken, seconds["plain"])
+        )
 
 
 def derivatives(count: int, rounds: int) -> Iterator[Rows]:
@@ -87,8 +89,8 @@ def derivatives(count: int, rounds: int) -> Iterator[Rows]:
     size = 1 + np.linalg.norm(true, axis=-1, keepdims=True)
     for name, job in jobs.items():
         error = float((np.abs(job()[checked] - true) / size).max() / np.finfo(float).eps)
-        each = median(seconds[name]) / (count * len(NAMES)) * 1e9
-        yield Rows(SLOPES, name, count * len(NAMES), error, each, ratio(seconds[name], seconds["R"]))
+        seconds_per_number = median(seconds[name]) / (count * len(NAMES)) * 1e9
+        yield Rows(SLOPES, name, count * len(NAMES), error, seconds_per_number, ratio(seconds[name], seconds["R"]))
 
 
 def motion(point: tuple[float, ...]) -> GeneralMotion:
@@ -125,10 +127,10 @@ def variational() -> Callable[[FloatArray], FloatArray]:
     system = heyoka.var_ode_sys(list(zip(x, solenoid_rates(x, parameters), strict=True)), arguments, order=1)
     start = [*np.eye(3).ravel(), *POINT[3:]]
     integrator = heyoka.taylor_adaptive(system, start, pars=list(POINT[:3]), tol=float(np.finfo(float).eps))
-    first = integrator.state.copy()
+    start_state = integrator.state.copy()
 
     def solve(times: FloatArray) -> FloatArray:
-        integrator.time, integrator.state[:] = 0.0, first
+        integrator.time, integrator.state[:] = 0.0, start_state
         *_, states = integrator.propagate_grid(times)
         R = states[:, :9].reshape(-1, 1, 3, 3)
         slopes = np.stack([states[:, integrator.get_vslice(order=1, component=i)] for i in range(9)], -1)

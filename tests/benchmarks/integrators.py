@@ -67,8 +67,8 @@ class Integrator:
 
     def note(self, tolerance: float) -> str:
         """Say where the tolerance used is not the one asked for."""
-        held = self.module == "scipy.integrate" and tolerance < LEAST_RTOL
-        return f"rtol held at {LEAST_RTOL:.2g}, the least that SciPy takes" if held else ""
+        is_clamped = self.module == "scipy.integrate" and tolerance < LEAST_RTOL
+        return f"rtol held at {LEAST_RTOL:.2g}, the least that SciPy takes" if is_clamped else ""
 
 
 def integrators() -> tuple[Integrator, ...]:
@@ -90,7 +90,7 @@ def start(case: Case) -> list[float]:
         return [nearest(x) for x in case.initial()]
 
 
-def _written(case: Case) -> Callable[[list[float]], list[float]]:
+def _right_hand_side(case: Case) -> Callable[[list[float]], list[float]]:
     """Return the right-hand side as it stands."""
     return lambda state: case.rates(state, case.parameters)
 
@@ -103,7 +103,7 @@ def _compiled(case: Case) -> Callable[[list[float]], list[float]]:
     return sympy.lambdify([state], case.rates(state, case.parameters), "math", cse=True)  # type: ignore[no-any-return]
 
 
-def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[float]]] = _written) -> Any:
+def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[float]]] = _right_hand_side) -> Any:
     def prepare(case: Case, tolerance: float, limit: float) -> Solve:
         from scipy.integrate import solve_ivp
 
@@ -112,15 +112,15 @@ def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[fl
         def solve(times: FloatArray) -> FloatArray:
             deadline = perf_counter() + limit
 
-            def right(_t: float, state: FloatArray) -> list[float]:
+            def right_hand_side(_t: float, state: FloatArray) -> list[float]:
                 if perf_counter() > deadline:
                     raise TimedOutError
                 return rates(state.tolist())
 
-            with warnings.catch_warnings(record=True) as said:
+            with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
                 solution = solve_ivp(
-                    right,
+                    right_hand_side,
                     (times[0], times[-1]),
                     initial,
                     method=name,
@@ -129,7 +129,7 @@ def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[fl
                     atol=tolerance,
                 )
             if not solution.success:
-                raise FailedError("; ".join([solution.message, *(str(warning.message) for warning in said)]))
+                raise FailedError("; ".join([solution.message, *(str(warning.message) for warning in caught)]))
             return case.values(solution.y.T)
 
         return solve

@@ -39,8 +39,8 @@ def targets(machine: Machine, setups: list[Setup], costs: list[Cost], rows: list
     """
     every = [*_speed(machine, costs), *_never_slower(costs), *_latency(setups)] if costs else []
     every += _many(rows)
-    wrong = any((cost.error or 0.0) > LIMIT for cost in costs if cost.method in OURS)
-    if wrong:
+    is_inaccurate = any((cost.error or 0.0) > LIMIT for cost in costs if cost.method in OURS)
+    if is_inaccurate:
         return [replace(item, verdict="wrong values") if item.found is not None else item for item in every]
     return [replace(item, why=WHY.get(item.says, "")) if item.verdict == "missed" else item for item in every]
 
@@ -67,8 +67,8 @@ def _never_slower(costs: list[Cost]) -> Iterator[Limit]:
             if cost.method in {"ours_out", "ours_out_far"} and least <= cost.count <= most and cost.threads == 1
         ]
         measured = [ratio for ratio in ratios if ratio is not None]
-        where = f"from N = {least} up" if limit == 1.0 else "below N = 1000"
-        yield _below(f"ours over the plain formula, {where}, at worst", max(measured, default=None), limit)
+        domain = f"from N = {least} up" if limit == 1.0 else "below N = 1000"
+        yield _below(f"ours over the plain formula, {domain}, at worst", max(measured, default=None), limit)
     grids = [cost.to_times for cost in costs if cost.to_times is not None]
     yield _below("uniform grid over the same times one by one, at worst", max(grids, default=None), 1.0)
 

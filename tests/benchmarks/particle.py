@@ -42,13 +42,13 @@ def constants() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, float]:
 
 def plain() -> Solve:
     """Evaluate the trochoid, (98), in NumPy as anyone would write it."""
-    start, steady, u, across, omega = constants()
+    start, steady, u, radial, omega = constants()
 
     def solve(times: FloatArray) -> FloatArray:
         t = times[:, None]
         c, s = np.cos(omega * t), np.sin(omega * t)
-        position = start + steady * t + (u * s + across * (1 - c)) / omega
-        return np.concatenate([position, steady + u * c + across * s], axis=1)
+        position = start + steady * t + (u * s + radial * (1 - c)) / omega
+        return np.concatenate([position, steady + u * c + radial * s], axis=1)
 
     return solve
 
@@ -57,10 +57,10 @@ def lambdified() -> Solve:
     """Compile the same from SymPy, with common subexpressions taken out."""
     import sympy
 
-    start, steady, u, across, omega = constants()
+    start, steady, u, radial, omega = constants()
     t = sympy.symbols("t", real=True)
     c, s = sympy.cos(omega * t), sympy.sin(omega * t)
-    y = [start[i] + steady[i] * t + (u[i] * s + across[i] * (1 - c)) / omega for i in range(3)]
+    y = [start[i] + steady[i] * t + (u[i] * s + radial[i] * (1 - c)) / omega for i in range(3)]
     entries = sympy.lambdify(t, y + [sympy.diff(x, t) for x in y], "numpy", cse=True)
     return lambda times: np.stack(np.broadcast_arrays(*entries(times)), axis=-1)
 
@@ -69,13 +69,13 @@ def rotations() -> Solve:
     """Turn u and [u, b] by SciPy's rotations about B."""
     from scipy.spatial.transform import Rotation
 
-    start, steady, u, across, omega = constants()
+    start, steady, u, radial, omega = constants()
     axis = -omega * np.array(PARAMETERS["B"]) / np.linalg.norm(PARAMETERS["B"])
 
     def solve(times: FloatArray) -> FloatArray:
         t = times[:, None]
         turn = Rotation.from_rotvec(t * axis)
-        position = start + steady * t + (across - turn.apply(across)) / omega
+        position = start + steady * t + (radial - turn.apply(radial)) / omega
         return np.concatenate([position, steady + turn.apply(u)], axis=1)
 
     return solve

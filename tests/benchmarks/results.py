@@ -94,7 +94,7 @@ def write(record: Results, path: Path) -> None:
     files.write(path, "{\n" + ",\n".join(items) + "\n}\n")
 
 
-def said(error: Exception) -> str:
+def sentence(error: Exception) -> str:
     """Return what a peer raised, in one line."""
     return " ".join(f"{type(error).__name__}: {error}".split())
 

@@ -121,8 +121,8 @@ def body_rates(state: Sequence[Any], p: Parameters) -> list[Any]:
     W = [w + k for w, k in zip(Omega, K, strict=True)]
     # M = II W: M' = [M, W] + [K, II K], K' = [K, W]
     M = [i * w for i, w in zip(I, W, strict=True)]
-    both = zip(cross(M, W), cross(K, [i * k for i, k in zip(I, K, strict=True)]), cross(K, W), I, strict=True)
-    return [*(rate for row in rows for rate in cross(row, Omega)), *((x + y) / i - z for x, y, z, i in both)]
+    factors = zip(cross(M, W), cross(K, [i * k for i, k in zip(I, K, strict=True)]), cross(K, W), I, strict=True)
+    return [*(rate for row in rows for rate in cross(row, Omega)), *((x + y) / i - z for x, y, z, i in factors)]
 
 
 def heavy_rates(state: Sequence[Any], p: Parameters) -> list[Any]:

@@ -96,7 +96,7 @@ def main() -> None:
     limits = targets(machine(), setups, prices, rows)
     done = [price for price in prices if price.status == "done"]
     held_back = [_short(run) for run in narrow()] if machine().avx512 and not options.quick else []
-    record = Results(FORMAT, "make bench", today(), machine(), versions(), shown(runs), done, limits, held_back)
+    record = Results(FORMAT, "make bench", today(), machine(), versions(), shown_runs(runs), done, limits, held_back)
     for limit in limits:
         print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
     print(measured(record, record.versions))  # noqa: T201
@@ -133,7 +133,7 @@ def measure(names: Sequence[str], scope: Scope) -> Iterator[Any]:
         yield from general.fits(3)
 
 
-def shown(runs: Sequence[Run]) -> list[Run]:
+def shown_runs(runs: Sequence[Run]) -> list[Run]:
     """Return the runs that figures and tables show: of an integrator at long times only its best."""
     done = [run for run in runs if run.status == "done"]
     best: dict[tuple[str, str, float], Run] = {}

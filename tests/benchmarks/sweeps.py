@@ -49,12 +49,12 @@ def swept(family: str, rows: int, jobs: int, dask: bool) -> dict[str, Any]:
             while block := file.read(1 << 20):
                 digest.update(block)
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    own, largest = (who.ru_maxrss / 1024 for who in used)
+    own_memory, largest = (who.ru_maxrss / 1024 for who in used)
     return {
         "rows": RATIOS * FIELDS * count,
         "seconds": seconds,
         "cpu": sum(who.ru_utime + who.ru_stime for who in used),
-        "own": own,
+        "own": own_memory,
         "worker": largest,
         "digest": digest.hexdigest()[:12],
     }
@@ -75,8 +75,8 @@ def _executor(jobs: int, dask: bool) -> Iterator[Any]:
         yield client
 
 
-def _even(first: float, last: float, count: int) -> list[float]:
-    return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
+def _even(low: float, high: float, count: int) -> list[float]:
+    return [low + (high - low) * i / max(count - 1, 1) for i in range(count)]
 
 
 def main() -> None:

@@ -30,7 +30,7 @@ bodies = st.one_of(
 )
 
 
-def asked(make: Any, quantities: dict[str, Any]) -> None:
+def check_answers(make: Any, quantities: dict[str, Any]) -> None:
     """Ask for everything that an object answers."""
     made = None
 
@@ -47,7 +47,7 @@ def asked(make: Any, quantities: dict[str, Any]) -> None:
 
 def attributes(*names: str) -> dict[str, Any]:
     """Return what asks for attributes."""
-    return {name: lambda made, name=name: getattr(made, name) for name in names}
+    return {name: lambda obj, name=name: getattr(obj, name) for name in names}
 
 
 def at_times(t: Any) -> dict[str, Any]:
@@ -61,7 +61,7 @@ def at_times(t: Any) -> dict[str, Any]:
 @given(bodies, pairs, arrays(numbers), st.none() | arrays(numbers), times, st.floats(-10, 10), st.integers(0, 9))
 def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int) -> None:
     """All that an elementary motion answers."""
-    asked(
+    check_answers(
         lambda: atlas.ElementaryMotion(I, field, omega2, omega3),
         attributes("omega2", "omega3", "k", "phi")
         | at_times(t)
@@ -76,14 +76,16 @@ def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any,
 @st.composite
 def families(draw: Any) -> tuple[str, list[Any]]:
     """Draw a family of the register and its parameters: as they stand there, ordinary or extreme."""
-    one = draw(st.sampled_from([one for one in FAMILIES.values() if one.at_once > 1]))  # others take seconds
-    given = []
-    for p in one.parameters:
+    family = draw(
+        st.sampled_from([candidate for candidate in FAMILIES.values() if candidate.at_once > 1])
+    )  # others take seconds
+    arguments = []
+    for p in family.parameters:
         component = st.one_of(st.floats(*p.range), st.floats(*p.range), numbers)
         usual = (st.just(p.default),) * bool(p.default)
         value = draw(st.one_of(*usual, *usual, st.tuples(*[component] * len(p.names))))
-        given.append(value if p.columns else value[0])
-    return one.name, given
+        arguments.append(value if p.columns else value[0])
+    return family.name, arguments
 
 
 @pytest.mark.slow
@@ -91,10 +93,10 @@ def families(draw: Any) -> tuple[str, list[Any]]:
 @given(families(), times)
 def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
     """All that the register lists of a motion or surface, and a grid of its matrices."""
-    one, given = FAMILIES[case[0]], case[1]
-    at = {s.name: lambda m, s=s: s.method_of(m)(t) for s in one.sampled}
-    at |= {"rotation_grid": lambda m: m.rotation_grid(-0.3, 0.7, 9)} if "R" in at else {}
-    asked(lambda: one.kernels()(*given), {q.name: q.value for q in one.quantities} | at)
+    family, arguments = FAMILIES[case[0]], case[1]
+    functions = {s.name: lambda m, s=s: s.method_of(m)(t) for s in family.sampled}
+    functions |= {"rotation_grid": lambda m: m.rotation_grid(-0.3, 0.7, 9)} if "R" in functions else {}
+    check_answers(lambda: family.kernels()(*arguments), {q.name: q.value for q in family.quantities} | functions)
 
 
 @pytest.mark.slow
@@ -102,7 +104,7 @@ def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
 @given(bodies, pairs, vectors)
 def test_quadric(I: Any, field: Any, omega: Any) -> None:
     """All that a quadric answers."""
-    asked(
+    check_answers(
         lambda: atlas.Quadric(I, field),
         attributes("beta", "a2", "a3", "semi_axes", "centre", "axes")
         | {"canonical": lambda q: q.canonical(omega), "residual": lambda q: q.residual(omega)},
@@ -114,7 +116,7 @@ def test_quadric(I: Any, field: Any, omega: Any) -> None:
 @given(bodies, st.tuples(numbers, numbers), arrays(numbers), st.sampled_from([2, 3, 7, 1, 0, 2.5, [0.0, 1.0], [800.0]]))
 def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
     """All that a hyperbola answers."""
-    asked(
+    check_answers(
         lambda: atlas.Hyperbola(I, field),
         attributes("pole", "unstable_band", "special", "asymptotes")
         | {
@@ -131,7 +133,7 @@ def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
 @given(arrays(numbers), arrays(numbers), pairs, times)
 def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
     """All that a ball answers."""
-    asked(
+    check_answers(
         lambda: atlas.BallMotion(inertia, larmor, momentum),
         attributes("gamma", "k_hat")
         | {
@@ -147,7 +149,7 @@ def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
 @given(arrays(numbers), vectors, vectors, vectors, vectors, st.one_of(st.just(1.0), numbers), times)
 def test_particle_motion(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any) -> None:
     """All that a particle answers."""
-    asked(
+    check_answers(
         lambda: atlas.ParticleMotion(mu, E, B, y, v, c),
         attributes("cyclotron_frequency", "period", "prime", "drift", "radius", "axes", "case", "kind")
         | {
@@ -163,7 +165,7 @@ def test_particle_motion(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any
 def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any) -> None:
     """The integrals of a state, the cubic and the quartic."""
     answered(lambda: list(vars(integrals.integrals(I, omega, K)).values()))
-    asked(
+    check_answers(
         lambda: PseudoOscillator(I, field, omega),
         attributes("coefficients", "quartic_coefficients")
         | {
@@ -179,7 +181,7 @@ def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any)
 @given(vectors, vectors, numbers, numbers, vectors)
 def test_fields_and_frames(B: Any, E: Any, mu: float, c: float, axis: Any) -> None:
     """A field, its frame, and what units make of it."""
-    asked(
+    check_answers(
         lambda: atlas.Field(B, E, mu, c),
         attributes("prime")
         | {

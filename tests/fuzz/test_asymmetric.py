@@ -25,5 +25,9 @@ def test_both_ways_meet(kind: str, seed: int, monkeypatch: pytest.MonkeyPatch) -
             pytest.xfail(str(reason))
         monkeypatch.setattr(asymmetric, "MAX_DIRECT_TIME", 100)
         direct = asymmetric.AsymmetricMotion(*draw).rotation(t)
-        pairs = [(x, y) for row, other in zip(reduced, direct, strict=True) for x, y in zip(row, other, strict=True)]
+        pairs = [
+            (x, y)
+            for row, row_direct in zip(reduced, direct, strict=True)
+            for x, y in zip(row, row_direct, strict=True)
+        ]
         assert all(arb(x).overlaps(arb(y)) and arb(x).rad() < 1e-20 for x, y in pairs)

@@ -70,18 +70,18 @@ def test_any_words_give_files_or_a_one_line_error(tmp_path_factory: pytest.TempP
         patch.setattr(Explorer, "serve_forever", lambda _: None)
         patch.setattr("webbrowser.open", lambda _: True)
         status, printed, err = ran(words)
-    told = (words, status, printed[-300:], err)
-    made = [path.stat().st_size for path in out.rglob("*") if path.is_file()]
+    report = (words, status, printed[-300:], err)
+    sizes = [path.stat().st_size for path in out.rglob("*") if path.is_file()]
     shutil.rmtree(out)
-    assert status in {0, 2}, told
-    assert "Traceback" not in err, told
+    assert status in {0, 2}, report
+    assert "Traceback" not in err, report
     if status:
-        assert err.count("\n") == 1, told
-        assert len(err) < 1500, told
-        assert not re.search(r"object at 0x|<class|Error:|errno|\x1b", err), told
-        assert not made, told
+        assert err.count("\n") == 1, report
+        assert len(err) < 1500, report
+        assert not re.search(r"object at 0x|<class|Error:|errno|\x1b", err), report
+        assert not sizes, report
     elif words[0] == "explore":
-        assert printed.startswith("http://127.0.0.1:"), told
+        assert printed.startswith("http://127.0.0.1:"), report
     else:
-        assert made, told
-        assert all(made), told
+        assert sizes, report
+        assert all(sizes), report

@@ -66,18 +66,20 @@ def content(folder: Path) -> Content:
 @pytest.fixture(scope="module")
 def versions(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Content]:
     """Return what becomes of both versions in peace."""
-    found = {}
+    contents = {}
     for version in (1, 2):
         folder = tmp_path_factory.mktemp("peace")
         assert ended(start(folder, version)) == (0, "")
-        found[version] = content(folder)
-    assert found[1].keys() == found[2].keys() >= {"small/index.html", "small/figures/01-trochoids.svg", "small.pdf"}
+        contents[version] = content(folder)
+    assert (
+        contents[1].keys() == contents[2].keys() >= {"small/index.html", "small/figures/01-trochoids.svg", "small.pdf"}
+    )
     for name in ("small/index.html", "small/figures/01-trochoids.svg", "small.pdf"):
-        assert found[1][name] != found[2][name]
-    return found
+        assert contents[1][name] != contents[2][name]
+    return contents
 
 
-def kept(folder: Path, place: str) -> set[Path]:
+def complete_files(folder: Path, place: str) -> set[Path]:
     """Return what a build has in its cache, or at the top of where it writes, those under way too."""
     return set((folder / place).rglob("*") if place == "cache" else (folder / place).glob("*"))
 
@@ -99,26 +101,26 @@ def test_builds_that_are_killed_leave_whole_files_and_heal(tmp_path: Path, versi
     chance, killed, finished, version = random.Random(os.getpid()), 0, 0, 1  # noqa: S311
     longest = {"cache": 1.0, "out": 0.05}
     print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
-    whole = versions[1].items() | versions[2].items()
+    files_of_both = versions[1].items() | versions[2].items()
     while killed < KILLS:
         place = chance.choice(list(longest))
-        before, process = kept(tmp_path, place), start(tmp_path, version)
-        while process.poll() is None and kept(tmp_path, place) <= before:
+        before, process = complete_files(tmp_path, place), start(tmp_path, version)
+        while process.poll() is None and complete_files(tmp_path, place) <= before:
             time.sleep(0.002)
         end = time.monotonic() + chance.random() * longest[place]
         while process.poll() is None and time.monotonic() < end:
             time.sleep(0.002)
         process.send_signal(signal.SIGKILL)
-        status, told = ended(process)
+        status, message = ended(process)
         wait_until_alone(process.pid)
-        left = content(tmp_path)
-        pages = {item for item in left.items() if item[0].startswith("small/")}
-        assert left.items() <= whole
-        assert any(pages <= one.items() for one in versions.values())
+        files_after = content(tmp_path)
+        pages = {item for item in files_after.items() if item[0].startswith("small/")}
+        assert files_after.items() <= files_of_both
+        assert any(pages <= files.items() for files in versions.values())
         if status == -signal.SIGKILL:
             killed, longest[place] = killed + 1, 1.1 * longest[place]
             continue
-        assert (status, told) == (0, "")  # it was faster
+        assert (status, message) == (0, "")  # it was faster
         assert content(tmp_path) == versions[version]
         finished, longest[place], version = finished + 1, max(0.01, 0.7 * longest[place]), 3 - version
         shutil.rmtree(tmp_path / "cache")
@@ -130,7 +132,7 @@ def test_builds_that_are_killed_leave_whole_files_and_heal(tmp_path: Path, versi
 @pytest.mark.usefixtures("interrupts")
 def test_pages_that_are_ended_leave_no_process(tmp_path: Path) -> None:
     """At any moment, by Ctrl-C, of which one line is said, or killed: the workers end, too."""
-    said = "atlas: interrupted"
+    interrupted = "atlas: interrupted"
     print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
     chance = random.Random(os.getpid())  # noqa: S311
     page = ("page", "--ratio", "1.3", "--field", "1", "2", "--omega2", "0.7", "--out", "out")
@@ -140,11 +142,11 @@ def test_pages_that_are_ended_leave_no_process(tmp_path: Path) -> None:
             killed = chance.random() < 0.5
             with suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGINT) if not killed else process.kill()
-            told = process.communicate(timeout=60)[1].strip()
+            message = process.communicate(timeout=60)[1].strip()
         # the status is the signal's where Python was about to make a dataclass, whose `exec` asks for it once more, and
         # where Python itself starts and ends
-        ends = {(0, ""), (130, said), (-signal.SIGINT, said), (-signal.SIGINT, "")}
-        end = (process.returncode, told)
+        ends = {(0, ""), (130, interrupted), (-signal.SIGINT, interrupted), (-signal.SIGINT, "")}
+        end = (process.returncode, message)
         assert end[0] in {0, -signal.SIGKILL} if killed else end in ends, "\n".join(map(str, end))
         wait_until_alone(process.pid)
 
@@ -152,8 +154,8 @@ def test_pages_that_are_ended_leave_no_process(tmp_path: Path) -> None:
 def test_two_builds_at_once_do_no_harm(tmp_path: Path, versions: dict[int, Content]) -> None:
     """The same report or two versions of it, started together in one folder: both end well, in the bytes of one."""
     for pair in range(PAIRS):
-        both = [start(tmp_path, version) for version in (1, 1 + pair % 2)]
-        assert [ended(process) for process in both] == [(0, ""), (0, "")]
+        processes = [start(tmp_path, version) for version in (1, 1 + pair % 2)]
+        assert [ended(process) for process in processes] == [(0, ""), (0, "")]
         assert content(tmp_path) in ([versions[1]] if pair % 2 == 0 else list(versions.values()))
         shutil.rmtree(tmp_path / "cache")
         shutil.rmtree(tmp_path / "out")

@@ -22,13 +22,15 @@ BUILDERS = {"animate", "data", "explore", "page", "plot", "report", "sweep", "te
 COMMANDS: dict[str, click.Command] = {
     name: command.loaded() for name, command in atlas.commands.items() if name not in BUILDERS
 }
-good = st.sampled_from(["1", "1.5", "0.5", "2", "-1", "-2", "0", "0.7", "3/2", "1e-3", "0x1.8p0", "-0", "12", "1e3"])
-far = st.sampled_from(
+ordinary = st.sampled_from(
+    ["1", "1.5", "0.5", "2", "-1", "-2", "0", "0.7", "3/2", "1e-3", "0x1.8p0", "-0", "12", "1e3"]
+)
+extreme = st.sampled_from(
     ["1e308", "-1e308", "1e-308", "5e-324", "1e160", "1e-160", "1e200", "-1e-200", "1e15", "1e30", "4e9"]
 )
 words = "nan inf -inf 1e999 1e-9999 1e-99999 1_0 x 1,2 -- - 1/0 0x \\d 1e $HOME ../.. {} --json=1 None é \u0661".split()
 bad = st.sampled_from([*words, "", " ", "9" * 5000, "\x1b[2J", "a\nb"])
-number = st.one_of(good, good, good, good, far, far, bad)
+number = st.one_of(ordinary, ordinary, ordinary, ordinary, extreme, extreme, bad)
 EXAMPLES: dict[str, list[str]] = {}
 for f in FAMILIES.values():
     if f.command and f.at_once > 1:  # a motion alone takes seconds: test_asymmetric has its command
@@ -119,22 +121,22 @@ def test_every_command_is_drawn() -> None:
 def checked(words: list[str]) -> None:
     """Hold an answer against what every answer is."""
     status, out, err = ran(words)
-    told = (words, out[-300:], err)
-    assert "Traceback" not in err, told
-    assert status in {0, 1, 2}, told
+    report = (words, out[-300:], err)
+    assert "Traceback" not in err, report
+    assert status in {0, 1, 2}, report
     if status == 2:
-        assert out == "", told
-        assert err.count("\n") == 1 or err.startswith("Usage:"), told
-        assert len(err) < 1500 or err.startswith("Usage: atlas [OPTIONS] COMMAND"), told  # the list of all commands
-        assert "\x1b" not in err, told
-        assert not re.search(r"object at 0x|<class|Error:|errno", err), told
+        assert out == "", report
+        assert err.count("\n") == 1 or err.startswith("Usage:"), report
+        assert len(err) < 1500 or err.startswith("Usage: atlas [OPTIONS] COMMAND"), report  # the list of all commands
+        assert "\x1b" not in err, report
+        assert not re.search(r"object at 0x|<class|Error:|errno", err), report
     elif "--json" in words and out:
-        found = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON: {told}"))
-        missing = json.dumps(found).count("null")
+        record = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON: {report}"))
+        nulls = json.dumps(record).count("null")
         assert (
-            missing == 0 or "missing" in found or '"drift": null' in out or words[0] in {"check", "hyperbola", "list"}
-        ), told
-    assert "nan" not in out.lower(), told
+            nulls == 0 or "missing" in record or '"drift": null' in out or words[0] in {"check", "hyperbola", "list"}
+        ), report
+    assert "nan" not in out.lower(), report
 
 
 @pytest.mark.slow

@@ -22,7 +22,7 @@ values = st.sampled_from(WORDS)
 
 
 @st.composite
-def asked(draw: Any) -> tuple[str, dict[str, Any]]:
+def recipe_calls(draw: Any) -> tuple[str, dict[str, Any]]:
     """Draw a recipe and one or two of its parameters."""
     name = draw(st.sampled_from([name for name in recipes.names() if name not in SLOW]))
     keys = draw(
@@ -33,7 +33,7 @@ def asked(draw: Any) -> tuple[str, dict[str, Any]]:
 
 @pytest.mark.slow
 @share(0.05, 25)
-@given(asked())
+@given(recipe_calls())
 def test_any_parameter_gives_a_scene_or_a_line(case: tuple[str, dict[str, Any]]) -> None:
     """No name of a Python error, no line of a recipe, no NaN in what is drawn."""
     name, parameters = case

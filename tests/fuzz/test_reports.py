@@ -78,14 +78,14 @@ values = st.one_of(texts, numbers, st.sampled_from([[], {}, [[]], ["x", 1], [0.0
 def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """Return the way to each value within nested tables and lists."""
     inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    return [path] * bool(path) + [found for key, item in inner for found in places(item, (*path, key))]
+    return [path] * bool(path) + [branch for key, item in inner for branch in places(item, (*path, key))]
 
 
 def block(table: str, name: str) -> dict[str, Any]:
     """Return a table of the shell in the magnet."""
     who = {"bodies": ["shell"]} if table in {"charges", "sheet"} else {"body": "shell"}
-    more = {"parameters": copy.deepcopy(TABLES[table])} if TABLES[table] else {}
-    return {"kind": "table", "table": table, "id": name, "field": "magnet", **who, **more}
+    parameters = {"parameters": copy.deepcopy(TABLES[table])} if TABLES[table] else {}
+    return {"kind": "table", "table": table, "id": name, "field": "magnet", **who, **parameters}
 
 
 @st.composite
@@ -125,7 +125,7 @@ def toml(value: Any) -> str:
     return json.dumps(value).replace("NaN", "nan").replace("Infinity", "inf")
 
 
-def written(report: dict[str, Any]) -> str:
+def toml_of(report: dict[str, Any]) -> str:
     """Return a report as TOML."""
     return "\n".join(f"{json.dumps(key)} = {toml(value)}" for key, value in report.items())
 
@@ -143,7 +143,7 @@ def test_the_report_that_is_changed_is_a_good_one(folder: Path) -> None:
     blocks = [*REPORT["pages"][0]["blocks"], *map(block, TABLES, names)]
     report = {**REPORT, "pages": [{**REPORT["pages"][0], "blocks": blocks}]}
     file = folder / "mine.toml"
-    file.write_text(written(report), encoding="utf-8")
+    file.write_text(toml_of(report), encoding="utf-8")
     status, _, err = ran(["report", str(file), "--format", "html", "--out", str(folder / "out")])
     assert status == 0, err
 
@@ -154,22 +154,24 @@ def test_the_report_that_is_changed_is_a_good_one(folder: Path) -> None:
 def test_any_report_becomes_pages_or_a_line(folder: Path, report: dict[str, Any]) -> None:
     """Wrong types, missing and foreign keys, extreme numbers, markup: nothing runs, nothing is half written."""
     file, out = folder / "mine.toml", folder / "out"
-    file.write_text(written(report), encoding="utf-8")
+    file.write_text(toml_of(report), encoding="utf-8")
     shutil.rmtree(out / "mine", ignore_errors=True)
     status, _, err = ran(["report", str(file), "--format", "html", "--out", str(out)])
-    told = (report, err)
-    assert "Traceback" not in err, told
+    report_and_message = (report, err)
+    assert "Traceback" not in err, report_and_message
     pages = list(out.rglob("*.html"))
     if status == 2:
-        assert err.count("\n") == 1, told
-        assert len(err) < 1500, told
-        assert not pages, told
+        assert err.count("\n") == 1, report_and_message
+        assert len(err) < 1500, report_and_message
+        assert not pages, report_and_message
         return
-    assert status == 0, told
-    assert pages, told
+    assert status == 0, report_and_message
+    assert pages, report_and_message
     for page in pages:
         root = html.fromstring(page.read_bytes())
-        assert "alert(1)" not in " ".join(root.xpath("//script//text()")), told
-        assert not root.xpath("//@onerror | //@onclick | //*[starts-with(@href, 'javascript:')]"), told
-        assert not [cell for cell in root.xpath("//td//text()") if cell.strip().lower() in {"nan", "inf"}], told
-    assert not {path.name for path in folder.iterdir()} - {"mine.toml", "out"}, told
+        assert "alert(1)" not in " ".join(root.xpath("//script//text()")), report_and_message
+        assert not root.xpath("//@onerror | //@onclick | //*[starts-with(@href, 'javascript:')]"), report_and_message
+        assert not [cell for cell in root.xpath("//td//text()") if cell.strip().lower() in {"nan", "inf"}], (
+            report_and_message
+        )
+    assert not {path.name for path in folder.iterdir()} - {"mine.toml", "out"}, report_and_message

@@ -23,44 +23,44 @@ ASKED = "--quantity k --quantity phi --digits 30 --rows 100 -j 2 --out t.csv".sp
 def start(folder: Path, B2: float) -> Process:
     """Start a sweep of 2000 rows in 20 parts on two processes."""
     settings = {"ratio": "0.1:2:40", "B2": str(B2), "B3": "0.2", "omega2": "0.1:3:50"}
-    given = [word for item in settings.items() for word in ("--set", "=".join(item))]
-    words = [sys.executable, "-m", "atlas", "sweep", "elementary", *given, *ASKED]
+    set_words = [word for item in settings.items() for word in ("--set", "=".join(item))]
+    words = [sys.executable, "-m", "atlas", "sweep", "elementary", *set_words, *ASKED]
     return subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
 @pytest.fixture(scope="module")
 def tables(tmp_path_factory: pytest.TempPathFactory) -> dict[float, bytes]:
     """Return the tables of both recipes, each of a sweep that nobody disturbed."""
-    found = {}
+    table_bytes = {}
     for B2 in (1.0, 2.0):
         folder = tmp_path_factory.mktemp("whole")
         assert ended(start(folder, B2)) == (0, "")
-        found[B2] = (folder / "t.csv").read_bytes()
-    return found
+        table_bytes[B2] = (folder / "t.csv").read_bytes()
+    return table_bytes
 
 
-def kept(parts: Path) -> set[str]:
+def finished_parts(parts: Path) -> set[str]:
     """Return the names of the parts that are there."""
     return {path.name for path in parts.glob("part-*")}
 
 
 def test_sweeps_that_are_killed_lose_nothing(tmp_path: Path, tables: dict[float, bytes]) -> None:
     """Killed at any moment from a new part on, with the recipe changed now and then, the last one ends whole."""
-    chance, killed, parts = random.Random(os.getpid()), 0, tmp_path / "t.csv.parts"  # noqa: S311
+    chance, killed, folder = random.Random(os.getpid()), 0, tmp_path / "t.csv.parts"  # noqa: S311
     print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
     B2, longest = 1.0, 1.0
     while killed < KILLS:
-        before, process = kept(parts), start(tmp_path, B2)
-        while process.poll() is None and kept(parts) <= before:
+        before, process = finished_parts(folder), start(tmp_path, B2)
+        while process.poll() is None and finished_parts(folder) <= before:
             time.sleep(0.005)
-        seen = time.monotonic()
-        while process.poll() is None and time.monotonic() < seen + chance.random() * longest:
+        started = time.monotonic()
+        while process.poll() is None and time.monotonic() < started + chance.random() * longest:
             time.sleep(0.005)
         process.send_signal(signal.SIGKILL)
-        status, told = ended(process)
+        status, message = ended(process)
         killed += status == -signal.SIGKILL
         if status != -signal.SIGKILL:  # it was faster
-            assert (status, told) == (0, "")
+            assert (status, message) == (0, "")
             assert (tmp_path / "t.csv").read_bytes() == tables[B2]
             longest = max(0.05, 0.7 * longest)
         if chance.random() < 0.1:
@@ -75,13 +75,13 @@ def test_two_sweeps_at_once_make_one_table(tmp_path: Path, tables: dict[float, b
     """The same recipe or two, started together: one writes, the other says who does; the table is one recipe's."""
     for pair in range(PAIRS):
         recipes = (1.0, 1.0 + pair % 2)
-        both = [start(tmp_path, B2) for B2 in recipes]
-        (one, first), (two, second) = map(ended, both)
-        assert sorted((one, two)) == [0, 2], (first, second)
-        assert first + second == (second if two else first)
-        assert f"(process {both[bool(one)].pid} on " in first + second
-        assert (first + second).count("\n") == 1
-        assert (tmp_path / "t.csv").read_bytes() == tables[recipes[bool(one)]]
+        processes = [start(tmp_path, B2) for B2 in recipes]
+        (status, message), (two, second) = map(ended, processes)
+        assert sorted((status, two)) == [0, 2], (message, second)
+        assert message + second == (second if two else message)
+        assert f"(process {processes[bool(status)].pid} on " in message + second
+        assert (message + second).count("\n") == 1
+        assert (tmp_path / "t.csv").read_bytes() == tables[recipes[bool(status)]]
         assert {path.name for path in tmp_path.iterdir()} == {"t.csv", WRITTEN}
         (tmp_path / "t.csv").unlink()
     print(f"{PAIRS} pairs of sweeps ended well")  # noqa: T201

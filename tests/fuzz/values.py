@@ -25,8 +25,8 @@ Process = subprocess.Popen[str]
 
 def ended(process: Process) -> tuple[int, str]:
     """Return the exit status of a command and what it said."""
-    told = process.communicate()[1]
-    return process.returncode, told
+    message = process.communicate()[1]
+    return process.returncode, message
 
 
 SPECIAL = [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, 1.5, -2.0, math.nextafter(1.0, 2.0), math.nextafter(-1.0, 0.0), math.pi]
@@ -57,9 +57,9 @@ no_numbers = st.sampled_from(
 ratios = st.one_of(st.sampled_from([1.0, 2.0, 0.5, 1.5]), st.floats(1e-300, 2.0), numbers)
 
 
-def share(part: float, few: int) -> Any:
+def share(fraction: float, few: int) -> Any:
     """Return settings for a test that gets this part of all examples, or a few."""
-    return settings(max_examples=max(1, round(EXAMPLES * part)) if EXAMPLES else few)
+    return settings(max_examples=max(1, round(EXAMPLES * fraction)) if EXAMPLES else few)
 
 
 def arrays(elements: Any) -> Any:
@@ -96,20 +96,22 @@ def watched() -> Iterator[None]:
         signal.signal(signal.SIGPROF, before)
 
 
-def answered(call: Callable[[], Any], where: str = "") -> Any:
+def answered(call: Callable[[], Any], place: str = "") -> Any:
     """Return what a call answers, or None where it says in one line why it has no answer; never NaN."""
     try:
         with watched():
-            found = call()
+            answer = call()
     except AtlasError as reason:
         sentence = str(reason)
-        assert sentence.strip(), where
-        assert "\n" not in sentence, where
-        assert "Error" not in sentence, (where, sentence)
-        assert len(sentence) < 600, (where, sentence)
+        assert sentence.strip(), place
+        assert "\n" not in sentence, place
+        assert "Error" not in sentence, (place, sentence)
+        assert len(sentence) < 600, (place, sentence)
         return None
-    for value in found if isinstance(found, tuple | list) else found.values() if isinstance(found, dict) else [found]:
+    for value in (
+        answer if isinstance(answer, tuple | list) else answer.values() if isinstance(answer, dict) else [answer]
+    ):
         array = np.asarray(value)
         if array.dtype.kind == "f":
-            assert not np.isnan(array).any(), (where, found)
-    return found
+            assert not np.isnan(array).any(), (place, answer)
+    return answer

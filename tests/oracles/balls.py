@@ -34,21 +34,21 @@ def taylor(ratio: Any, field: Any, omega: Any, t: Any) -> tuple[list[list[arb]],
     I, (B2, B3) = ratio_of(ratio), rationals(field, "the field (B2, B3)", 2)
     Omega = [arb(w) for w in rationals(omega, "omega", 3)]
     rows = [[arb(0), arb(1), arb(0)], [arb(0), arb(0), arb(1)]]
-    left = rational(t, "the time")
-    while left != 0:
+    remaining = rational(t, "the time")
+    while remaining != 0:
         K = [B2 * a + B3 * b for a, b in zip(*rows, strict=True)]
         s = max(float(abs(x).upper()) for x in (*Omega, *K))
-        step = left if s == 0 else _shorter(left, fmpq(*(1 / (3 * PART * s)).as_integer_ratio()))
+        step = remaining if s == 0 else _shorter(remaining, fmpq(*(1 / (3 * PART * s)).as_integer_ratio()))
         series = _series(I, B2, B3, Omega, rows)
         size = 3 * arb(s) * abs(arb(step))
-        rest = size ** len(series[0]) / (1 - size)
+        remainder = size ** len(series[0]) / (1 - size)
         values = [_sum(x, arb(step)) for x in series]
-        Omega = [_widened(x, s * rest) for x in values[:3]]
-        rows = [[_widened(x, rest) for x in values[3:6]], [_widened(x, rest) for x in values[6:]]]
-        left -= step
+        Omega = [_widened(x, s * remainder) for x in values[:3]]
+        rows = [[_widened(x, remainder) for x in values[3:6]], [_widened(x, remainder) for x in values[6:]]]
+        remaining -= step
     second, third = rows
-    first = [second[i - 2] * third[i - 1] - second[i - 1] * third[i - 2] for i in range(3)]
-    return [first, second, third], Omega
+    W = [second[i - 2] * third[i - 1] - second[i - 1] * third[i - 2] for i in range(3)]
+    return [W, second, third], Omega
 
 
 def _series(I: fmpq, B2: fmpq, B3: fmpq, Omega: Iterable[arb], rows: Iterable[Iterable[arb]]) -> list[Series]:

@@ -42,11 +42,11 @@ def nutation(
     kinetic = [-(k3**2) / I3 - A, 2 * M3 * k3 / I3 - 2 * a, energy - M3**2 / I3]
     P = [I2 * x - y for x, y in zip(_product(kinetic, [-1, 0, 1]), _product(s, s), strict=True)]
     P = P[next((i for i, x in enumerate(P) if abs(x) > max(map(abs, P)) * mpf(10) ** (20 - mp.dps)), 5) :]
-    found = _ends(P, n3) if len(P) > 3 else None
-    if found is None:
+    interval = _ends(P, n3) if len(P) > 3 else None
+    if interval is None:
         return None
-    low, high, others = found
-    mean = _mean(low, high, others)
+    low, high, roots = interval
+    mean = _mean(low, high, roots)
     if not mean:
         return None
 
@@ -56,13 +56,13 @@ def nutation(
     def twist(nu: mpf) -> mpf:
         return (M3 - k3 * nu) / I3 - nu * turn(nu)
 
-    beside = low > -1 and high < 1
-    turns = [_over(rate, low, high, P[0], others) if beside else None for rate in (turn, twist)]
+    is_bounded = low > -1 and high < 1
+    turns = [_over(rate, low, high, P[0], roots) if is_bounded else None for rate in (turn, twist)]
     period = 2 * mp.pi / mean / mp.sqrt(abs(P[0]))
     return Nutation((low, high), I2 * period, *(x and I2 * x for x in turns))
 
 
-def _ends(P: list[mpf], at: mpf) -> tuple[mpf, mpf, list[Any]] | None:
+def _ends(P: list[mpf], start: mpf) -> tuple[mpf, mpf, list[Any]] | None:
     """Return the roots about `at` between which P is positive, and the others."""
     tiny = mpf(10) ** -(mp.dps // 3)
     try:
@@ -71,29 +71,29 @@ def _ends(P: list[mpf], at: mpf) -> tuple[mpf, mpf, list[Any]] | None:
         return None
     roots = [mp.re(x) if abs(mp.im(x)) < tiny else x for x in roots]
     real = sorted(x for x in roots if mp.im(x) == 0)
-    ends = [(x, y) for x, y in pairwise(real) if x - tiny <= at <= y + tiny and mp.polyval(P, (x + y) / 2) > 0]
+    ends = [(x, y) for x, y in pairwise(real) if x - tiny <= start <= y + tiny and mp.polyval(P, (x + y) / 2) > 0]
     if len(ends) != 1 or ends[0][1] - ends[0][0] < mpf(10) ** -15:
         return None
     return *ends[0], sorted(roots, key=lambda x: min(abs(x - end) for end in ends[0]))[2:]
 
 
-def _mean(low: mpf, high: mpf, others: list[Any]) -> mpf:
+def _mean(low: mpf, high: mpf, roots: list[Any]) -> mpf:
     """Return Gauss' mean M for which the integral of 1/sqrt|(x - low)(high - x) ...| is pi/M."""
-    if len(others) == 1:
-        return mp.agm(mp.sqrt(abs(low - others[0])), mp.sqrt(abs(high - others[0])))
-    c, d = others
+    if len(roots) == 1:
+        return mp.agm(mp.sqrt(abs(low - roots[0])), mp.sqrt(abs(high - roots[0])))
+    c, d = roots
     u, v = mp.sqrt((low - c) * (high - d)), mp.sqrt((low - d) * (high - c))
     if mp.im(c) == 0:
         return mp.agm(abs(u), abs(v))
     return mp.agm(abs(mp.re(u)), abs(u))
 
 
-def _over(rate: Callable[[mpf], mpf], low: mpf, high: mpf, first: mpf, others: list[Any]) -> mpf | None:
+def _over(rate: Callable[[mpf], mpf], low: mpf, high: mpf, leading: mpf, roots: list[Any]) -> mpf | None:
     """Integrate 2 rate/sqrt(P) over nu, by equal steps of an angle of which nu is the cosine."""
 
     def value(angle: mpf) -> mpf:
         nu = (low + high) / 2 - (high - low) / 2 * mp.cos(angle)
-        return rate(nu) / mp.sqrt(abs(mp.fprod([first, *(nu - x for x in others)])))
+        return rate(nu) / mp.sqrt(abs(mp.fprod([leading, *(nu - x for x in roots)])))
 
     count, before = 16, None
     total = (value(mpf(0)) + value(mp.pi)) / 2 + sum(value(mp.pi * j / count) for j in range(1, count))
@@ -107,8 +107,8 @@ def _over(rate: Callable[[mpf], mpf], low: mpf, high: mpf, first: mpf, others: l
 
 
 def _product(x: Sequence[Any], y: Sequence[Any]) -> list[Any]:
-    found = [mpf(0)] * (len(x) + len(y) - 1)
-    for i, one in enumerate(x):
-        for j, other in enumerate(y):
-            found[i + j] += one * other
-    return found
+    coefficients = [mpf(0)] * (len(x) + len(y) - 1)
+    for i, factor in enumerate(x):
+        for j, factor_other in enumerate(y):
+            coefficients[i + j] += factor * factor_other
+    return coefficients

@@ -25,7 +25,7 @@ def taylor(case: Sequence[Any], times: Sequence[float], digits: int = 30) -> lis
         size = mpmath.sqrt(exact(n2) ** 2 + exact(n3) ** 2)
         n = [exact(0), exact(n2) / size, exact(n3) / size]
         state = [exact(x) for x in omega] + [exact(int(i == j)) for i in range(3) for j in range(3)]
-        now, found = exact(0), []
+        now, states = exact(0), []
         for t in times:
             while now != exact(t):
                 series = _series(state, body, n, digits)
@@ -34,11 +34,11 @@ def taylor(case: Sequence[Any], times: Sequence[float], digits: int = 30) -> lis
                 step = min(step, exact(t) - now)
                 state = [mpmath.polyval(x[::-1], step) for x in series]
                 now = exact(t) if step == exact(t) - now else now + step
-            found.append((mpmath.matrix(3, 3), state[:3]))
+            states.append((mpmath.matrix(3, 3), state[:3]))
             for i in range(3):
                 for j in range(3):
-                    found[-1][0][i, j] = state[3 + 3 * i + j]
-    return found
+                    states[-1][0][i, j] = state[3 + 3 * i + j]
+    return states
 
 
 def _series(state: Series, body: Any, n: Series, digits: int) -> list[Series]:
@@ -54,12 +54,12 @@ def _series(state: Series, body: Any, n: Series, digits: int) -> list[Series]:
             linear * b[0][order] + quadratic * _product(b[2], b[0], order),
             mpmath.mpf(0),
         ]
-        own = _cross([[I[j] * v for v in W[j]] for j in range(3)], W, order)
+        torque = _cross([[I[j] * v for v in W[j]] for j in range(3)], W, order)
         mixed = _cross([[k[j] * v for v in b[j]] for j in range(3)], W, order)
-        other = _cross([[k[j] * v for v in W[j]] for j in range(3)], b, order)
+        field_torque = _cross([[k[j] * v for v in W[j]] for j in range(3)], b, order)
         for j in range(3):
             # [e3, b] = (-b2, b1, 0), so -U' [e3, b] = (U' b2, -U' b1, 0)
-            rate = own[j] + mixed[j] + other[j] - k[j] * bW[j] - force[j]
+            rate = torque[j] + mixed[j] + field_torque[j] - k[j] * bW[j] - force[j]
             x[j].append(rate / I[j] / (order + 1))
         for i in range(3):
             row = x[3 + 3 * i : 6 + 3 * i]

@@ -32,8 +32,8 @@ def recorded(result: Result, before: dict, path: Path = RECORD) -> None:
     worst = dict(before.get("worst", {}))
     for w in result.by_quantity():
         best = 0.5 if PROMISES.get(w.quantity) != 0 else 0.0
-        found = [max(best, math.ceil(w.ulps * 1000) / 1000), w.regime]
-        worst[w.quantity] = max(worst.get(w.quantity, [-1.0, ""]), found, key=lambda one: one[0])
+        record = [max(best, math.ceil(w.ulps * 1000) / 1000), w.regime]
+        worst[w.quantity] = max(worst.get(w.quantity, [-1.0, ""]), record, key=lambda entry: entry[0])
     kinds = dict.fromkeys([*before.get("processors", ()), os.environ.get("OPENBLAS_CORETYPE", "this one")])
     rows = ",\n".join(f"  {json.dumps(name)}: {json.dumps(worst[name])}" for name in sorted(worst))
     head = f'{{\n "values": {result.samples},\n "processors": {json.dumps([*kinds])},\n "worst": {{\n'

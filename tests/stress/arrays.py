@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from flint import arb, fmpq
-from ulps import BITS, ONE, absolute, error, own, rigidity
+from ulps import BITS, ONE, absolute, error, own_ulps, rigidity
 
 from atlas import processes
 from atlas.arithmetic.certified_digits import enclosed
@@ -66,21 +66,27 @@ def draw(seed: int, index: int, rows: int = ROWS) -> tuple[FloatArray, ...]:
     """Draw I, B2, B3, omega2 and phases: at and next to each special value, at all scales, phases up to 2^50."""
     r = np.random.default_rng((seed, index))
 
-    def some(share: float, special: Any, ordinary: Any) -> FloatArray:
+    def mixture(share: float, special: Any, ordinary: Any) -> FloatArray:
         return np.asarray(np.where(r.random(rows) < share, special, ordinary))
 
-    def near(x: FloatArray) -> FloatArray:
+    def close_to(x: FloatArray) -> FloatArray:
         steps = r.integers(-4, 5, rows) * np.spacing(x)
-        return some(0.5, x + steps, x * (1 + r.normal(size=rows) * 10.0 ** r.uniform(-16, -1, rows)))
+        return mixture(0.5, x + steps, x * (1 + r.normal(size=rows) * 10.0 ** r.uniform(-16, -1, rows)))
 
-    I = some(
-        0.3, 1 + r.integers(-4, 5, rows) * 2.0**-53, some(0.3, 10.0 ** r.uniform(-6, 0, rows), r.uniform(0, 2, rows))
+    I = mixture(
+        0.3, 1 + r.integers(-4, 5, rows) * 2.0**-53, mixture(0.3, 10.0 ** r.uniform(-6, 0, rows), r.uniform(0, 2, rows))
     )
-    I = np.clip(some(0.1, 2.0, I), 1e-9, 2.0)
-    scale = 10.0 ** some(0.5, 0.0, r.uniform(-140, 140, rows))
+    I = np.clip(mixture(0.1, 2.0, I), 1e-9, 2.0)
+    scale = 10.0 ** mixture(0.5, 0.0, r.uniform(-140, 140, rows))
     B2 = r.normal(size=rows) * scale
-    B3 = some(0.05, 0.0, r.normal(size=rows) * scale * 10.0 ** some(0.7, 0.0, r.uniform(-12, 12, rows)))
-    specials = [near(-B2), near(-2 * B2), near(-(2 - I) * B2), 0 * B2, B2 * 10.0 ** r.uniform(-20, 0, rows)]
+    B3 = mixture(0.05, 0.0, r.normal(size=rows) * scale * 10.0 ** mixture(0.7, 0.0, r.uniform(-12, 12, rows)))
+    specials = [
+        close_to(-B2),
+        close_to(-2 * B2),
+        close_to(-(2 - I) * B2),
+        0 * B2,
+        B2 * 10.0 ** r.uniform(-20, 0, rows),
+    ]
     omega2 = np.choose(r.integers(0, 7, rows), [*specials, r.normal(size=rows) * scale, r.normal(size=rows) * scale])
     omega2 = np.where(omega2 == -B2, np.nextafter(omega2, np.inf), omega2) + 0.0
     phase = r.choice([-1.0, 1.0], rows) * 2.0 ** r.uniform(-40, 49.99, rows)
@@ -153,16 +159,16 @@ def draw_general(seed: int, index: int) -> tuple[FloatArray, FloatArray, FloatAr
         r.normal(size=(3, GENERAL_ROWS)),
     )
     # half of the rows are drawn towards a border: I to 1, an input to 0, (omega2, omega3) to -B' or to the hyperbola
-    border, near = (
+    border, offset = (
         r.integers(0, 16, GENERAL_ROWS),
         r.choice([-1.0, 1.0], GENERAL_ROWS) * 10.0 ** r.uniform(-10, 0, GENERAL_ROWS),
     )
-    ratio = np.where(border == 0, np.clip(1 + near, 2.0**-20, 2.0), ratio)
+    ratio = np.where(border == 0, np.clip(1 + offset, 2.0**-20, 2.0), ratio)
     for place, x in enumerate((B2, B3, w1, w2, w3), 1):
-        x[border == place] *= near[border == place]
-    w2 = np.where(border == 6, near - B2, w2)
+        x[border == place] *= offset[border == place]
+    w2 = np.where(border == 6, offset - B2, w2)
     curve = B3 * w2 * (w2 + (2 - ratio) * B2) / (ratio * B2 * (w2 + B2))
-    w3 = np.select([border == 6, border == 7], [near - B3, curve * (1 + near)], w3)
+    w3 = np.select([border == 6, border == 7], [offset - B3, curve * (1 + offset)], w3)
     scale = np.where(r.random(GENERAL_ROWS) < 0.5, 1.0, 10.0 ** r.uniform(-100, 100, GENERAL_ROWS))
     I = np.append([row[0] for row in extreme], ratio)
     B = np.hstack([np.transpose([row[1] for row in extreme]), np.array([B2, B3]) * scale])
@@ -198,12 +204,12 @@ def check_general_rows(seed: int, index: int) -> WorstErrors:
             worst.add(name, GENERAL_REGIME, errors, same)
     # on a separatrix there are no angles to check
     chosen = [i for i in range(len(GENERAL) + CHECKED) if kinds[i].startswith("nutation")]
-    some = GeneralMotion(I[chosen], tuple(B[:, chosen]), tuple(omega[:, chosen]))
-    scalars = np.stack([getattr(some, name) for name in SCALARS], -1)
+    sample = GeneralMotion(I[chosen], tuple(B[:, chosen]), tuple(omega[:, chosen]))
+    scalars = np.stack([getattr(sample, name) for name in SCALARS], -1)
     for i, values in zip(chosen, scalars.tolist(), strict=True):
         true = enclosed(partial(_angles, Balls(*(x[i] for x in rows[:3]))), BITS)
         with workprec(BITS + 16):
-            worst.add("general scalars", GENERAL_REGIME, own(values, true), with_more(describe(i)))
+            worst.add("general scalars", GENERAL_REGIME, own_ulps(values, true), with_more(describe(i)))
     return worst
 
 

@@ -35,16 +35,16 @@ def _scaled(vector: Vector, factor: float) -> Vector:
 def _nearly_symmetric(random: Random) -> Asymmetric:
     draw = _ordinary(random)
     x, z = (random.uniform(0.05, 1) for _ in range(2))
-    more = (x + z) * 2.0 ** -random.choice((4, 8, 12))
-    return draw._replace(inertia=(x + z, x + z + more, 2 * x + more))
+    excess = (x + z) * 2.0 ** -random.choice((4, 8, 12))
+    return draw._replace(inertia=(x + z, x + z + excess, 2 * x + excess))
 
 
 def _flat(random: Random) -> Asymmetric:
     """Draw a body in a plane, or nearly."""
     draw = _ordinary(random)
-    first, second, _ = draw.inertia
+    I1, second, _ = draw.inertia
     less = random.choice((0.0, 10 ** random.uniform(-12, -2)))
-    return draw._replace(inertia=(first, second, (first + second) * (1 - less)))
+    return draw._replace(inertia=(I1, second, (I1 + second) * (1 - less)))
 
 
 def _near_a_spin(random: Random) -> Asymmetric:

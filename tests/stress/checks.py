@@ -10,7 +10,7 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-from ulps import BITS, ONE, absolute, approximate, error, of_length, own, rigidity
+from ulps import BITS, ONE, absolute, approximate, error, of_length, own_ulps, rigidity
 
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.motions.register import FAMILIES
@@ -47,7 +47,7 @@ def check(
     *,
     exactly: Sequence[Any] | None = None,
     times: Sequence[float] = (),
-    where: Callable[[Any], Where] | None = None,
+    region: Callable[[Any], Where] | None = None,
     unit: Callable[[str, float], float] | None = None,
     truth: Truth = close,
     more: Callable[[Any, Any, Where], None] | None = None,
@@ -63,8 +63,8 @@ def check(
         for q in family.quantities:
             if q.checked:
                 true = enclosed(lambda q=q: list(_flat(q.value(exact, exact=True))), BITS)  # type: ignore[misc]
-                worst.add(q.checked, regime, own(np.ravel(q.value(kernel)), true), with_more(inputs))
-        place = where(exact) if where else lambda _: regime
+                worst.add(q.checked, regime, own_ulps(np.ravel(q.value(kernel)), true), with_more(inputs))
+        place = region(exact) if region else lambda _: regime
         for s in family.sampled:
             for t, value in zip(
                 times, s.method_of(kernel)(np.array(times)) if s.checked else (), strict=bool(s.checked)
@@ -84,20 +84,20 @@ def check(
 def by_clock(regime: str, *rates: str | float) -> Callable[[Any], Where]:
     """Return what names the regime of a time by the largest phase that rates, quantities or numbers, make of it."""
 
-    def where(exact: Any) -> Where:
+    def region(exact: Any) -> Where:
         sizes = (x if isinstance(x, float) else approximate(enclosed(partial(getattr, exact, x), BITS)) for x in rates)
         fastest = max(map(abs, sizes))
         return lambda t: f"{regime}, {extreme.clock(fastest, t)}"
 
-    return where
+    return region
 
 
 def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> None:
     """Check an elementary motion: beside the register, columns, small entries, structure and grids."""
     inputs, times = described(motion), motion.times
-    rest = (motion.B2, motion.B3), motion.omega2, motion.omega3
+    field_and_start = (motion.B2, motion.B3), motion.omega2, motion.omega3
 
-    def more(kernel: Any, exact: Any, where: Where) -> None:
+    def compare_more(kernel: Any, exact: Any, where: Where) -> None:
         at = np.array(times)
         R, axis, columns = kernel.rotation(at), kernel.third_axis(at), [kernel.column(j, at) for j in (1, 2)]
         slow = abs(approximate(enclosed(lambda: exact.k, BITS)))
@@ -111,7 +111,7 @@ def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> Non
             if i % 6 == 5:
                 errors["R at one time"] = absolute(kernel.rotation(t).flat, chain(*true))
             if abs(slow * t) < 1:
-                errors["R13, R23 for |kt| < 1"] = own([*R[i, :2, 2], *axis[i, :2]], third[:2] * 2)
+                errors["R13, R23 for |kt| < 1"] = own_ulps([*R[i, :2, 2], *axis[i, :2]], third[:2] * 2)
             for name, values in errors.items():
                 worst.add(name, where(t), values, with_more(inputs, t=t.hex()))
         start = np.abs(kernel.rotation(np.array([0.0, -0.0])) - np.eye(3)).max() / ONE
@@ -126,23 +126,23 @@ def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> Non
                 on_grid("R grid", kernel, exact, (times[4], step, count), places, regime, worst, inputs)
 
     clock = by_clock(regime, "k", "phi")
-    values, exactly = (motion.ratio, *rest), (motion.exact_ratio, *rest)
-    check("elementary", regime, values, worst, inputs, exactly=exactly, times=times, where=clock, more=more)
+    values, exactly = (motion.ratio, *field_and_start), (motion.exact_ratio, *field_and_start)
+    check("elementary", regime, values, worst, inputs, exactly=exactly, times=times, region=clock, more=compare_more)
 
 
 def _scaling(motion: extreme.Motion, kernel: Any, regime: str, worst: WorstErrors, inputs: Inputs) -> None:
     """Check that R does not change when all frequencies are scaled by a power of two."""
     times, make = np.array(motion.times), FAMILIES["elementary"].kernels()
-    parts = (motion.B2, motion.B3, motion.omega2, motion.omega3 or 0.0)
+    components = (motion.B2, motion.B3, motion.omega2, motion.omega3 or 0.0)
     for shift in SHIFTS:
-        B2, B3, omega2, omega3 = (float(np.ldexp(x, shift)) for x in parts)
+        B2, B3, omega2, omega3 = (float(np.ldexp(x, shift)) for x in components)
         slow = np.ldexp(times, -shift)
-        if any(np.ldexp(x, -shift) != y for x, y in zip((B2, B3, omega2, omega3), parts, strict=True)):
+        if any(np.ldexp(x, -shift) != y for x, y in zip((B2, B3, omega2, omega3), components, strict=True)):
             continue  # a part would leave the range of doubles
         exactly = np.ldexp(slow, shift) == times
-        other = make(motion.ratio, (B2, B3), omega2, None if motion.omega3 is None else omega3)
+        scaled_motion = make(motion.ratio, (B2, B3), omega2, None if motion.omega3 is None else omega3)
         # the same number of times in both: a matrix product may round its last rows in another way
-        before, after = kernel.rotation(times[exactly]), other.rotation(slow[exactly])
+        before, after = kernel.rotation(times[exactly]), scaled_motion.rotation(slow[exactly])
         normal = np.abs(before) >= np.finfo(float).tiny  # smaller entries have lost bits to underflow
         changed = np.abs(after - before).max(initial=0.0, where=normal) / ONE
         worst.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
@@ -157,8 +157,8 @@ def on_grid(
     R = kernel.rotation_grid(start, step, count)
     for i in places:
         true = truth(partial(exact.rotation, Fraction(start) + i * Fraction(step)))
-        at = ({"start": start.hex()} if start else {}) | {"step": step.hex(), "count": count, "index": i}
-        worst.add(name, regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **at))
+        grid_inputs = ({"start": start.hex()} if start else {}) | {"step": step.hex(), "count": count, "index": i}
+        worst.add(name, regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **grid_inputs))
 
 
 def check_hyperbola(motion: extreme.Motion, regime: str, worst: WorstErrors) -> None:
@@ -167,7 +167,7 @@ def check_hyperbola(motion: extreme.Motion, regime: str, worst: WorstErrors) -> 
     if w2 == -motion.B2 or motion.B2 == 0:
         return
 
-    def more(kernel: Any, exact: Any, _: Where) -> None:
+    def compare_more(kernel: Any, exact: Any, _: Where) -> None:
         k, phi = kernel.frequencies(w2)
         true_k, true_phi = enclosed(lambda: exact.frequencies(w2), BITS)
         pairs = (
@@ -177,14 +177,14 @@ def check_hyperbola(motion: extreme.Motion, regime: str, worst: WorstErrors) -> 
             ("stability", kernel.stability(w2), exact.stability(w2)),
         )
         for name, value, true in pairs:
-            worst.add(name, regime, own([value], [true]), with_more(inputs))
+            worst.add(name, regime, own_ulps([value], [true]), with_more(inputs))
         if motion.B3:
             points = [(x, y) for x, y in zip(*kernel.sample(POINTS), strict=True) if np.isfinite(y)]
-            errors = own((y for _, y in points), (exact.omega3(x) for x, _ in points))
+            errors = own_ulps((y for _, y in points), (exact.omega3(x) for x, _ in points))
             worst.add("points of the hyperbola", regime, errors, lambda i: inputs | {"at": float(points[i][0]).hex()})
 
     exactly = motion.exact_ratio, field
-    check("hyperbola", regime, (motion.ratio, field), worst, inputs, exactly=exactly, more=more)
+    check("hyperbola", regime, (motion.ratio, field), worst, inputs, exactly=exactly, more=compare_more)
 
 
 def check_quadric(motion: extreme.Motion, regime: str, worst: WorstErrors) -> None:
@@ -197,13 +197,13 @@ def check_quadric(motion: extreme.Motion, regime: str, worst: WorstErrors) -> No
 def check_free(motion: extreme.Free, worst: WorstErrors) -> None:
     """Check a free body with any initial angular velocity."""
     clock = by_clock("free body", "k", "phi")
-    check("free", "free body", (motion.I, motion.omega), worst, described(motion), times=motion.times, where=clock)
+    check("free", "free body", (motion.I, motion.omega), worst, described(motion), times=motion.times, region=clock)
 
 
 def check_ball(ball: extreme.Ball, worst: WorstErrors) -> None:
     """Check a charged ball: axis, frequency, matrix, momentum."""
     values, clock = (ball.inertia, ball.larmor, (ball.m2, ball.m3)), by_clock("ball", "gamma", "larmor")
-    check("ball", "ball", values, worst, described(ball), times=ball.times, where=clock)
+    check("ball", "ball", values, worst, described(ball), times=ball.times, region=clock)
 
 
 def check_particle(particle: extreme.Particle, worst: WorstErrors) -> None:
@@ -218,7 +218,14 @@ def check_particle(particle: extreme.Particle, worst: WorstErrors) -> None:
 
     values, clock = (p.mu, p.E, p.B, p.position, p.velocity, p.c), abs(p.mu) * float(np.linalg.norm(p.B))
     check(
-        "particle", "particle", values, worst, described(p), times=p.times, where=by_clock("particle", clock), unit=unit
+        "particle",
+        "particle",
+        values,
+        worst,
+        described(p),
+        times=p.times,
+        region=by_clock("particle", clock),
+        unit=unit,
     )
 
 

@@ -90,14 +90,14 @@ def integrator() -> Any:
 def followed(case: Case, way: Mapping[str, Any]) -> tuple[np.ndarray, ...]:
     """Return v, dOmega and dK at the time of a case for a change of its state."""
 
-    def both(name: str, *shape: int) -> tuple[Any, Any]:
+    def value_and_slope(name: str, *shape: int) -> tuple[Any, Any]:
         value = np.array(case.state.get(name, np.zeros(shape)), Long)
         return value, np.broadcast_to(np.array(way.get(name, 0.0), Long), value.shape)
 
-    J, dJ = both("J", 3, 3)
-    k, dk = both("k", 3, 3) if "k" in case.state else (J, dJ)
+    J, dJ = value_and_slope("J", 3, 3)
+    k, dk = value_and_slope("k", 3, 3) if "k" in case.state else (J, dJ)
     (B, dB), (w, dw), (R, dR), (linear, d_linear), (quadratic, d_quadratic) = (
-        both(name, *shape) for name, *shape in (("B", 3), ("w", 3), ("R", 3, 3), ("linear",), ("quadratic",))
+        value_and_slope(name, *shape) for name, *shape in (("B", 3), ("w", 3), ("R", 3, 3), ("linear",), ("quadratic",))
     )
     dR = dR + np.cross(np.array(way.get("a", np.zeros(3)), Long), R.T).T
     if "k" in case.state:  # a top, of whose direction only the direction counts
@@ -117,8 +117,8 @@ def followed(case: Case, way: Mapping[str, Any]) -> tuple[np.ndarray, ...]:
     solver.propagate_until(Long(case.t) * rate)
     x, d = np.array(solver.state).reshape(12, 2).T
     R, dR = x[3:].reshape(3, 3), d[3:].reshape(3, 3)
-    turned = dR @ R.T
-    v = np.array([turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]]) / 2
+    spin = dR @ R.T
+    v = np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]]) / 2
     return tuple((y * scale).astype(float) for y in (v, d[:3] * rate, dR.T @ B + R.T @ (dB / scale)))
 
 
@@ -146,11 +146,11 @@ def top(random: Random) -> Case:
     """Draw a top."""
     regime = random.choice(list(TOPS))
     x = TOPS[regime](random)
-    rate, across = rate_of(x), np.diag([1.0, 1.0, 0.0])
+    rate, across_axis = rate_of(x), np.diag([1.0, 1.0, 0.0])
     ways: dict[str, Any] = {
-        "I2": {"J": across},
+        "I2": {"J": across_axis},
         "I3": {"J": np.diag(E[2])},
-        "k2": {"k": across},
+        "k2": {"k": across_axis},
         "k3": {"k": np.diag(E[2])},
     }
     ways |= {"n2": {"B": E[1]}, "n3": {"B": E[2]}, **_vectors("omega"), "linear": {"linear": 1.0}}
@@ -195,13 +195,13 @@ def _in_laboratory(regime: str, J: np.ndarray, start: Any, third: np.ndarray, ra
         ways = ways if B.any() else _vectors("omega", "a")
         ways |= {f"I{i + 1}": {"J": np.outer(axes[i], axes[i])} for i in range(3)}
     else:
-        last = E[2] if motion.family == "ball" else axes[2]
-        ways["ratio"] = {"J": np.outer(last, last)}
+        axis = E[2] if motion.family == "ball" else axes[2]
+        ways["ratio"] = {"J": np.outer(axis, axis)}
     sizes = {name: rate if name[0] in "Bo" else 1.0 for name in ways}
     return Case(regime + special, motion, {"J": J, "B": B, "w": w, "R": R}, ways, sizes, _time(rate, random))
 
 
-def turned(random: Random) -> Case:
+def turned_case(random: Random) -> Case:
     """Draw a symmetric body by its ratio, its moments or its tensor."""
     I = random.choice((1.0, 0.5, random.uniform(0.1, 2.0), 1 + random.choice((1, -1)) * 10 ** random.uniform(-6, -1)))
     order = random.randrange(3)
@@ -225,7 +225,7 @@ def asymmetric(random: Random) -> Case:
 
 
 KINDS: Mapping[str, Callable[[Random], Case]] = {
-    "general": general, "top": top, "turned": turned, "asymmetric": asymmetric,
+    "general": general, "top": top, "turned": turned_case, "asymmetric": asymmetric,
 }  # fmt: skip
 
 
@@ -241,17 +241,17 @@ def errors(case: Case, random: Random) -> Iterator[tuple[str, float]]:
     size = abs(shares) @ (1 + abs(vectors[0]).max(1))
     rate = 1 + max(np.abs(case.state["w"]).max(), np.abs(case.state["B"]).max())
     yield "R", np.abs(shares @ vectors[0] - true[0]).max() / size
-    for i, of in enumerate(("angular_velocity", "field"), 1):
-        change = case.motion.sensitivity(t, names, of)[0]
-        yield of, np.abs(shares @ change - true[i]).max() / (size * rate + abs(shares) @ abs(change).max(1))
+    for i, start in enumerate(("angular_velocity", "field"), 1):
+        change = case.motion.sensitivity(t, names, start)[0]
+        yield start, np.abs(shares @ change - true[i]).max() / (size * rate + abs(shares) @ abs(change).max(1))
     derivatives = next(iter(vars(case.motion).get("_differentiated", {}).values()))
     varied = next((x for x in derivatives._varied.values() if hasattr(x, "differences")), None)
     if varied and not hasattr(case.motion, "own"):
         t = FAR * case.t
-        moved = [x for x in derivatives.inputs.names if x in case.ways]
-        apart = derivatives.inputs.varied(moved)
-        far, true_far = case.motion.sensitivity(t, moved), apart.differences.at(t)[0]
-        yield "R, far", (np.abs(far - true_far).max(1) / (1 + abs(true_far).max(1))).max()
+        varied_names = [x for x in derivatives.inputs.names if x in case.ways]
+        apart = derivatives.inputs.varied(varied_names)
+        change_at, true_far = case.motion.sensitivity(t, varied_names), apart.differences.at(t)[0]
+        yield "R, far", (np.abs(change_at - true_far).max(1) / (1 + abs(true_far).max(1))).max()
 
 
 def main() -> int:
@@ -267,15 +267,15 @@ def main() -> int:
             random = Random(f"{kind} {options.seed} {i}")  # noqa: S311  reproducible, not secret
             case = KINDS[kind](random)
             try:
-                for of, error in errors(case, random):
-                    key = case.regime, of
+                for start, error in errors(case, random):
+                    key = case.regime, start
                     worst[key] = max(worst.get(key, 0.0), error if np.isfinite(error) else np.inf)
                     if not error <= BOUND:
-                        click.echo(f"{error:.1e} of {of}: {kind} {options.seed} {i}, {case.regime}", err=True)
+                        click.echo(f"{error:.1e} of {start}: {kind} {options.seed} {i}, {case.regime}", err=True)
             except atlas.DomainError as error:
                 refused[f"{case.regime}: {error}"] = refused.get(f"{case.regime}: {error}", 0) + 1
-    for (regime, of), error in sorted(worst.items()):
-        click.echo(f"{regime:64} {of:18} {error:.1e}")
+    for (regime, start), error in sorted(worst.items()):
+        click.echo(f"{regime:64} {start:18} {error:.1e}")
     for why, count in sorted(refused.items()):
         click.echo(f"refused {count} times, {why}")
     return int(any(not error <= BOUND for error in worst.values()))

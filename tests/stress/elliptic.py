@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from stress.regimes import Vector, near, number, sign, size
+from stress.regimes import Vector, close_to, number, sign, size
 
 
 class Elliptic(NamedTuple):
@@ -40,21 +40,21 @@ def _place(inertia: Vector, random: Random) -> float:
     return high + abs(high) * size(random, -2, 1)
 
 
-def _of(inertia: Vector, random: Random) -> Elliptic:
+def _draw(inertia: Vector, random: Random) -> Elliptic:
     field = number(random), number(random), number(random)
     return Elliptic(inertia, field, _place(inertia, random), random.choice((1, -1)))
 
 
 def _ordinary(random: Random) -> Elliptic:
-    return _of(_body(random), random)
+    return _draw(_body(random), random)
 
 
 def _nearly_symmetric(random: Random) -> Elliptic:
-    first, _, other = _body(random)
-    pair = near(max(first, other), random)
-    moments = [pair, max(first, other), min(first, other)]
+    moment, _, moment_other = _body(random)
+    pair = close_to(max(moment, moment_other), random)
+    moments = [pair, max(moment, moment_other), min(moment, moment_other)]
     random.shuffle(moments)
-    return _of(tuple(moments), random)
+    return _draw(tuple(moments), random)
 
 
 def _near_an_end(random: Random) -> Elliptic:
@@ -80,7 +80,7 @@ def _along_an_axis(random: Random) -> Elliptic:
 
 def _near_the_separatrix(random: Random) -> Elliptic:
     """Draw next to the field of a body on a separatrix whose numbers are small integers, or on it."""
-    field = tuple(near(x, random) for x in (2.0, 1.0, 3.0)) if random.random() < 0.8 else (2.0, 1.0, 3.0)
+    field = tuple(close_to(x, random) for x in (2.0, 1.0, 3.0)) if random.random() < 0.8 else (2.0, 1.0, 3.0)
     return Elliptic((1.0, 2.0, 3.0), field, 10.0, random.choice((1, -1)))
 
 

@@ -15,7 +15,7 @@ from flint import fmpq
 
 from atlas.bodies.body import SymmetricBody
 from atlas.errors import AtlasError
-from stress.regimes import REGIMES, near, ratio, sign, size
+from stress.regimes import REGIMES, close_to, ratio, sign, size
 
 PHASE_LIMIT = 2.0**50
 """Largest phase in radians that the kernels promise."""
@@ -94,7 +94,7 @@ def motion(regime: str, random: Random) -> Motion:
         I2, I3 = 1.0, I
         if random.random() < 0.25 and 0.01 < I < 1.99:
             I2 = random.choice((3.0, 0.7, 1e-3, 7e5))
-            I3 = near(I * I2, random) if regime.startswith("I near") else I * I2
+            I3 = close_to(I * I2, random) if regime.startswith("I near") else I * I2
         if not (0 < I3 <= 2 * I2) or not all(map(math.isfinite, (B2, B3, w2))) or B2 == 0:
             continue
         omega3 = sign(random) * size(random) * abs(B2) if w2 == -B2 and (B3 == 0 or I3 == I2) else None
@@ -122,7 +122,9 @@ def free_motion(random: Random) -> Free:
     x, y, z = (sign(random) * size(random) * scale for _ in range(3))
     omega = random.choice(((x, y, z), (x * faint, y, z), (x * faint, y * faint, z), (x, y, z * faint)))
     return Free(
-        near(1.0, random) if random.random() < 0.3 else ratio(random), omega, times((math.hypot(*omega) * 3,), random)
+        close_to(1.0, random) if random.random() < 0.3 else ratio(random),
+        omega,
+        times((math.hypot(*omega) * 3,), random),
     )
 
 
@@ -133,7 +135,7 @@ def ball_motion(random: Random) -> Ball:
     m2, m3 = sign(random) * size(random) * scale, sign(random) * size(random) * scale
     kind = random.randrange(5)
     if kind == 0:
-        m3, m2 = near(-larmor * inertia, random), random.choice((0.0, m2, m2 * size(random, -160, -1)))
+        m3, m2 = close_to(-larmor * inertia, random), random.choice((0.0, m2, m2 * size(random, -160, -1)))
     elif kind == 1:
         m2 = random.choice((0.0, m2 * size(random, -160, -1)))
     elif kind == 2:
@@ -161,9 +163,9 @@ def times(frequencies: tuple[float, ...], random: Random, reach: float = PHASE_L
     """Draw times of every clock: zero, and phases of ``frequencies`` from tiny to ``reach``."""
     fastest = max(abs(f) for f in frequencies)
     slowest = min((abs(f) for f in frequencies if f), default=1.0)
-    drawn = [0.0, -0.0]
+    times_drawn = [0.0, -0.0]
     for _ in range(TRIES):
-        clock = len(drawn) % 4
+        clock = len(times_drawn) % 4
         frequency = random.choice((fastest or 1.0, fastest or 1.0, slowest))
         phase = (
             random.uniform(0, 50),
@@ -173,9 +175,9 @@ def times(frequencies: tuple[float, ...], random: Random, reach: float = PHASE_L
         )[clock]
         t = sign(random) * phase / frequency
         if math.isfinite(t) and abs(t) * fastest < reach:
-            drawn.append(t)
-        if len(drawn) == TIMES:
-            return tuple(drawn)
+            times_drawn.append(t)
+        if len(times_drawn) == TIMES:
+            return tuple(times_drawn)
     raise AtlasError(f"In {TRIES} draws the frequencies {frequencies} gave fewer than {TIMES} times within {reach:g}.")
 
 

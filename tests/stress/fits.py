@@ -39,7 +39,7 @@ class Made(NamedTuple):
     truth: dict[str, float]
 
 
-def made(
+def attitudes_case(
     rng: np.random.Generator, *, kind: str = "rotation", count: int = 500, span: float = 200.0, noise: float = 0.01,
     even: bool = False, known: bool = True, outliers: float = 0.0, family: str = "general", spin: float = 1.5,
     omega3: float = 0.0,
@@ -117,22 +117,22 @@ def _heavy(I3: float, pull: float, A: Any, omega: Any, t: Any) -> tuple[Any, Any
 
 
 KINDS: dict[str, Callable[[np.random.Generator], Made]] = {
-    "general, attitudes": made,
-    "general, noise 0.1": lambda rng: made(rng, noise=0.1),
-    "general, 60 times": lambda rng: made(rng, count=60, span=25.0),
-    "general, sigma unknown": lambda rng: made(rng, even=True, known=False),
-    "general, outliers 5 %": lambda rng: made(rng, outliers=0.05),
-    "general, axes": lambda rng: made(rng, kind="axis", span=120.0),
-    "general, axes of fast spins": lambda rng: made(rng, kind="axis", span=20.0, omega3=30.0),
-    "general, rates": lambda rng: made(rng, kind="angular_velocity", span=100.0),
-    "general, fields": lambda rng: made(rng, kind="field_in_body", span=100.0),
-    "ball, attitudes": lambda rng: made(rng, family="ball"),
-    "free, attitudes": lambda rng: made(rng, family="free"),
-    "top, attitudes": lambda rng: made(rng, family="top"),
-    "top, rates": lambda rng: made(rng, kind="angular_velocity", family="top", span=100.0),
-    "asymmetric, attitudes": lambda rng: made(rng, family="asymmetric", span=100.0),
-    "asymmetric, rates": lambda rng: made(rng, kind="angular_velocity", family="asymmetric", span=100.0),
-    "elementary, attitudes": lambda rng: made(rng, family="elementary"),
+    "general, attitudes": attitudes_case,
+    "general, noise 0.1": lambda rng: attitudes_case(rng, noise=0.1),
+    "general, 60 times": lambda rng: attitudes_case(rng, count=60, span=25.0),
+    "general, sigma unknown": lambda rng: attitudes_case(rng, even=True, known=False),
+    "general, outliers 5 %": lambda rng: attitudes_case(rng, outliers=0.05),
+    "general, axes": lambda rng: attitudes_case(rng, kind="axis", span=120.0),
+    "general, axes of fast spins": lambda rng: attitudes_case(rng, kind="axis", span=20.0, omega3=30.0),
+    "general, rates": lambda rng: attitudes_case(rng, kind="angular_velocity", span=100.0),
+    "general, fields": lambda rng: attitudes_case(rng, kind="field_in_body", span=100.0),
+    "ball, attitudes": lambda rng: attitudes_case(rng, family="ball"),
+    "free, attitudes": lambda rng: attitudes_case(rng, family="free"),
+    "top, attitudes": lambda rng: attitudes_case(rng, family="top"),
+    "top, rates": lambda rng: attitudes_case(rng, kind="angular_velocity", family="top", span=100.0),
+    "asymmetric, attitudes": lambda rng: attitudes_case(rng, family="asymmetric", span=100.0),
+    "asymmetric, rates": lambda rng: attitudes_case(rng, kind="angular_velocity", family="asymmetric", span=100.0),
+    "elementary, attitudes": lambda rng: attitudes_case(rng, family="elementary"),
 }
 """Kinds of measurements."""
 
@@ -148,38 +148,42 @@ class Outcome(NamedTuple):
 
 def outcome(kind: str, seed: int, i: int) -> Outcome:
     """Fit one measurement."""
-    made = KINDS[kind](np.random.default_rng([seed, i]))
+    case = KINDS[kind](np.random.default_rng([seed, i]))
     began = time.process_time()
     try:
-        fit = atlas.fit(made.t, **made.given)
+        fit = atlas.fit(case.t, **case.given)
     except atlas.AtlasError as error:
         return Outcome(0, 0, time.process_time() - began, f"{i}: {error}")
     seconds = time.process_time() - began
-    truth = made.truth
+    truth = case.truth
     if "a1" in truth:  # a rotation by nearly half a turn has two vectors
         a = np.array([truth[name] for name in ATTITUDE])
-        other = a * (1 - 2 * np.pi / np.linalg.norm(a))
-        near = min((a, other), key=lambda v: float(np.linalg.norm(v - [fit.params[name].value for name in ATTITUDE])))
-        truth = truth | dict(zip(ATTITUDE, near.tolist(), strict=True))
-    own = [(fit.params[n].value - x, fit.params[n].stderr) for n, x in truth.items() if n in fit.names]
-    told = [(abs(off), error) for off, error in own if error is not None]  # of the others it says so
+        a_equivalent = a * (1 - 2 * np.pi / np.linalg.norm(a))
+        nearest = min(
+            (a, a_equivalent), key=lambda v: float(np.linalg.norm(v - [fit.params[name].value for name in ATTITUDE]))
+        )
+        truth = truth | dict(zip(ATTITUDE, nearest.tolist(), strict=True))
+    deviations = [(fit.params[n].value - x, fit.params[n].stderr) for n, x in truth.items() if n in fit.names]
+    scores = [(abs(off), error) for off, error in deviations if error is not None]  # of the others it says so
     # in the false minimum next to the true one, a parameter is off by far more than its error; of a motion that hardly
     # nutates it may be that none is determined, and the fit says so
-    if fit.redchi > 1.5 or any(off > 8 * error + 1e-9 for off, error in told):
+    if fit.redchi > 1.5 or any(off > 8 * error + 1e-9 for off, error in scores):
         return Outcome(0, 0, seconds, f"{i}: chi square {fit.redchi:.3g}{', doubted' if fit.warnings else ''}")
-    return Outcome(len(told), sum(off < error for off, error in told), seconds, "")
+    return Outcome(len(scores), sum(off < error for off, error in scores), seconds, "")
 
 
 def measured(outcomes: list[Outcome]) -> dict[str, float]:
     """Return the shares in percent, the standard error of the second, and the median of seconds."""
-    told, within = np.array([(one.told, one.within) for one in outcomes if not one.lost], float).reshape(-1, 2).T
-    share = within.sum() / max(told.sum(), 1.0)
+    claimed, within = (
+        np.array([(outcome.told, outcome.within) for outcome in outcomes if not outcome.lost], float).reshape(-1, 2).T
+    )
+    share = within.sum() / max(claimed.sum(), 1.0)
     return {
         "samples": len(outcomes),
-        "found": round(100 * told.size / len(outcomes), 1),
+        "found": round(100 * claimed.size / len(outcomes), 1),
         "within": round(100 * share, 1),
-        "error": round(100 * float(np.linalg.norm(within - share * told)) / max(told.sum(), 1.0), 1),
-        "seconds": round(float(np.median([one.seconds for one in outcomes])), 2),
+        "error": round(100 * float(np.linalg.norm(within - share * claimed)) / max(claimed.sum(), 1.0), 1),
+        "seconds": round(float(np.median([outcome.seconds for outcome in outcomes])), 2),
     }
 
 
@@ -191,19 +195,19 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=processors())
     parser.add_argument("--record", action="store_true")
     parser.add_argument("kinds", nargs="*", metavar="KIND")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     record = json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else {}
     click.echo(f"{'kind':26} samples   found  within 1 sigma  CPU median, s   lost")
     os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of the processes: a second thread would count twice
-    with ProcessPoolExecutor(asked.jobs, get_context("spawn")) as pool:
-        for kind in asked.kinds or KINDS:
-            outcomes = list(pool.map(partial(outcome, kind, asked.seed), range(asked.samples)))
+    with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
+        for kind in options.kinds or KINDS:
+            outcomes = list(pool.map(partial(outcome, kind, options.seed), range(options.samples)))
             m = measured(outcomes)
             within = f"{m['within']:.1f} +- {m['error']:.1f} %"
-            lost = "; ".join(one.lost for one in outcomes if one.lost)
-            click.echo(f"{kind:26} {m['samples']:7} {m['found']:5.0f} % {within:>15} {m['seconds']:14.2f}   {lost}")
+            failures = "; ".join(outcome.lost for outcome in outcomes if outcome.lost)
+            click.echo(f"{kind:26} {m['samples']:7} {m['found']:5.0f} % {within:>15} {m['seconds']:14.2f}   {failures}")
             record[kind] = m
-            if asked.record:
+            if options.record:
                 rows = ",\n".join(
                     f"  {json.dumps(name)}: {json.dumps(record[name])}" for name in KINDS if name in record
                 )

@@ -47,8 +47,8 @@ def integrator() -> Any:
     I, k = (1.0, 1.0, I3), (k2, k2, k3)
     M = [I[j] * Omega[j] + k[j] * b[j] for j in range(3)]
     force = [k2 * Omega[0], k2 * Omega[1], k3 * Omega[2] - linear - quadratic * b[2]]
-    turned, pulled, carried = _cross(M, Omega), _cross(force, b), _cross(b, Omega)
-    rates = [(turned[j] + pulled[j] - k[j] * carried[j]) / I[j] for j in range(3)]
+    spun, pulled, swept = _cross(M, Omega), _cross(force, b), _cross(b, Omega)
+    rates = [(spun[j] + pulled[j] - k[j] * swept[j]) / I[j] for j in range(3)]
     equations = list(zip(Omega, rates, strict=True))
     equations += [pair for row in rows for pair in zip(row, _cross(row, Omega), strict=True)]
     return heyoka.taylor_adaptive(
@@ -78,8 +78,8 @@ def errors(top: Top, solver: Any) -> Errors:
     back = np.abs(solver.state - start).max()
     t = float(TIME / unit)
     rate = Long(rate_of(top)) / unit
-    turned = np.abs(motion.angular_velocity(t).astype(Long) / unit - Omega).max() / rate
-    distance = np.abs(motion.rotation(t) - R).max(), turned, back
+    change_of_omega = np.abs(motion.angular_velocity(t).astype(Long) / unit - Omega).max() / rate
+    distance = np.abs(motion.rotation(t) - R).max(), change_of_omega, back
     return Errors(*(float(x) / EPS for x in distance))
 
 
@@ -96,17 +96,17 @@ def main() -> int:
     worst, refused = dict[str, Errors](), dict[str, int]()
     for name in names:
         try:
-            found = errors(TOPS[name](random), solver)
+            change = errors(TOPS[name](random), solver)
         except atlas.DomainError:
             refused[name] = refused.get(name, 0) + 1
             continue
-        worst[name] = Errors(*map(max, found, worst.get(name, found)))
+        worst[name] = Errors(*map(max, change, worst.get(name, change)))
     click.echo(f"{'regime':32} {'tops':>5} {'refused':>7} {'R':>8} {'Omega':>8} {'there and back':>15}   ulp")
-    for name, found in worst.items():
-        drawn, lost = names.count(name), refused.get(name, 0)
-        click.echo(f"{name:32} {drawn:5} {lost:7} {found.R:8.3f} {found.Omega:8.3f} {found.back:15.4f}")
+    for name, change in worst.items():
+        count, refusals = names.count(name), refused.get(name, 0)
+        click.echo(f"{name:32} {count:5} {refusals:7} {change.R:8.3f} {change.Omega:8.3f} {change.back:15.4f}")
     most = max(FAMILIES["top"].promises[name] for name in ("top R", "top Omega"))
-    return int(any(max(found.R, found.Omega) > most + found.back for found in worst.values()))
+    return int(any(max(error.R, error.Omega) > most + error.back for error in worst.values()))
 
 
 if __name__ == "__main__":

@@ -74,14 +74,14 @@ def _structure(
 ) -> Callable[[Any, Any, Where], None]:
     """Return what checks that R is orthogonal, and 1 at t = 0."""
 
-    def more(kernel: Any, *_: Any) -> None:
+    def compare_more(kernel: Any, *_: Any) -> None:
         R = kernel.rotation(np.array(times))
         defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
         worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
         start = np.abs(kernel.rotation(0.0) - np.eye(3)).max() / ONE
         worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
 
-    return more
+    return compare_more
 
 
 def _nutation(
@@ -97,7 +97,7 @@ def _nutation(
     """Check a motion whose axis nutates, vectors in ulps of their `lengths`, or of a rate."""
     truth = partial(narrow, size=size)
 
-    def more(kernel: Any, exact: Any, where: Where) -> None:
+    def compare_more(kernel: Any, exact: Any, where: Where) -> None:
         _structure(name, regime, inputs, times, worst)(kernel, exact, where)
         # long enough for polynomials; at ends of their windows too
         places = (0, 255, 511, 4099, GRID - 1)[: 2 if regime in ALONE else None]
@@ -110,7 +110,7 @@ def _nutation(
     times: list[float] = []
     with worst.checking(name, regime, inputs):
         times += _times(FAMILIES[name].kernels()(*draw).period, size, random).tolist()
-        check(name, regime, draw, worst, inputs, times=times, unit=unit, truth=truth, more=more)
+        check(name, regime, draw, worst, inputs, times=times, unit=unit, truth=truth, more=compare_more)
 
 
 def narrow(function: Callable[[], Any], size: float, precision: int = 256) -> Any:
@@ -129,8 +129,8 @@ def narrow(function: Callable[[], Any], size: float, precision: int = 256) -> An
 def _times(period: float, size: float, random: Random) -> FloatArray:
     """Return times from a thousandth of a period to a million periods, within the phases that are promised."""
     unit = period if isfinite(period) else 10.0 / size
-    drawn = [random.choice((1, -1)) * unit * 10 ** random.uniform(-3, 6) for _ in range(TIMES)]
-    return np.clip(drawn, -(2.0**46) / size, 2.0**46 / size)
+    times_drawn = [random.choice((1, -1)) * unit * 10 ** random.uniform(-3, 6) for _ in range(TIMES)]
+    return np.clip(times_drawn, -(2.0**46) / size, 2.0**46 / size)
 
 
 def _radius(x: Real) -> float:

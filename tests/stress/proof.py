@@ -35,7 +35,9 @@ def forms(name: str) -> Iterator[tuple[str, str]]:
         yield "corrected_tex", case.corrected_tex
 
 
-def found(name: str, most: int, seed: str, change: Change = changes) -> tuple[str, Counter[str], list[str], float]:
+def proofs_found(
+    name: str, most: int, seed: str, change: Change = changes
+) -> tuple[str, Counter[str], list[str], float]:
     """Return how many changes of an entry came to what, those that are still proved, and the seconds."""
     started, counts, proved = time.process_time(), Counter[str](), list[str]()
     case = trial(name)
@@ -53,8 +55,8 @@ def found(name: str, most: int, seed: str, change: Change = changes) -> tuple[st
     return name, counts, proved, time.process_time() - started
 
 
-def _found(given: tuple[str, int, str, Change]) -> tuple[str, Counter[str], list[str], float]:
-    return found(*given)
+def _proofs_found(given: tuple[str, int, str, Change]) -> tuple[str, Counter[str], list[str], float]:
+    return proofs_found(*given)
 
 
 def main() -> int:
@@ -72,13 +74,13 @@ def main() -> int:
     run.LIMIT = 20.0
     with get_context("fork").Pool(options.jobs) as pool:
         for name, counts, proved, seconds in pool.imap(
-            _found, [(n, options.most, options.seed, change) for n in names]
+            _proofs_found, [(n, options.most, options.seed, change) for n in names]
         ):
             total += counts
             survivors += len(proved)
             click.echo(f"{name:28} {seconds:7.1f} s  {dict(counts)}")
-            for one in proved:
-                click.echo(f"    PROVED {one}")
+            for line in proved:
+                click.echo(f"    PROVED {line}")
     click.echo(f"{len(names)} entries, {sum(total.values())} changes: {dict(total)}")
     return int(bool(survivors))
 

@@ -24,7 +24,7 @@ def number(random: Random) -> float:
     return sign(random) * size(random)
 
 
-def near(value: float, random: Random) -> float:
+def close_to(value: float, random: Random) -> float:
     """Return a neighbour of ``value``: the value, 1 to 3 ulps off, or a relative 1e-16 to 1e-1 off, on either side."""
     kind = random.randrange(4)
     if kind == 0:
@@ -52,19 +52,24 @@ def _ordinary(random: Random) -> Draw:
 
 
 def _small_integers(random: Random) -> Draw:
-    whole = [float(n) for n in range(-8, 9) if n]
-    return random.choice((0.5, 1.0, 1.5, 2.0, 0.25)), random.choice(whole), random.choice(whole), random.choice(whole)
+    integers = [float(n) for n in range(-8, 9) if n]
+    return (
+        random.choice((0.5, 1.0, 1.5, 2.0, 0.25)),
+        random.choice(integers),
+        random.choice(integers),
+        random.choice(integers),
+    )
 
 
 def _axis_parallel(random: Random) -> Draw:
     I, B2, B3, w2 = _ordinary(random)
-    return (I, B2, 0.0, w2) if random.random() < 0.7 else (I, near(B3, random), B3, w2)
+    return (I, B2, 0.0, w2) if random.random() < 0.7 else (I, close_to(B3, random), B3, w2)
 
 
 def _huge_and_tiny(random: Random) -> Draw:
     I, B2, B3, w2 = _ordinary(random)
     scale = 10.0 ** random.choice((-139, 139, random.uniform(-139, 139)))
-    return I, B2 * scale, B3 * scale, near(random.choice((w2, -B2, -2 * B2)), random) * scale
+    return I, B2 * scale, B3 * scale, close_to(random.choice((w2, -B2, -2 * B2)), random) * scale
 
 
 def _mixed_scales(random: Random) -> Draw:
@@ -75,11 +80,11 @@ def _mixed_scales(random: Random) -> Draw:
 def _resonant(random: Random) -> Draw:
     """Draw a motion with phi/k near a simple fraction, from (86) solved for omega2."""
     I, B2, B3, w2 = _ordinary(random)
-    wanted = sign(random) * random.randint(1, 4) / random.randint(1, 4)
+    quotient = sign(random) * random.randint(1, 4) / random.randint(1, 4)
     pull = B3 / math.hypot(B2, B3) * (1 - I) * math.copysign(1, B2)
-    if pull == wanted * I:
+    if pull == quotient * I:
         return I, B2, B3, w2
-    return I, B2, B3, near(B2 * (wanted * I - 2 * pull) / (pull - wanted * I), random)
+    return I, B2, B3, close_to(B2 * (quotient * I - 2 * pull) / (pull - quotient * I), random)
 
 
 def _changed(change: Callable[..., Draw]) -> Callable[[Random], Draw]:
@@ -90,20 +95,20 @@ def _changed(change: Callable[..., Draw]) -> Callable[[Random], Draw]:
 REGIMES: Mapping[str, Callable[[Random], Draw]] = {
     "ordinary": _ordinary,
     "small integers": _small_integers,
-    "I near 1": _changed(lambda r, _I, B2, B3, w2: (near(1.0, r), B2, B3, w2)),
-    "I near 2": _changed(lambda r, _I, B2, B3, w2: (min(near(2.0, r), 2.0), B2, B3, w2)),
+    "I near 1": _changed(lambda r, _I, B2, B3, w2: (close_to(1.0, r), B2, B3, w2)),
+    "I near 2": _changed(lambda r, _I, B2, B3, w2: (min(close_to(2.0, r), 2.0), B2, B3, w2)),
     "I near 0": _changed(lambda r, _I, B2, B3, w2: (size(r, -14, -1), B2, B3, w2)),
-    "omega2 near -B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, near(-B2, r))),
-    "omega2 near -2 B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, near(-2 * B2, r))),
-    "omega2 near -(2-I) B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, near(-(2 - I) * B2, r))),
+    "omega2 near -B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, close_to(-B2, r))),
+    "omega2 near -2 B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, close_to(-2 * B2, r))),
+    "omega2 near -(2-I) B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, close_to(-(2 - I) * B2, r))),
     "omega2 near 0": _changed(
         lambda r, I, B2, B3, _: (I, B2, B3, r.choice((0.0, -0.0, B2 * sign(r) * size(r, -150, -5))))
     ),
     "I near 1, omega2 near -B2": _changed(
-        lambda r, _I, B2, B3, _: (near(1.0, r), B2, B3, near(r.choice((-B2, -2 * B2)), r))
+        lambda r, _I, B2, B3, _: (close_to(1.0, r), B2, B3, close_to(r.choice((-B2, -2 * B2)), r))
     ),
     "B3/B2 from 1e-12 to 1e12": _changed(
-        lambda r, I, B2, _, w2: (I, B2, B2 * sign(r) * size(r, -12, 12), near(r.choice((w2, -B2, -2 * B2)), r))
+        lambda r, I, B2, _, w2: (I, B2, B2 * sign(r) * size(r, -12, 12), close_to(r.choice((w2, -B2, -2 * B2)), r))
     ),
     "B3 = 0, B2 = B3": _axis_parallel,
     "scales 1e-140 to 1e140": _huge_and_tiny,
@@ -129,7 +134,7 @@ def _general_ordinary(random: Random) -> General:
 def _general_small_nutation(random: Random) -> General:
     I, (B2, B3), (_, w2, _) = _general_ordinary(random)
     w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
-    return I, (B2, B3), (_faint(random), w2, near(w3, random))
+    return I, (B2, B3), (_faint(random), w2, close_to(w3, random))
 
 
 def _general_separatrix(random: Random) -> General:
@@ -144,19 +149,19 @@ def _general_separatrix(random: Random) -> General:
     )
     if random.random() < 0.2:
         return I, B, omega
-    x, y, z = (near(w, random) if random.random() < 0.5 else w for w in omega)
+    x, y, z = (close_to(w, random) if random.random() < 0.5 else w for w in omega)
     return I, B, (sign(random) * x, y, z)
 
 
 def _general_triple_root(random: Random) -> General:
     if random.random() < 0.5:
-        return 0.5, (3.0, 1.0), (_faint(random), near(-1.5, random), near(-2.0, random))
-    return 0.5, (1.0, -3.0), (_faint(random), near(1.5, random), near(2.0, random))
+        return 0.5, (3.0, 1.0), (_faint(random), close_to(-1.5, random), close_to(-2.0, random))
+    return 0.5, (1.0, -3.0), (_faint(random), close_to(1.5, random), close_to(2.0, random))
 
 
 def _general_tipping_disk(random: Random) -> General:
     B3 = number(random)
-    return random.choice((2.0, 1.5)), (_faint(random), B3), (_faint(random), _faint(random), near(-B3, random))
+    return random.choice((2.0, 1.5)), (_faint(random), B3), (_faint(random), _faint(random), close_to(-B3, random))
 
 
 def _general_scales(random: Random) -> General:
@@ -172,13 +177,13 @@ def _general(change: Callable[..., General]) -> Callable[[Random], General]:
 
 GENERAL: Mapping[str, Callable[[Random], General]] = {
     "general, ordinary": _general_ordinary,
-    "general, I near 1": _general(lambda r, _I, B, omega: (near(1.0, r), B, omega)),
-    "general, I near 2": _general(lambda r, _I, B, omega: (min(near(2.0, r), 2.0), B, omega)),
+    "general, I near 1": _general(lambda r, _I, B, omega: (close_to(1.0, r), B, omega)),
+    "general, I near 2": _general(lambda r, _I, B, omega: (min(close_to(2.0, r), 2.0), B, omega)),
     "general, axis along the field": _general(
         lambda r, I, B, omega: (I, (_faint(r), B[1]), r.choice((omega, (_faint(r), _faint(r), omega[2]))))
     ),
     "general, axis across the field": _general(
-        lambda r, I, B, omega: (I, (B[0], _faint(r)), r.choice((omega, (_faint(r), near(-B[0], r), omega[2]))))
+        lambda r, I, B, omega: (I, (B[0], _faint(r)), r.choice((omega, (_faint(r), close_to(-B[0], r), omega[2]))))
     ),
     "general, small nutation": _general_small_nutation,
     "general, zero spin": _general(

@@ -40,7 +40,7 @@ SELDOM = 12
 """A body with three moments, which takes seconds, is checked once in so many rounds."""
 
 PROMISES: Mapping[str, float] = {
-    **{name: ulps for one in FAMILIES.values() for name, ulps in one.promises.items()},
+    **{name: ulps for family in FAMILIES.values() for name, ulps in family.promises.items()},
     "general determinant": 12,
     "general integrals": 64,
     "general scalars": 0.51,
@@ -113,26 +113,26 @@ def one_round(seed: int, index: int) -> WorstErrors:
     check_ball(extreme.ball_motion(random), worst)
     check_particle(extreme.particle_motion(random), worst)
     for name, (regimes, check_one) in NUTATING.items():
-        other = Random(f"{name} {seed} {index}")  # noqa: S311  the same
+        random_of_name = Random(f"{name} {seed} {index}")  # noqa: S311  the same
         for regime, draw in regimes.items():
-            check_one(draw(other), regime, other, worst)
+            check_one(draw(random_of_name), regime, random_of_name, worst)
     if index % SELDOM == 0:
-        other = Random(f"asymmetric {seed} {index}")  # noqa: S311  the same
+        random_of_name = Random(f"asymmetric {seed} {index}")  # noqa: S311  the same
         regime = list(ASYMMETRIC)[index // SELDOM % len(ASYMMETRIC)]
-        check_asymmetric(ASYMMETRIC[regime](other), regime, other, worst)
+        check_asymmetric(ASYMMETRIC[regime](random_of_name), regime, random_of_name, worst)
     return worst
 
 
-def _rounds(seed: int, jobs: int, first: int) -> Iterator[WorstErrors]:
+def _rounds(seed: int, jobs: int, start: int) -> Iterator[WorstErrors]:
     """Check one round after the other, endlessly, in the order of their index."""
     batch = 2 * jobs
     executor = processes.pool(jobs) if jobs > 1 else None
     if executor is None:
-        for index in counted(first):
+        for index in counted(start):
             yield one_round(seed, index)
     with executor as pool:
         try:
-            for index in counted(first, batch):
+            for index in counted(start, batch):
                 yield from pool.map(partial(one_round, seed), range(index, index + batch))
         finally:
             pool.shutdown(cancel_futures=True)

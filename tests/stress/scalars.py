@@ -120,9 +120,9 @@ def of_particle(random: Random, _: str) -> Comparisons:
     yield "cyclotron frequency", motion.cyclotron_frequency, mpf(m.mu) * b / c
     if b:
         drift = [c * x / b**2 for x in _cross(E, B)]
-        rest = _cross([x - y for x, y in zip(v, drift, strict=True)], B)
+        radial = _cross([x - y for x, y in zip(v, drift, strict=True)], B)
         yield "drift", motion.drift, drift
-        yield "radius", motion.radius, mp.sqrt(mp.fdot(rest, rest)) * c / (abs(mpf(m.mu)) * b**2)
+        yield "radius", motion.radius, mp.sqrt(mp.fdot(radial, radial)) * c / (abs(mpf(m.mu)) * b**2)
         yield "particle period", motion.period, 2 * mp.pi * c / (abs(mpf(m.mu)) * b)
 
 
@@ -140,9 +140,9 @@ def of_elliptic(random: Random, regime: str) -> Comparisons:
     C = sum(K[i] ** 2 / x[i] * (x[i] * (y + w) - y * w) ** 2 for i, y, w in pairs)
     yield "elliptic splitting", motion.splitting, C / D**2
     e = sorted((v / (z * moment + D), k) for moment, k in zip(I, K, strict=True))
-    (last, _), (middle, _), (first, _) = e
-    low = sum((moment - last) * k**2 for moment, k in e) * (first - middle)
-    high = sum((first - moment) * k**2 for moment, k in e) * (middle - last)
+    (e_last, _), (middle, _), (e_first, _) = e
+    low = sum((moment - e_last) * k**2 for moment, k in e) * (e_first - middle)
+    high = sum((e_first - moment) * k**2 for moment, k in e) * (middle - e_last)
     if low != high and low and high and motion.period < mp.inf:
         modulus = min(low, high) / max(low, high)
         yield "elliptic period", motion.period, 4 * mp.ellipk(modulus) / mp.sqrt(max(low, high))
@@ -195,10 +195,10 @@ KINDS: tuple[tuple[Callable[[Random, str], Comparisons], Sequence[str], int], ..
 """What draws and compares, its regimes in turn, and digits at which nothing that doubles hold cancels."""
 
 
-def compare(found: Any, true: Any) -> list[float]:
+def compare(values: Any, true: Any) -> list[float]:
     """Return errors in ulps, of each number in ulps of itself; what no double in the range can be is left out."""
     errors = []
-    for value, exact in zip(np.ravel(found), true if isinstance(true, list | tuple) else (true,), strict=True):
+    for value, exact in zip(np.ravel(values), true if isinstance(true, list | tuple) else (true,), strict=True):
         size = abs(exact)
         if size == 0:
             errors.append(0.0 if value == 0 else float("inf"))

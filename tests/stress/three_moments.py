@@ -52,10 +52,10 @@ def compared(draw: Asymmetric, random: Random, count: int) -> Found | str:
     times = np.array([random.choice((1, -1)) * 10 ** random.uniform(-1, 12) for _ in range(count)]) / motion.size
     worst = 0.0
     for name, size in (("rotation", 1.0), ("field_in_body", motion.size), ("angular_velocity", motion.size)):
-        apart = (
+        difference = (
             np.abs(getattr(motion.closed, name)(times) - getattr(motion.certified, name)(times)).max(initial=0.0) / size
         )
-        worst = max(worst, float(apart))
+        worst = max(worst, float(difference))
     # the twin is rounded once
     accuracy, proved = motion.closed.accuracy, motion.closed.proved is not None
     return Found(worst / EPS, worst / (accuracy + EPS), proved, accuracy < SMALL, seconds)
@@ -68,9 +68,9 @@ def main() -> int:
         parser.add_argument(f"--{name}", type=int, default=count)
     parser.add_argument("--part", type=int, nargs=2, metavar=("K", "N"), default=(0, 1), help="every Nth body, from K")
     options = parser.parse_args()
-    first, *extreme = ASYMMETRIC
-    names = [first] * options.ordinary + list(islice(cycle(extreme), options.extreme))
-    found, tried, failed = dict[str, list[Found]](), Counter[str](), 0
+    ordinary_case, *extreme = ASYMMETRIC
+    names = [ordinary_case] * options.ordinary + list(islice(cycle(extreme), options.extreme))
+    results_of, tried, failed = dict[str, list[Found]](), Counter[str](), 0
     for i, name in islice(enumerate(names), options.part[0], None, options.part[1]):
         random = Random(f"{options.seed} {i}")  # noqa: S311  reproducible, not secret
         draw, tried[name] = ASYMMETRIC[name](random), tried[name] + 1
@@ -79,7 +79,7 @@ def main() -> int:
         except AtlasError as reason:
             result = str(reason)
         if isinstance(result, Found):
-            found.setdefault(name, []).append(result)
+            results_of.setdefault(name, []).append(result)
             failed += result.beside > 1
         if isinstance(result, str) or result.beside > 1:
             click.echo(f"{i} {name}, {draw}: {result}")
@@ -87,15 +87,15 @@ def main() -> int:
         f"{'regime':35} {'bodies':>6} {'closed':>6} {'proved':>6} {'<1e-14':>6} {'ulp':>7} {'of the bound':>12} "
         f"{'set-up':>6} {'worst':>6}   seed {options.seed}"
     )
-    for name, results in found.items():
-        ulps, beside = (max(getattr(x, field) for x in results) for field in ("ulps", "beside"))
+    for name, results in results_of.items():
+        ulps, kernel_error = (max(getattr(x, field) for x in results) for field in ("ulps", "beside"))
         proved, small = (sum(getattr(x, field) for x in results) for field in ("proved", "small"))
         seconds = [x.seconds for x in results]
         click.echo(
-            f"{name:35} {tried[name]:6} {len(results):6} {proved:6} {small:6} {ulps:7.2f} {beside:12.2f} "
+            f"{name:35} {tried[name]:6} {len(results):6} {proved:6} {small:6} {ulps:7.2f} {kernel_error:12.2f} "
             f"{median(seconds):6.2f} {max(seconds):6.2f}"
         )
-    closed = [x for results in found.values() for x in results]
+    closed = [x for results in results_of.values() for x in results]
     proved = sum(x.proved for x in closed)
     click.echo(
         f"of {tried.total()} bodies {proved} closed forms are proved, {len(closed) - proved} checked and not proved, "

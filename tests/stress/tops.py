@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from stress.regimes import near, number, sign, size
+from stress.regimes import close_to, number, sign, size
 
 TwoNumbers = tuple[float, float]
 
@@ -41,7 +41,7 @@ def _near_the_cubic(random: Random) -> Top:
     """Draw A near zero, on either side."""
     top = _ordinary(random)
     (_, I3), (k2, k3) = top.inertia, top.coupling
-    return top._replace(quadratic=near(k2 * k2 - k3 * k3 / I3, random))
+    return top._replace(quadratic=close_to(k2 * k2 - k3 * k3 / I3, random))
 
 
 def _near_the_quadratic(random: Random) -> Top:
@@ -49,7 +49,9 @@ def _near_the_quadratic(random: Random) -> Top:
     top = _ordinary(random)
     (_, I3), (k2, k3), (n2, n3) = top.inertia, top.coupling, top.direction
     M3 = I3 * top.omega[2] + k3 * n3 / (n2 * n2 + n3 * n3) ** 0.5
-    return top._replace(linear=near(-M3 * (k2 - k3 / I3), random), quadratic=near(k2 * k2 - k3 * k3 / I3, random))
+    return top._replace(
+        linear=close_to(-M3 * (k2 - k3 / I3), random), quadratic=close_to(k2 * k2 - k3 * k3 / I3, random)
+    )
 
 
 def _near_the_vertical(random: Random) -> Top:
@@ -66,7 +68,7 @@ def _sleeping(random: Random) -> Top:
     spin = 2 * abs(top.linear) ** 0.5 / top.inertia[1]
     push = size(random, -14, -2)
     return top._replace(
-        coupling=(0.0, 0.0), direction=(0.0, 1.0), omega=(push, 0.0, near(spin, random)), linear=abs(top.linear),
+        coupling=(0.0, 0.0), direction=(0.0, 1.0), omega=(push, 0.0, close_to(spin, random)), linear=abs(top.linear),
         quadratic=0.0,
     )  # fmt: skip
 

@@ -62,11 +62,11 @@ class WorstErrors:
 
     def _take(self, new: Worst) -> None:
         key = new.quantity, new.regime
-        known = self.worst.get(key, Worst(*key, -1.0, {}, 0))
-        larger = new if new.ulps > known.ulps else known
-        self.worst[key] = Worst(*key, larger.ulps, larger.input, new.samples + known.samples)
+        previous = self.worst.get(key, Worst(*key, -1.0, {}, 0))
+        larger = new if new.ulps > previous.ulps else previous
+        self.worst[key] = Worst(*key, larger.ulps, larger.input, new.samples + previous.samples)
 
 
-def with_more(inputs: dict[str, Any], **more: Any) -> Callable[[int], dict[str, Any]]:
+def with_more(inputs: dict[str, Any], **extra: Any) -> Callable[[int], dict[str, Any]]:
     """Return the description of an input with more of it, whichever of the values was the worst."""
-    return lambda _: inputs | more
+    return lambda _: inputs | extra

@@ -43,9 +43,9 @@ def followed(motion: Any, t: float, field: float, drag: tuple[float, float], qua
     def slope(t: float, y: Any) -> Any:
         b, w, k = y[:3], y[3:], k0 * (1 + field * t)
         push = np.array([0, 0, motion.linear + (motion.quadratic + quadratic * t) * b[2]])
-        turned = np.cross(b, w)
-        torque = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * turned - k0 * field * b - J * d * w
-        return np.concatenate([turned, torque / J])
+        transport = np.cross(b, w)
+        torque = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * transport - k0 * field * b - J * d * w
+        return np.concatenate([transport, torque / J])
 
     start = np.concatenate([motion.field_in_body(0.0), motion.angular_velocity(0.0)])
     y = solve_ivp(slope, (0, t), start, "DOP853", rtol=1e-10, atol=1e-11).y[:, -1]
@@ -64,10 +64,10 @@ def test_drift_is_that_of_an_integrator_to_the_order_of_the_change(change: Any) 
     motion, errors = atlas.TopMotion((2.0, 1.5), (0.3, 0.9), (0.6, -0.8), (0.1, 0.2, 1.0), 0.2, -1.0), []
     for e in (0.03, 0.005):
         slow = {name: np.multiply(x, e).tolist() for name, x in change.items()}
-        found = atlas.drift(motion, [0.0, 1 / e], **slow)
+        drift = atlas.drift(motion, [0.0, 1 / e], **slow)
         drag = slow.get("drag", (0.0, 0.0))
         true = followed(motion, 1 / e, slow.get("field", 0.0), drag, slow.get("quadratic", 0.0))
-        errors.append(np.abs(true - [found.energy[-1], found.M3[-1], found.p[-1]]).max())
+        errors.append(np.abs(true - [drift.energy[-1], drift.M3[-1], drift.p[-1]]).max())
         assert errors[-1] <= e
     assert errors[1] <= errors[0] / 3
 
@@ -76,22 +76,22 @@ def test_drift_is_that_of_an_integrator_to_the_order_of_the_change(change: Any) 
 def test_a_slow_change_of_the_field_keeps_the_actions() -> None:
     """M3, p and the action of nutation, which is that of the motion, also of a steady precession; energy does not."""
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
-    found = atlas.drift(motion, [0.0, 1e3, 1e8], field=1e-8)
-    assert found.action == pytest.approx([motion.actions.values[0]] * 3, rel=1e-6)
-    assert found.p == pytest.approx([motion.actions.values[1]] * 3, rel=1e-9)
-    assert found.nutation[0] == pytest.approx(2 * np.pi / motion.period, rel=1e-9)
-    assert found.spin[0] == pytest.approx(motion.spin_rate, rel=1e-9)
-    assert abs(found.energy[2] - found.energy[0]) > 0.1 * found.energy[0]
-    later = found.motion(2)
-    assert later.actions.values == pytest.approx([found.action[2], found.p[2], found.M3[2]], rel=1e-6)
+    drift = atlas.drift(motion, [0.0, 1e3, 1e8], field=1e-8)
+    assert drift.action == pytest.approx([motion.actions.values[0]] * 3, rel=1e-6)
+    assert drift.p == pytest.approx([motion.actions.values[1]] * 3, rel=1e-9)
+    assert drift.nutation[0] == pytest.approx(2 * np.pi / motion.period, rel=1e-9)
+    assert drift.spin[0] == pytest.approx(motion.spin_rate, rel=1e-9)
+    assert abs(drift.energy[2] - drift.energy[0]) > 0.1 * drift.energy[0]
+    later = drift.motion(2)
+    assert later.actions.values == pytest.approx([drift.action[2], drift.p[2], drift.M3[2]], rel=1e-6)
     steady = atlas.drift(atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7), [0.0, 1e4], field=1e-4)
     assert np.ptp(steady.nu, axis=1) == pytest.approx(0, abs=1e-3)
 
 
 def test_drag_in_proportion_to_the_moments_leaves_the_motion_and_slows_it() -> None:
     """Without a field M3 and p fall as exp(-d t), energy and rates with them."""
-    found = atlas.drift(atlas.TopMotion((1.0, 0.5), (0, 0), (0.6, 0.8), (0.3, 0, 2.0)), [0.0, 3e5], drag=1e-5)
-    for values, power in ((found.M3, 1), (found.p, 1), (found.energy, 2), (found.nutation, 1), (found.action, 1)):
+    drift = atlas.drift(atlas.TopMotion((1.0, 0.5), (0, 0), (0.6, 0.8), (0.3, 0, 2.0)), [0.0, 3e5], drag=1e-5)
+    for values, power in ((drift.M3, 1), (drift.p, 1), (drift.energy, 2), (drift.nutation, 1), (drift.action, 1)):
         assert values[1] == pytest.approx(values[0] * np.exp(-3.0 * power), rel=1e-6)
 
 
@@ -104,9 +104,9 @@ def test_motions_without_drift_are_refused() -> None:
         atlas.drift(atlas.GeneralMotion(1.5, (0.0, 2.0), (0.0, 0.0, 0.2)), 1.0)
     with pytest.raises(atlas.AtlasError, match="ascending"):
         atlas.drift(motion, [1.0, 0.0])
-    for last in (10.0, 20.0):
+    for end in (10.0, 20.0):
         with pytest.raises(atlas.DomainError, match="gone at t = 10"):
-            atlas.drift(motion, [0.0, last], field=-0.1)
+            atlas.drift(motion, [0.0, end], field=-0.1)
     with pytest.raises(atlas.AtlasError, match="not of an array"):
         atlas.GeneralMotion([1.5, 1.2], (1.0, 2.0), (0.3, 0.7, 0.2)).actions  # noqa: B018
 
@@ -125,10 +125,10 @@ def test_actions_and_lines_in_any_unit_of_time(exponent: int) -> None:
             atlas.TopMotion((1.0, 0.5), (0.0, 0.0), np.ldexp((0.6, 0.8), e), rates[0], linear=3.0),
         ]
 
-    for one, other, power in zip(motions(0), motions(exponent), (exponent, exponent, 0), strict=True):
-        assert other.actions.values == pytest.approx(np.ldexp(one.actions.values, power), rel=1e-13)
-        assert other.actions.rates == pytest.approx(np.ldexp(one.actions.rates, power), rel=1e-13)
-        lines, same = one.spectrum("axis", 1e-3), other.spectrum("axis", 1e-3)
+    for motion, scaled, power in zip(motions(0), motions(exponent), (exponent, exponent, 0), strict=True):
+        assert scaled.actions.values == pytest.approx(np.ldexp(motion.actions.values, power), rel=1e-13)
+        assert scaled.actions.rates == pytest.approx(np.ldexp(motion.actions.rates, power), rel=1e-13)
+        lines, same = motion.spectrum("axis", 1e-3), scaled.spectrum("axis", 1e-3)
         assert same.frequencies == pytest.approx(np.ldexp(lines.frequencies, power), rel=1e-13)
         assert same.power == pytest.approx(lines.power, rel=1e-9)
 
@@ -145,7 +145,9 @@ def test_an_energy_or_mean_square_that_is_no_float_is_refused() -> None:
 
 def test_lines_do_not_depend_on_the_unit_of_time_next_to_the_range_of_floats() -> None:
     """At rates of 2^-510 as many lines are found as at 1, of the same part of the whole."""
-    one, other = (atlas.GeneralMotion(1.5, (x, 2 * x), (0.3 * x, 0.7 * x, 0.2 * x)) for x in (1.0, 2.0**-510))
-    lines, same = (motion.spectrum("angular_velocity", 1e-12) for motion in (one, other))
+    motion_first, motion_scaled = (
+        atlas.GeneralMotion(1.5, (x, 2 * x), (0.3 * x, 0.7 * x, 0.2 * x)) for x in (1.0, 2.0**-510)
+    )
+    lines, same = (motion.spectrum("angular_velocity", 1e-12) for motion in (motion_first, motion_scaled))
     assert same.combinations.tolist() == lines.combinations.tolist()
     assert np.ldexp(same.amplitudes.view(float), 510) == pytest.approx(lines.amplitudes.view(float), abs=1e-14)

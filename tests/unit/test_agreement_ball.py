@@ -10,19 +10,19 @@ from agreement import Floor, Ledger, Tie, agree, each, length, letters, matrices
 from atlas.trial.proofs.model import rodrigues
 
 
-def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
+def launches(seed: int, count: int, *, is_along: bool = False) -> list[Any]:
     """Return balls: inertia I0, Larmor frequency alpha, momentum (m2, m3) of either sign; m2 = 0 `along` the field."""
-    draw, found = np.random.default_rng(seed), []
+    draw, points = np.random.default_rng(seed), []
     for _ in range(count):
-        I0, alpha, m2, m3 = abs(signed(draw)), signed(draw), 0.0 if along else signed(draw), signed(draw)
-        found.append(SimpleNamespace(I0=I0, alpha=alpha, m2=m2, m3=m3, t=5 * signed(draw)))
-    return found
+        I0, alpha, m2, m3 = abs(signed(draw)), signed(draw), 0.0 if is_along else signed(draw), signed(draw)
+        points.append(SimpleNamespace(I0=I0, alpha=alpha, m2=m2, m3=m3, t=5 * signed(draw)))
+    return points
 
 
 POINTS = launches(38, 8)
-ALONG = launches(40, 5, along=True)
+ALONG = launches(40, 5, is_along=True)
 REST = [SimpleNamespace(I0=1.5, alpha=alpha, m2=0.0, m3=-1.5 * alpha, t=3.1) for alpha in (0.75, -2.0)]
-SAME_SENSE = [p for p in launches(41, 40, along=True) if p.alpha > 0 and p.m3 > 0][:5]
+SAME_SENSE = [p for p in launches(41, 40, is_along=True) if p.alpha > 0 and p.m3 > 0][:5]
 
 
 def motion(f: Floor, p: Any) -> Any:

@@ -44,7 +44,7 @@ def with_spin(f: Floor, p: Any) -> Any:
     return f.ElementaryMotion(p.body, p.field, p.omega2, p.omega3)
 
 
-def free(f: Floor, p: Any) -> Any:
+def free_motion(f: Floor, p: Any) -> Any:
     """Return the free body of a point on a floor, from the whole of omega."""
     return f.FreeMotion(p.body, p.omega)
 
@@ -58,8 +58,8 @@ def spin(say: Ledger, p: Any, t: Any) -> Any:
 def field(say: Ledger, p: Any) -> Any:
     """Return K(t), (62) and (60)."""
     Omega = spin(say, p, p.t)
-    given = {"omega1": 0, "Omega1": Omega[0], "Omega2": Omega[1], **letters(p, "omega2 B2 B3")}
-    return [say("(62)", "K1", **given), say("(62)", "K2", **given), say("(60)", "K3", **given)]
+    inputs = {"omega1": 0, "Omega1": Omega[0], "Omega2": Omega[1], **letters(p, "omega2 B2 B3")}
+    return [say("(62)", "K1", **inputs), say("(62)", "K2", **inputs), say("(60)", "K3", **inputs)]
 
 
 def field_seen(say: Ledger, p: Any) -> Any:
@@ -74,11 +74,11 @@ def momentum(say: Ledger, p: Any, t: Any) -> Any:
 
 def invariants(say: Ledger, p: Any) -> list[Any]:
     """Return E', K^2, c3, c5 and (m, B')/I2 at t = 0."""
-    given = {"omega1": 0, "omega3": elementary(say, p)["omega3"], **letters(p, "omega2 I B2 B3")}
+    inputs = {"omega1": 0, "omega3": elementary(say, p)["omega3"], **letters(p, "omega2 I B2 B3")}
     four = [("(36)", "at0(E)"), ("(37)", "at0(K^2)"), ("(40)", "at0(c3)"), ("(41)", "at0(c5)")]
     m = sympy.Matrix(momentum(say, p, 0))
-    along = say("(88)", "0", d=lambda x: x, m=m, Bp=[0, *p.field])
-    return [*(say(name, side, **given) for name, side in four), along]
+    component = say("(88)", "0", d=lambda x: x, m=m, Bp=[0, *p.field])
+    return [*(say(name, side, **inputs) for name, side in four), component]
 
 
 def two_turns(say: Ledger, axis: Any, k: Any, phi: Any, t: Any) -> Any:
@@ -92,11 +92,11 @@ def lost_constants(say: Ledger, p: Any) -> dict[str, Any]:
     """Return k and phi where (71) has no value: on the ball's extra line, and on that of a transverse field."""
     b = sympy.sqrt(sympy.Rational(p.B2) ** 2 + sympy.Rational(p.B3) ** 2)
     name, axis = ("theorem-equatorial-field", "about_y") if p.B3 == 0 else ("theorem-ball-line", "about_B")
-    given = {**letters(p, "omega3 B2 B3"), "b": b, "t": sympy.Integer(1)}
+    inputs = {**letters(p, "omega3 B2 B3"), "b": b, "t": sympy.Integer(1)}
     sense = sympy.sign(sympy.Rational(p.B2)) if p.B3 == 0 else 1  # of the field beside e2
     turns = {axis: lambda angle: angle * sense, "about_z": lambda _: sympy.Integer(1)}
     spins = {axis: lambda _: sympy.Integer(1), "about_z": lambda angle: angle}
-    return {"k": say(name, "R", **given, **turns), "phi": say(name, "R", **given, **spins)}
+    return {"k": say(name, "R", **inputs, **turns), "phi": say(name, "R", **inputs, **spins)}
 
 
 def lost_rotation(say: Ledger, p: Any) -> Any:
@@ -105,24 +105,24 @@ def lost_rotation(say: Ledger, p: Any) -> Any:
     return two_turns(say, axis, t=p.t, **lost_constants(say, p))
 
 
-def free_constants(say: Ledger, p: Any, *, whole: bool = False) -> dict[str, Any]:
+def free_constants(say: Ledger, p: Any, *, has_omega1: bool = False) -> dict[str, Any]:
     """Return axis, k and phi of the free body, by its m; with omega1 = 0 or the whole of omega."""
     omega = [sympy.Rational(x) for x in p.omega]
-    m = sympy.Matrix([omega[0] if whole else 0, omega[1], p.I * omega[2]])
+    m = sympy.Matrix([omega[0] if has_omega1 else 0, omega[1], p.I * omega[2]])
     size = sympy.sqrt(m.dot(m))
-    across = sympy.sqrt(m[0] ** 2 + m[1] ** 2)
-    k = say("text-free-frequency", "k", omega2=across, hB2=across / size)
+    transverse = sympy.sqrt(m[0] ** 2 + m[1] ** 2)
+    k = say("text-free-frequency", "k", omega2=transverse, hB2=transverse / size)
     return {"axis": m / size, "k": k, "phi": say("(87)", "phi", I2=1, I3=p.I, hB3=m[2] / size, kB=k)}
 
 
-def free_rotation(say: Ledger, p: Any, t: Any, *, whole: bool = False) -> Any:
+def free_rotation(say: Ledger, p: Any, t: Any, *, has_omega1: bool = False) -> Any:
     """Return R(t) of the free body."""
-    return two_turns(say, t=t, **free_constants(say, p, whole=whole))
+    return two_turns(say, t=t, **free_constants(say, p, has_omega1=has_omega1))
 
 
 def free_spin(say: Ledger, p: Any) -> Any:
     """Return Omega(t) of the free body: m = R I Omega does not move."""
-    J, R = sympy.diag(1, 1, p.I), free_rotation(say, p, p.t, whole=True)
+    J, R = sympy.diag(1, 1, p.I), free_rotation(say, p, p.t, has_omega1=True)
     m = say("text-momentum", "m", R=sympy.eye(3), I=J, Omega=p.omega)
     return J.inv() * R.T * m
 
@@ -130,8 +130,10 @@ def free_spin(say: Ledger, p: Any) -> Any:
 def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
     """Return the matrix of the unit quaternion, which has its scalar first in balls and is 1 at t = 0."""
     order = {} if f.name == "certified" else {"scalar_first": True}
-    (one, *_), (w, x, y, z) = (motion(f, p).quaternion(t, **order) for t in (0.0, p.t))
-    w, x, y, z = (one * part for part in (w, x, y, z)) if one > 0 else (one, one, one, one)
+    (w_start, *_), (w, x, y, z) = (motion(f, p).quaternion(t, **order) for t in (0.0, p.t))
+    w, x, y, z = (
+        (w_start * component for component in (w, x, y, z)) if w_start > 0 else (w_start, w_start, w_start, w_start)
+    )
     return [
         [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
@@ -142,8 +144,8 @@ def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
 def axis(say: Ledger, p: Any) -> Any:
     """Return the unit vector along (B2, B3), of which (77) gives the slope."""
     slope = say("(77)", "hB3/hB2", B2=p.B2, B3=p.B3)
-    along = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
-    return [along, along * slope]
+    cosine = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
+    return [cosine, cosine * slope]
 
 
 def strongest(_true: list[Any], p: Any) -> float:
@@ -159,7 +161,7 @@ TWO_TURNS = "(85) text-precession"
 MATRIX = f"{CONSTANTS} (84)"
 FREE_LABELS = "(87) text-free-frequency"
 
-of_motion, of_spun, of_free = of(motion, POINTS), of(with_spin, POINTS), of(free, SPINS)
+of_motion, of_spun, of_free = of(motion, POINTS), of(with_spin, POINTS), of(free_motion, SPINS)
 
 PRECESSION = (
     *(
@@ -220,8 +222,10 @@ SPECIAL = (
         of_spun(f"ElementaryMotion.{name}", FREE_LABELS, lambda say, p, name=name: free_constants(say, p)[name], FREE)
         for name in ("k", "phi")
     ),
-    of(free, [p for p in SPINS if p.I != 1])(  # of a ball Omega is constant
-        "FreeMotion.period", FREE_LABELS, lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["phi"])
+    of(free_motion, [p for p in SPINS if p.I != 1])(  # of a ball Omega is constant
+        "FreeMotion.period",
+        FREE_LABELS,
+        lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, has_omega1=True)["phi"]),
     ),
     of_spun(
         "ElementaryMotion.rotation",
@@ -241,10 +245,12 @@ SPECIAL = (
 
 ALONE = (
     *(
-        of_free(f"FreeMotion.{name}", FREE_LABELS, lambda say, p, name=name: free_constants(say, p, whole=True)[name])
+        of_free(
+            f"FreeMotion.{name}", FREE_LABELS, lambda say, p, name=name: free_constants(say, p, has_omega1=True)[name]
+        )
         for name in ("k", "phi")
     ),
-    *matrices("FreeMotion", f"{FREE_LABELS} {TWO_TURNS}", free, partial(free_rotation, whole=True), SPINS),
+    *matrices("FreeMotion", f"{FREE_LABELS} {TWO_TURNS}", free_motion, partial(free_rotation, whole=True), SPINS),
     of_free("FreeMotion.angular_velocity", f"{FREE_LABELS} {TWO_TURNS} text-momentum", free_spin, size=length),
 )
 

@@ -11,19 +11,19 @@ from agreement import Floor, Ledger, Tie, agree, bodies, each, letters, power, s
 
 def states(seed: int, count: int) -> list[Any]:
     """Return states of bodies without symmetry: the inertia tensor of three masses, R any matrix, all else vectors."""
-    draw, found = np.random.default_rng(seed), []
+    draw, points = np.random.default_rng(seed), []
     for _ in range(count):
         p = SimpleNamespace(
             masses=draw.uniform(0.5, 2, 3), places=draw.uniform(-2, 2, (3, 3)), R=draw.normal(size=(3, 3))
         )
-        moved = p.places - p.masses @ p.places / p.masses.sum()
-        g = (p.masses[:, None] * moved).T @ moved
+        centred = p.places - p.masses @ p.places / p.masses.sum()
+        g = (p.masses[:, None] * centred).T @ centred
         g = (g + g.T) / 2 + np.diag(draw.uniform(0.1, 1, 3))
         p.inertia = g.trace() * np.eye(3) - g
         p.Omega, p.K, p.M, p.m, p.B = (np.array(vector(draw)) for _ in range(5))
         p.mu, p.c, p.mass, p.t = signed(draw), abs(signed(draw)), abs(signed(draw)), signed(draw)
-        found.append(p)
-    return found
+        points.append(p)
+    return points
 
 
 POINTS = states(27, 6)
@@ -52,14 +52,14 @@ def body(say: Ledger, p: Any) -> dict[str, Any]:
 
 def acceleration(say: Ledger, p: Any) -> Any:
     """Return dOmega/dt of (34)."""
-    both = body(say, p)
-    return both["I"].inv() * say("(34)", "IdOmega", K=p.K, Omega=p.Omega, **both)
+    equations = body(say, p)
+    return equations["I"].inv() * say("(34)", "IdOmega", K=p.K, Omega=p.Omega, **equations)
 
 
 def acceleration_in_field(say: Ledger, p: Any) -> Any:
     """Return dOmega/dt of (16), in B' = mu B/(2c)."""
-    both = body(say, p)
-    return both["I"].inv() * say("(16)", "IdOmega", mu=2, light=1, R=p.R, Bf=p.B, Omega=p.Omega, **both)
+    equations = body(say, p)
+    return equations["I"].inv() * say("(16)", "IdOmega", mu=2, light=1, R=p.R, Bf=p.B, Omega=p.Omega, **equations)
 
 
 def inverse(matrix: Any) -> Any:
@@ -97,8 +97,8 @@ def energy(say: Ledger, p: Any) -> Any:
 
 def mass_elements(say: Ledger, moments: Any) -> list[Any]:
     """Return g1, g2, g3 of text-mass-moments."""
-    known = {f"I{n + 1}": x for n, x in enumerate(moments)}
-    return [say("text-mass-moments", f"2*g{n}", **known) / 2 for n in (1, 2, 3)]
+    equal_moments = {f"I{n + 1}": x for n, x in enumerate(moments)}
+    return [say("text-mass-moments", f"2*g{n}", **equal_moments) / 2 for n in (1, 2, 3)]
 
 
 def of_points(say: Ledger, p: Any) -> Any:

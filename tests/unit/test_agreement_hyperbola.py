@@ -31,9 +31,9 @@ def special(say: Ledger, p: Any) -> list[Any]:
     """Rest; the other point where phi of (72) is zero; the other one where omega3 of (71) is."""
     omega2 = sympy.Symbol("omega2")
     generic = say("(72)", "phi", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3"))  # for I = 1 phi is 0
-    (still,) = zeros(generic, omega2)
+    (omega2_still,) = zeros(generic, omega2)
     level = zeros(ordinate(say, p, omega2) * (omega2 + sympy.Rational(p.B2)), omega2) or [0]
-    return [0, ordinate(say, p, 0), still, ordinate(say, p, still), *level, 0]
+    return [0, ordinate(say, p, 0), omega2_still, ordinate(say, p, omega2_still), *level, 0]
 
 
 def pole(say: Ledger, p: Any) -> Any:
@@ -47,13 +47,13 @@ def pole(say: Ledger, p: Any) -> Any:
 
 def asymptotes(say: Ledger, p: Any) -> list[Any]:
     """Directions in which (67) is satisfied far away: the zeros of its terms of the second degree."""
-    x, y, far = sympy.symbols("x y far")
-    curve = say("(67)", "0", omega2=far * x, omega3=far * y, **letters(p, "I B2 B3"))
-    form = sympy.Poly(sympy.expand(curve), far).coeff_monomial(far**2)
+    x, y, scale = sympy.symbols("x y far")
+    curve = say("(67)", "0", omega2=scale * x, omega3=scale * y, **letters(p, "I B2 B3"))
+    form = sympy.Poly(sympy.expand(curve), scale).coeff_monomial(scale**2)
     assert form.subs(x, 0) == 0
     slope = sympy.solve(sympy.cancel(form / x), y)[0] / x
-    along = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
-    return [0, 1, along, along * slope]
+    cosine = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
+    return [0, 1, cosine, cosine * slope]
 
 
 def stability(say: Ledger, p: Any) -> Any:
@@ -122,9 +122,9 @@ def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytest.MonkeyPatch) -> None:
     """The floors are held together from either end: (omega2 - 2 B2) for (omega2 + 2 B2) in what is tried as (72)."""
-    right = formula.trial("(72)")
-    wrong = dataclasses.replace(right, tex=EQUATIONS["(72)"].tex.replace("+2B", "-2B"))
-    assert wrong.printed != right.printed
-    monkeypatch.setattr(formula, "trial", lambda name: wrong if name == "(72)" else trial(name))
+    trial_right = formula.trial("(72)")
+    trial_wrong = dataclasses.replace(trial_right, tex=EQUATIONS["(72)"].tex.replace("+2B", "-2B"))
+    assert trial_wrong.printed != trial_right.printed
+    monkeypatch.setattr(formula, "trial", lambda name: trial_wrong if name == "(72)" else trial(name))
     disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special")
     disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special", floor="certified")

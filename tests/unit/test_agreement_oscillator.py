@@ -27,17 +27,17 @@ def state(p: Any) -> dict[str, Any]:
 
 def at_start(say: Ledger, p: Any) -> dict[str, Any]:
     """Return E', K^2, c3, c5 by what they are at t = 0."""
-    given = letters(p, "I B2 B3 omega1 omega2 omega3")
+    inputs = letters(p, "I B2 B3 omega1 omega2 omega3")
     sides = {"E": ("(36)", "at0(E)"), "Bsquare": ("(37)", "at0(K^2)")}
     sides |= {"c3": ("(40)", "at0(c3)"), "c5": ("(41)", "at0(c5)")}
-    return {name: say(entry, side, **given) for name, (entry, side) in sides.items()}
+    return {name: say(entry, side, **inputs) for name, (entry, side) in sides.items()}
 
 
 def in_motion(say: Ledger, p: Any) -> dict[str, Any]:
     """Return the same of any state."""
-    found = {"E": say("(36)", "E", I=p.I, **state(p)), "Bsquare": say("(37)", "0", d=lambda x: x, K=p.K)}
-    found["c3"] = say("(40)", "c3", **state(p))
-    return found | {"c5": say("(41)", "c5", I=p.I, c3=found["c3"], **state(p))}
+    integrals = {"E": say("(36)", "E", I=p.I, **state(p)), "Bsquare": say("(37)", "0", d=lambda x: x, K=p.K)}
+    integrals["c3"] = say("(40)", "c3", **state(p))
+    return integrals | {"c5": say("(41)", "c5", I=p.I, c3=integrals["c3"], **state(p))}
 
 
 def cubic(say: Ledger, p: Any, conserved: dict[str, Any]) -> dict[str, Any]:
@@ -138,10 +138,10 @@ def test_the_motion_of_omega3_is_that_of_the_ledger(tie: Tie, floor: str) -> Non
 
 def test_the_paper_s_slip_in_equation_48_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(2-1)^2 for (2-I)^2, as printed: the kernel holds the corrected form, and so does the ledger."""
-    right = pseudo_oscillator.cubic
+    cubic = pseudo_oscillator.cubic
 
     def printed(I: Any, E: Any, K2: Any, c3: Any, c5: Any, factors: Any) -> Any:
-        a0, _, a2, a3 = right(I, E, K2, c3, c5, factors)
+        a0, _, a2, a3 = cubic(I, E, K2, c3, c5, factors)
         return a0, -2 * c5 + (I - 1) * c3**2 - E - I * K2, a2, a3
 
     monkeypatch.setattr(pseudo_oscillator, "cubic", printed)

@@ -28,14 +28,14 @@ from atlas.motions.particle import rows as charge
 
 def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
     """Return particles in oblique fields: mu of either sign, c, E, B, position y, velocity v and radius a."""
-    draw, found = np.random.default_rng(seed), []
+    draw, points = np.random.default_rng(seed), []
     for _ in range(count):
         p = SimpleNamespace(mu=signed(draw), c=abs(signed(draw)), E=vector(draw), B=vector(draw), t=signed(draw))
         p.y, p.v, p.a = vector(draw), vector(draw), abs(signed(draw))
-        for name, given in fixed.items():
-            setattr(p, name, given)
-        found.append(p)
-    return found
+        for name, value in fixed.items():
+            setattr(p, name, value)
+        points.append(p)
+    return points
 
 
 POINTS = launches(10, 8)
@@ -62,10 +62,10 @@ def exact(values: Any) -> Any:
 def split(p: Any) -> dict[str, Any]:
     """Return the fields in the letters of the appendix: parts along B and across it, and their sizes."""
     B, E = exact(p.B), exact(p.E)
-    along = B * B.dot(E) / B.dot(B)
-    across = E - along
-    b, E2 = sympy.sqrt(B.dot(B)), sympy.sqrt(across.dot(across))
-    return {"Bf": B, "E": E, "Epar": along, "Eperp": across, "b": b, "E2": E2}
+    E_parallel = B * B.dot(E) / B.dot(B)
+    E_transverse = E - E_parallel
+    b, E2 = sympy.sqrt(B.dot(B)), sympy.sqrt(E_transverse.dot(E_transverse))
+    return {"Bf": B, "E": E, "Epar": E_parallel, "Eperp": E_transverse, "b": b, "E2": E2}
 
 
 def frame(say: Ledger, p: Any) -> Any:
@@ -90,11 +90,11 @@ def constants(say: Ledger, p: Any) -> Any:
     """Return C of (90) in its two parts, from y and v at t = 0."""
     s = split(p)
     C = exact(p.v) - say("(90)", "dy", mu=p.mu, E=s["E"], t=0, c=p.c, y=p.y, Bf=s["Bf"], C=[0, 0, 0])
-    along = s["Bf"] * s["Bf"].dot(C) / s["Bf"].dot(s["Bf"])
-    return along, C - along
+    parallel = s["Bf"] * s["Bf"].dot(C) / s["Bf"].dot(s["Bf"])
+    return parallel, C - parallel
 
 
-def across(say: Ledger, p: Any, t: Any, a: Any, omega0: Any) -> Any:
+def transverse_path(say: Ledger, p: Any, t: Any, a: Any, omega0: Any) -> Any:
     """Return y_perp(t) of (98), on a circle of radius a that begins at the angle omega0."""
     s = split(p)
     e1, e2, _ = frame(say, p)
@@ -105,12 +105,12 @@ def across(say: Ledger, p: Any, t: Any, a: Any, omega0: Any) -> Any:
 def circle(say: Ledger, p: Any) -> tuple[Any, Any]:
     """Return a and omega0 of (98) from the position at t = 0."""
     y, B = exact(p.y), exact(p.B)
-    arm = y - B * B.dot(y) / B.dot(B) - across(say, p, 0, 0, 0)
+    arm = y - B * B.dot(y) / B.dot(B) - transverse_path(say, p, 0, 0, 0)
     e1, e2, _ = frame(say, p)
     return sympy.sqrt(arm.dot(arm)), sympy.atan2(arm.dot(e1).evalf(80), arm.dot(e2).evalf(80))
 
 
-def along(say: Ledger, p: Any) -> Any:
+def parallel_path(say: Ledger, p: Any) -> Any:
     """Return y_par(t) of (93)."""
     y, B = exact(p.y), exact(p.B)
     C, start = constants(say, p)[0], B * B.dot(y) / B.dot(B)
@@ -119,7 +119,7 @@ def along(say: Ledger, p: Any) -> Any:
 
 def place(say: Ledger, p: Any) -> Any:
     """Return y(t), (101)."""
-    return say("(101)", "y", ypar=along(say, p), yperp=across(say, p, p.t, *circle(say, p)))
+    return say("(101)", "y", ypar=parallel_path(say, p), yperp=transverse_path(say, p, p.t, *circle(say, p)))
 
 
 def velocity(say: Ledger, p: Any) -> Any:
@@ -130,7 +130,7 @@ def velocity(say: Ledger, p: Any) -> Any:
 
 def centre(say: Ledger, p: Any) -> Any:
     """Return O(t): y(t) on a circle of radius 0."""
-    return say("(101)", "y", ypar=along(say, p), yperp=across(say, p, p.t, 0, 0))
+    return say("(101)", "y", ypar=parallel_path(say, p), yperp=transverse_path(say, p, p.t, 0, 0))
 
 
 def trochoid(say: Ledger, p: Any) -> Any:
@@ -147,7 +147,7 @@ def fall(say: Ledger, p: Any) -> Any:
     return say("text-no-magnetic-field", "y", y0=p.y, C=p.v, t=p.t, mu=p.mu, E=p.E)
 
 
-def turned(say: Ledger, p: Any) -> Any:
+def rotated_arm(say: Ledger, p: Any) -> Any:
     """Return R(t) x of a point of the body."""
     return rotation(say, p, p.t) * exact(p.point)
 
@@ -217,8 +217,10 @@ TIES = (
         size=travelled,
         floors=("kernel",),
     ),
-    of_flight("Flight.arm", MATRIX, turned, size=length, floors=("kernel",)),
-    of_flight("Flight.position", f"{PATH} {MATRIX}", lambda say, p: place(say, p) + turned(say, p), size=travelled),
+    of_flight("Flight.arm", MATRIX, rotated_arm, size=length, floors=("kernel",)),
+    of_flight(
+        "Flight.position", f"{PATH} {MATRIX}", lambda say, p: place(say, p) + rotated_arm(say, p), size=travelled
+    ),
     of_flight(
         "Flight.velocity",
         f"{PATH} {MATRIX} (73) (12)",

@@ -18,8 +18,8 @@ def beta(say: Ledger, p: Any) -> Any:
 
 def coordinates(say: Ledger, p: Any, omega: Any) -> list[Any]:
     """Coordinates (53) of a point."""
-    at = dict(zip(("omega1", "omega2", "omega3"), omega, strict=True))
-    return [say("(53)", name, beta=beta(say, p), **at, **letters(p, "B2 B3")) for name in ("w1", "w2", "w3")]
+    start = dict(zip(("omega1", "omega2", "omega3"), omega, strict=True))
+    return [say("(53)", name, beta=beta(say, p), **start, **letters(p, "B2 B3")) for name in ("w1", "w2", "w3")]
 
 
 def axes(say: Ledger, p: Any) -> Any:
@@ -44,8 +44,8 @@ def off_canonical(say: Ledger, p: Any) -> Any:
     """Left side of (54) less the right one, times B3: what (50) has on its left."""
     w = dict(zip(("w1", "w2", "w3"), coordinates(say, p, p.omega), strict=True))
     a = {name: say("(54)", name, beta=beta(say, p)) for name in ("a2", "a3")}
-    left = say("(54)", "(1 - I)*B2^2", **w, **a)
-    return ((left - (1 - p.I) * sympy.Rational(p.B2) ** 2) * sympy.Rational(p.B3)).evalf(60)
+    left_side = say("(54)", "(1 - I)*B2^2", **w, **a)
+    return ((left_side - (1 - p.I) * sympy.Rational(p.B2) ** 2) * sympy.Rational(p.B3)).evalf(60)
 
 
 of_quadric = of(lambda f, p: f.Quadric(p.body, p.field), POINTS, at="omega")

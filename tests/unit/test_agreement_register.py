@@ -63,20 +63,20 @@ UNTIED = {
         for shape in "ring disk solid_cylinder thin_rod sphere spherical_shell spheroid".split()
     },
     **{
-        f"{name}Motion.{what}": "the rotation, tied or checked, in another form: test_quaternion, test_motion"
+        f"{name}Motion.{member}": "the rotation, tied or checked, in another form: test_quaternion, test_motion"
         for name in ("Elementary", "Free", "Ball", "General", "Top", "Elliptic", "Asymmetric")
-        for what in ("angular_velocity_in_laboratory", "euler_angles", "in_laboratory", "quaternion")
-        if (name, what) != ("Elementary", "quaternion")
+        for member in ("angular_velocity_in_laboratory", "euler_angles", "in_laboratory", "quaternion")
+        if (name, member) != ("Elementary", "quaternion")
     },
     **{
-        f"{name}Motion.{what}": "a quotient or another name of what is tied or checked: test_motion"
+        f"{name}Motion.{member}": "a quotient or another name of what is tied or checked: test_motion"
         for name in ("Elementary", "Free", "Ball", "General", "Top", "Elliptic")
-        for what in ("precession_rate", "spin_rate")
+        for member in ("precession_rate", "spin_rate")
     },
     **{
-        f"{name}Motion.{what}": "held against other ways to it in test_sensitivity, test_spectrum, test_actions"
+        f"{name}Motion.{member}": "held against other ways to it in test_sensitivity, test_spectrum, test_actions"
         for name in ("Elementary", "Free", "Ball", "General", "Top", "Elliptic", "Asymmetric")
-        for what in ("sensitivity", "spectrum", "actions")
+        for member in ("sensitivity", "spectrum", "actions")
     },
     **{
         f"GeneralMotion.{name}": SERIES
@@ -120,7 +120,11 @@ UNTIED = {
         for name in ("accuracy", "agreement", "frequencies", "on_torus", "riemann_matrix")
     },
     "AsymmetricMotion.follow": "fills the cache of states, whose values are read by rotation",
-    **{f"{name}Motion.{what}": AXES for name in ("Elliptic", "General", "Top") for what in ("places", "turning_axis")},
+    **{
+        f"{name}Motion.{member}": AXES
+        for name in ("Elliptic", "General", "Top")
+        for member in ("places", "turning_axis")
+    },
     **dict.fromkeys(
         ("EllipticMotion.cancelled", "GeneralMotion.cancelled", "TopMotion.cancelled"), "a count of digits"
     ),
@@ -193,7 +197,7 @@ def public_classes(floor: str) -> set[str]:
 
 def quantities(floor: str) -> set[str]:
     """Return every public quantity of a floor; what an object says of itself, as all do, is none."""
-    found = {
+    names = {
         f"{module}.{node.name}"
         for module, node in defined(floor)
         if isinstance(node, ast.FunctionDef) and module in FORMULAS[floor]
@@ -205,8 +209,8 @@ def quantities(floor: str) -> set[str]:
         if dataclasses.is_dataclass(cls):
             members -= {field.name for field in dataclasses.fields(cls) if field.init}
             members |= {field.name for field in dataclasses.fields(cls) if not field.init}
-        found |= {f"{name}.{member}" for member in members}
-    return found
+        names |= {f"{name}.{member}" for member in members}
+    return names
 
 
 @pytest.mark.slow

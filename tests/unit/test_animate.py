@@ -24,21 +24,26 @@ MOVING = ["escape", "film_strip", "flight", "rolling_cones", "tipping_disk"]
 
 def layers(scene: atlas.pictures.Scene, kind: type[Any]) -> list[Any]:
     """Return the layers of a kind in all panels of a scene."""
-    return [one for panel in scene.panels for one in panel.layers if isinstance(one, kind)]
+    return [layer for panel in scene.panels for layer in panel.layers if isinstance(layer, kind)]
 
 
 def test_the_bodies_of_the_film_strip_go_on_in_turn() -> None:
     """A step later each stands as the next was drawn, in the wide and the narrow figure, and none is a start still."""
     scene = recipes.load("film_strip").scene()
     later = movement.scene_at(scene, scene.lasts / 7)
-    for panels, moved in ((scene.panels, later.panels), (scene.narrow, later.narrow)):
-        drawn, after = (
-            [one.tip - one.tail for panel in some for one in panel.layers if getattr(one, "role", "") == "body_axis"]
-            for some in (panels, moved)
+    for panels, panels_later in ((scene.panels, later.panels), (scene.narrow, later.narrow)):
+        tips, after = (
+            [
+                layer.tip - layer.tail
+                for panel in panels_either
+                for layer in panel.layers
+                if getattr(layer, "role", "") == "body_axis"
+            ]
+            for panels_either in (panels, panels_later)
         )
-        assert len(drawn) == 8
-        assert np.allclose(after[:-1], drawn[1:], atol=1e-13)
-    assert "start" not in {one.text for one in layers(scene, Label)}
+        assert len(tips) == 8
+        assert np.allclose(after[:-1], tips[1:], atol=1e-13)
+    assert "start" not in {label.text for label in layers(scene, Label)}
 
 
 @pytest.mark.slow
@@ -83,28 +88,28 @@ def jumps(motion: Any, times: Any = None) -> bool:
 def test_an_animation_of_a_closed_motion_closes(p: int, q: int, periods: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """It lasts until the body is back; a frame after the last would be the first, its trace included."""
     monkeypatch.setattr(animation, "FRAMES", 4)
-    made: list[float] = []
+    times_made: list[float] = []
     draw = animation.any_motion.scene_at
     monkeypatch.setattr(
-        animation.any_motion, "scene_at", lambda motion, t, begin: made.append(t) or draw(motion, t, begin)
+        animation.any_motion, "scene_at", lambda motion, t, begin: times_made.append(t) or draw(motion, t, begin)
     )
     motion = atlas.Hyperbola(1.5, (1.0, 2.0)).closed(p, q)
     assert not jumps(motion)
-    times = np.unique(made)
+    times = np.unique(times_made)
     after = times[-1] + times[1]
     assert after == pytest.approx(periods * abs(2 * np.pi / motion.k))
     assert np.abs(motion.rotation(after) - np.eye(3)).max() < 1e-12
-    first, second = (
+    tips_first, second = (
         [
             points
-            for one in (Curve, Arrow)
-            for layer in layers(draw(motion, t, t - after), one)
+            for kind in (Curve, Arrow)
+            for layer in layers(draw(motion, t, t - after), kind)
             for points in movement.points_of(layer)
         ]
         for t in (0.0, after)
     )
-    assert len(first) > 2
-    assert all(np.abs(a - b).max() < 1e-9 for a, b in zip(first, second, strict=True))
+    assert len(tips_first) > 2
+    assert all(np.abs(a - b).max() < 1e-9 for a, b in zip(tips_first, second, strict=True))
 
 
 def test_an_animation_of_a_motion_that_does_not_close_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -120,10 +125,10 @@ def test_cones_touch_along_omega_at_every_time() -> None:
     scene, motion = recipes.load("rolling_cones").scene(), ElementaryMotion(1.5, (1.0, 2.0), -1.4)
     for t in (0.9, 4.0):
         panel = movement.scene_at(scene, t).panels[0]
-        (omega,) = (one.tip for one in panel.layers if getattr(one, "role", "") == "velocity")
+        (omega,) = (arrow.tip for arrow in panel.layers if getattr(arrow, "role", "") == "velocity")
         true = motion.rotation(t) @ motion.angular_velocity(t)
         assert np.linalg.norm(np.cross(omega, true)) < 1e-12 * np.linalg.norm(true)
-        for cone in (one for one in panel.layers if isinstance(one, Surface)):
+        for cone in (layer for layer in panel.layers if isinstance(layer, Surface)):
             assert abs(np.array([*omega, 1.0]) @ cone.quadric @ [*omega, 1.0]) < 1e-12
 
 
@@ -131,7 +136,9 @@ def test_cones_touch_along_omega_at_every_time() -> None:
 def test_moving_layers_have_a_path_and_start_where_they_are_drawn(name: str) -> None:
     """Each path is followed by a layer and is rigid; at t = 0 nothing is moved; surfaces take their form along."""
     scene = recipes.load(name).scene()
-    rides = {one.rides for panel in (*scene.panels, *scene.narrow) for one in panel.layers if hasattr(one, "rides")}
+    rides = {
+        layer.rides for panel in (*scene.panels, *scene.narrow) for layer in panel.layers if hasattr(layer, "rides")
+    }
     assert rides - {""} == {*scene.paths}
     assert scene.lasts > 0.0
     for path in scene.paths.values():
@@ -140,9 +147,9 @@ def test_moving_layers_have_a_path_and_start_where_they_are_drawn(name: str) -> 
         assert np.abs(s[0]).max() < 1e-12
         assert np.abs(R @ R.swapaxes(1, 2) - np.eye(len(s[0]))).max() < 1e-13
     for surface in layers(movement.scene_at(scene, 0.3 * scene.lasts), Surface):
-        grid = np.concatenate([np.reshape(one, (-1, 3)) for one in surface.grids])
-        full = np.concatenate([grid, np.ones((len(grid), 1))], axis=1)
-        assert np.abs(np.einsum("ni,ij,nj->n", full, surface.quadric, full)).max() < 1e-9
+        grid = np.concatenate([np.reshape(grid_points, (-1, 3)) for grid_points in surface.grids])
+        homogeneous = np.concatenate([grid, np.ones((len(grid), 1))], axis=1)
+        assert np.abs(np.einsum("ni,ij,nj->n", homogeneous, surface.quadric, homogeneous)).max() < 1e-9
         assert (grid @ surface.clip[:, :3].T <= surface.clip[:, 3] + 1e-9).all()
 
 
@@ -150,7 +157,7 @@ def test_dots_stay_on_their_curves() -> None:
     """At any time the dots of the tipping disk are at the angle of its axis then."""
     scene = recipes.load("tipping_disk").scene()
     motion = atlas.GeneralMotion(2.0, (0.0, 1.0), (1e-3, 0.0, -1.0))
-    dots = [one for one in movement.scene_at(scene, 7.0).panels[-1].layers if isinstance(one, Points)]
+    dots = [layer for layer in movement.scene_at(scene, 7.0).panels[-1].layers if isinstance(layer, Points)]
     for dot in dots:
         ((t, degrees),) = dot.points
         x, y, z = motion.third_axis(t)
@@ -160,7 +167,7 @@ def test_dots_stay_on_their_curves() -> None:
 def test_a_cone_as_flat_as_a_disk_is_drawn() -> None:
     """With omega3 = 0 the body's cone has a right angle: it is the disk across its axis."""
     scene = recipes.load("rolling_cones").scene(omega2=-0.5)
-    disk = next(one for one in layers(scene, Surface) if one.within)
+    disk = next(surface for surface in layers(scene, Surface) if surface.within)
     assert np.abs(disk.rims[0][:, 2]).max() < 1e-12
     assert np.linalg.norm(disk.rims[0], axis=1).min() == pytest.approx(1.0)
 
@@ -175,14 +182,14 @@ def test_frames_share_one_view() -> None:
     for k in range(2):
         moving.draw(k)
         (head,) = moving.figure.findobj(
-            lambda one: str(one.get_gid()).startswith("field-1-") and hasattr(one, "get_xy")
+            lambda artist: str(artist.get_gid()).startswith("field-1-") and hasattr(artist, "get_xy")
         )
         places.append(head.get_xy())
     assert np.ptp(places, axis=0).max() < 1e-9
-    own = [atlas.figure("rolling_cones", omega2=-1.2 - 0.6 * k) for k in (0, 1)]
+    figures = [atlas.figure("rolling_cones", omega2=-1.2 - 0.6 * k) for k in (0, 1)]
     heads = [
-        one.findobj(lambda o: str(o.get_gid()).startswith("field-1-") and hasattr(o, "get_xy"))[0].get_xy()
-        for one in own
+        figure.findobj(lambda o: str(o.get_gid()).startswith("field-1-") and hasattr(o, "get_xy"))[0].get_xy()
+        for figure in figures
     ]
     assert np.ptp(heads, axis=0).max() > 1.0
 
@@ -196,8 +203,8 @@ def test_a_frame_has_the_pixels_of_a_still_figure_of_its_time(name: str) -> None
     pictures = []
     for k in range(3):
         moving.draw(k)
-        still = to_figure(moving._scene(k), hold=moving._hold)
-        for figure in (moving.figure, still):
+        figure_still = to_figure(moving._scene(k), hold=moving._hold)
+        for figure in (moving.figure, figure_still):
             file = BytesIO()
             figure.savefig(file, format="raw", dpi=60)
             pictures.append(file.getvalue())
@@ -214,14 +221,14 @@ def test_axes_do_not_jump() -> None:
     limits = []
     for k in range(2):
         moving.draw(k)
-        limits.append([(one.get_xlim(), one.get_ylim()) for one in moving.figure.axes])
+        limits.append([(axes.get_xlim(), axes.get_ylim()) for axes in moving.figure.axes])
     assert limits[0] == limits[1]
     for k in range(2):
         scene = recipes.load("frequencies").scene(field=(1.0, 0.2 + k))
         for panel, (x, y) in zip(scene.panels, limits[0], strict=True):
             assert isinstance(panel, Plane)
-            for given, held in ((panel.x_limits, x), (panel.y_limits, y)):
-                assert given is None or (held[0] <= given[0] and given[1] <= held[1])
+            for limits_given, limits_held in ((panel.x_limits, x), (panel.y_limits, y)):
+                assert limits_given is None or (limits_held[0] <= limits_given[0] and limits_given[1] <= limits_held[1])
 
 
 def run(words: str, folder: Path) -> Any:
@@ -272,33 +279,33 @@ def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
     scene = animation.any_motion.scene_at(motion, 0.8, 0.0)
-    (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
+    (axis,) = (arrow for arrow in layers(scene, Arrow) if arrow.role == "body_axis")
     assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
     for t, start in ((0.8, 0.5), (0.2, -0.1)):  # the trace of its tip over the time before
-        (trace,) = (one.points for one in layers(animation.any_motion.scene_at(motion, t, start), Curve))
+        (trace,) = (curve.points for curve in layers(animation.any_motion.scene_at(motion, t, start), Curve))
         ends = np.array([motion.third_axis(start), motion.third_axis(t)])
         assert np.allclose(trace[[0, -1]], np.linalg.norm(axis.tip) * ends)
-    corners = np.unique(np.round(np.concatenate([one.rims[0] for one in layers(scene, Surface)]), 9), axis=0)
+    corners = np.unique(np.round(np.concatenate([surface.rims[0] for surface in layers(scene, Surface)]), 9), axis=0)
     second = np.einsum("ni,nj->ij", corners, corners)  # of a brick along its axes, as its moments are
     in_body = motion.rotation(0.8).T @ second @ motion.rotation(0.8)
     spread = np.diag(in_body)
     assert np.allclose(in_body, np.diag(spread), atol=1e-8)
-    own = spread.sum() - spread
-    assert np.allclose(own / own[1], np.array([0.8, 1.0, 1.3]), atol=1e-8)
+    moments = spread.sum() - spread
+    assert np.allclose(moments / moments[1], np.array([0.8, 1.0, 1.3]), atol=1e-8)
     moving = atlas.TopMotion((1, 0.5), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=3.0).animate([0.0, 0.4])
     animation.save(moving, tmp_path / "top.gif", "gif", 10, dpi=30)
-    shown = Image.open(BytesIO(b64decode(moving._repr_mimebundle_()["image/gif"])))  # in a notebook
-    assert (shown.format, shown.n_frames) == ("GIF", 2)
-    assert np.abs(np.array(shown.size) - 96 * moving._fig.get_size_inches()).max() <= 1  # as large as on paper
-    assert shown.info["duration"] == 1000 / 20  # without a wish twenty frames a second, as by the command
+    gif = Image.open(BytesIO(b64decode(moving._repr_mimebundle_()["image/gif"])))  # in a notebook
+    assert (gif.format, gif.n_frames) == ("GIF", 2)
+    assert np.abs(np.array(gif.size) - 96 * moving._fig.get_size_inches()).max() <= 1  # as large as on paper
+    assert gif.info["duration"] == 1000 / 20  # without a wish twenty frames a second, as by the command
     with pytest.raises(AtlasError, match="not an array"):
         ElementaryMotion(1.5, (1.0, 2.0), [0.1, 0.2]).animate()
 
 
 def test_upwards_is_the_direction_or_the_field_or_the_momentum() -> None:
     """Of a free body, I2 = 1 across the axis, whichever way it turns; of a body at rest the axis itself."""
-    free = Upright.of_motion(atlas.FreeMotion(1.5, (0.3, -0.7, 0.2)))
-    np.testing.assert_allclose(free.vector, (0.3, -0.7, 0.2 * 1.5), rtol=1e-15)
-    assert free.letter == r"\mathbf{m}"
+    upright = Upright.of_motion(atlas.FreeMotion(1.5, (0.3, -0.7, 0.2)))
+    np.testing.assert_allclose(upright.vector, (0.3, -0.7, 0.2 * 1.5), rtol=1e-15)
+    assert upright.letter == r"\mathbf{m}"
     assert Upright.of_motion(atlas.FreeMotion(1.5, (0.0, 0.0, 0.0))).vector == (0.0, 0.0, 1.0)
     assert Upright.of_motion(atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)).vector == (0.0, 1.0, 2.0)

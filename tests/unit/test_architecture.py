@@ -29,9 +29,9 @@ def test_a_path_is_there(path: str) -> None:
 def test_a_name_is_one_of_the_code() -> None:
     """Each class or constant that the text names is defined somewhere in the package."""
     code = "\n".join(file.read_text("utf-8") for file in (ROOT / "atlas").rglob("*.py"))
-    missing = [name for name in CLASSES if not re.search(rf"^(class {name}\b|{name}\b.*=)", code, re.MULTILINE)]
+    absent = [name for name in CLASSES if not re.search(rf"^(class {name}\b|{name}\b.*=)", code, re.MULTILINE)]
     assert len(CLASSES) > 10
-    assert not missing
+    assert not absent
     assert all(re.search(rf"^ *def {name}\(", code, re.MULTILINE) for name in ("load", "closed_form", "distances"))
 
 
@@ -43,12 +43,12 @@ def test_no_module_has_a_public_name() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "first", ["atlas.fitting", "atlas.checking.check", "atlas.sweeps.run", "atlas.pictures.drawing"]
+    "module", ["atlas.fitting", "atlas.checking.check", "atlas.sweeps.run", "atlas.pictures.drawing"]
 )
-def test_a_public_function_is_one_whatever_is_imported_first(first: str) -> None:
+def test_a_public_function_is_one_whatever_is_imported_first(module: str) -> None:
     """The functions of the package, after the modules that hold them, and these after the functions."""
     names = "fit, check, sweep, figure, plotter, animate, motion, simulate, drift, monodromy, clebsch"
-    code = f"import {first}, atlas; from atlas import {names}; import {first}\n" + "".join(
+    code = f"import {module}, atlas; from atlas import {names}; import {module}\n" + "".join(
         f"assert callable(atlas.{name}) and atlas.{name} is {name}\n" for name in names.split(", ")
     )
     subprocess.run([sys.executable, "-P", "-c", code], check=True)
@@ -61,14 +61,14 @@ def test_an_import_written_as_a_string_is_seen() -> None:
 
 def names_compared(code: str) -> list[str]:
     """Return the comparisons of a module with the name of a family, but those of a motion's kind or case."""
-    found = []
+    comparisons = []
     for node in ast.walk(ast.parse(code)):
         if isinstance(node, ast.Compare):
             sides = (node.left, *node.comparators)
             words = {x.value for side in sides for x in ast.walk(side) if isinstance(x, ast.Constant)}
             if words & set(FAMILIES) and not any(ast.unparse(side).endswith(("kind", "case")) for side in sides):
-                found.append(ast.unparse(node))
-    return found
+                comparisons.append(ast.unparse(node))
+    return comparisons
 
 
 @pytest.mark.slow
@@ -78,9 +78,9 @@ def test_no_name_of_a_family_is_tested_outside_its_folder() -> None:
     assert names_compared("args[:1] == ['asymmetric']")
     assert names_compared("family.name not in ('general', 'free')")
     assert not names_compared("motion.kind == 'ball'")
-    found = {
+    comparisons = {
         path.relative_to(ROOT).as_posix(): names
         for path in sorted((ROOT / "atlas").rglob("*.py"))
         if (names := names_compared(path.read_text("utf-8")))
     }
-    assert found == {}
+    assert comparisons == {}

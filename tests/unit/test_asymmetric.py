@@ -40,22 +40,22 @@ def fractions(values: Any) -> list[Fraction]:
     return [Fraction(int(x.p), int(x.q)) if isinstance(x, fmpq) else Fraction(x) for x in values]
 
 
-def held(found: Any, true: mpmath.matrix, digits: int) -> bool:
+def agrees(found: Any, true: mpmath.matrix, digits: int) -> bool:
     """Whether balls are that narrow, and hold what an integration found to so many digits."""
     near = arb(10) ** -digits
     entries = [(arb(found[i][j]), arb(mpmath.nstr(true[i, j], digits + 8))) for i in range(3) for j in range(3)]
     return all(x.rad() < near and abs(x - y) < near for x, y in entries)
 
 
-def overlap(first: Any, second: Any, error: float = 0.0) -> bool:
+def overlap(values: Any, second: Any, error: float = 0.0) -> bool:
     """Whether two matrices or vectors of balls have numbers in common, or come so near."""
-    rows = zip(np.ravel(np.array(first, object)), np.ravel(np.array(second, object)), strict=True)
+    rows = zip(np.ravel(np.array(values, object)), np.ravel(np.array(second, object)), strict=True)
     return all((arb(x) + arb(0, error)).overlaps(arb(y)) for x, y in rows)
 
 
-def narrow(found: Any, radius: float = 1e-25) -> bool:
+def narrow(values: Any, radius: float = 1e-25) -> bool:
     """Whether all balls are so narrow."""
-    return all(arb(x).rad() < radius for x in np.ravel(np.array(found, object)))
+    return all(arb(x).rad() < radius for x in np.ravel(np.array(values, object)))
 
 
 def turn(axis: Any, angle: arb) -> Any:
@@ -75,7 +75,7 @@ def test_thirty_digits_at_t_100_agree_with_taylor_series() -> None:
     states = taylor(fractions(BODY), fractions(FIELD), fractions(OMEGA), [3, 100], digits=34)
     with ctx.workprec(112):
         for state in states:
-            assert held(motion.rotation(state.t.numerator), state.R, 30)
+            assert agrees(motion.rotation(state.t.numerator), state.R, 30)
             assert overlap(motion.angular_velocity(int(state.t)), [arb(mpmath.nstr(x, 40)) for x in state.Omega], 1e-30)
 
 
@@ -94,11 +94,11 @@ def test_numbers_near_zero_have_their_digits(omega: tuple[str, ...]) -> None:
             expected = sign * w[k] * t + (sign * rate[k] + w[i] * w[j]) * t * t / 2
             assert abs(R[i, j] / expected - 1) < 1e-20
         assert all(
-            abs(found - x - v * t) < abs(arb(x or v * t)) * 1e-20 for found, x, v in zip(Omega, w, rate, strict=True)
+            abs(ball - x - v * t) < abs(arb(x or v * t)) * 1e-20 for ball, x, v in zip(Omega, w, rate, strict=True)
         )
 
 
-def seen(motion: Any, t: Any) -> list[Any]:
+def state_of(motion: Any, t: Any) -> list[Any]:
     """Return R, Omega and K of a motion."""
     return [motion.rotation(t), motion.angular_velocity(t), motion.field_in_body(t)]
 
@@ -108,11 +108,13 @@ def test_the_series_about_zero_is_the_flow(monkeypatch: pytest.MonkeyPatch) -> N
     t = fmpq(1, 1 << 18)
     for bits in (100, 800):
         with ctx.workprec(bits):
-            near = seen(Balls(*QUICK), t)
+            state_near = state_of(Balls(*QUICK), t)
             with monkeypatch.context() as patch:
                 patch.setattr(asymmetric, "NEAR", fmpq(0))
-                far = seen(Balls(*QUICK), t)
-            assert all(overlap(x, y) and narrow((x, y), 2.0 ** (8 - bits)) for x, y in zip(near, far, strict=True))
+                state_far = state_of(Balls(*QUICK), t)
+            assert all(
+                overlap(x, y) and narrow((x, y), 2.0 ** (8 - bits)) for x, y in zip(state_near, state_far, strict=True)
+            )
 
 
 def test_too_many_digits_are_refused_at_once() -> None:
@@ -152,8 +154,8 @@ def test_a_motion_restarted_from_its_state_continues() -> None:
     with ctx.workprec(90):
         K, Omega = motion.field_in_body(t), motion.angular_velocity(t)
         state = [[fmpq(int((x * 2**80).mid().floor().unique_fmpz()), 2**80) for x in v] for v in (K, Omega)]
-        rest = Balls(QUICK[0], *state)
-        expected = np.array(motion.rotation(t), object).dot(np.array(rest.rotation(s), object))
+        restarted = Balls(QUICK[0], *state)
+        expected = np.array(motion.rotation(t), object).dot(np.array(restarted.rotation(s), object))
         assert overlap(motion.rotation(t + s), expected, 1e-21)
         assert narrow(expected, 1e-18)
 
@@ -162,13 +164,13 @@ def test_a_motion_restarted_from_its_state_continues() -> None:
 def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
     """From -2B' - omega: R(t) = R_B(-2bt) R(-t), theorem-pair."""
     field, omega = fractions(QUICK[1]), fractions(QUICK[2])
-    other = Balls(QUICK[0], field, [-2 * b - w for b, w in zip(field, omega, strict=True)])
+    motion_back = Balls(QUICK[0], field, [-2 * b - w for b, w in zip(field, omega, strict=True)])
     t = fmpq(40)
     with ctx.workprec(80):
         b = arb(fmpq(*sum(x * x for x in field).as_integer_ratio())).sqrt()
         B = [fmpq(*x.as_integer_ratio()) for x in field]
         expected = turn(B, -2 * b * t).dot(np.array(quick().rotation(-t), object))
-        assert overlap(other.rotation(t), expected)
+        assert overlap(motion_back.rotation(t), expected)
         assert narrow(expected, 1e-16)
 
 
@@ -179,10 +181,10 @@ def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
     sign = round(float(np.linalg.det(P)))
     inertia, field, omega = (np.array(fractions(x), object)[list(order)] for x in QUICK)
     with ctx.workprec(80):
-        found = Balls(list(inertia), list(sign * field), list(sign * omega)).rotation(30)
+        rotation = Balls(list(inertia), list(sign * field), list(sign * omega)).rotation(30)
         expected = P.dot(np.array(quick().rotation(30), object)).dot(P.T)
-        assert overlap(found, expected)
-        assert narrow(found, 1e-16)
+        assert overlap(rotation, expected)
+        assert narrow(rotation, 1e-16)
 
 
 @pytest.mark.slow
@@ -195,8 +197,8 @@ def test_the_symmetric_body_is_exact_and_the_limit_of_others() -> None:
             I, B, w = ([x[i - shift] for i in range(3)] for x in (moments, field, omega))
             motion = Balls(I, B, w)
             assert motion.kind == "symmetric body"
-            found = motion.rotation(30)
-            assert overlap([[found[i - 3 + shift][j - 3 + shift] for j in range(3)] for i in range(3)], true)
+            rotation = motion.rotation(30)
+            assert overlap([[rotation[i - 3 + shift][j - 3 + shift] for j in range(3)] for i in range(3)], true)
         above, below = (
             np.array(Balls((1, 1 + d, moments[2]), field, omega).rotation(30), object) - np.array(true, object)
             for d in (fmpq(1, 2**40), -fmpq(1, 2**40))
@@ -225,7 +227,7 @@ def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: s
     assert motion.kind == kind
     (state,) = taylor(*map(fractions, (case[0], case[1], case[2])), [5], digits=30)
     with ctx.workprec(112):
-        assert held(motion.rotation(5), state.R, 25)
+        assert agrees(motion.rotation(5), state.R, 25)
         assert overlap(motion.angular_velocity(5), [arb(mpmath.nstr(x, 40)) for x in state.Omega], 1e-25)
 
 
@@ -233,12 +235,12 @@ def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: s
 def test_a_free_spin_about_a_principal_axis_is_a_turn(axis: int) -> None:
     """About the middle one, too, from which all neighbours depart."""
     e, t = np.eye(3)[axis], np.linspace(0, 12 * np.pi, 50)
-    found = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0, 0, 0), tuple(e))
+    motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0, 0, 0), tuple(e))
     turns = np.cos(t)[:, None, None] * (np.eye(3) - np.outer(e, e)) + np.outer(e, e)
     turns += np.sin(t)[:, None, None] * np.cross(np.eye(3), e)
-    assert np.abs(found.rotation(t) - turns).max() < 1e-14
-    assert np.abs(found.third_axis(t) - turns[..., 2]).max() < 1e-14
-    assert np.abs(found.rotation(t[-1]) - turns[-1]).max() < 1e-14
+    assert np.abs(motion.rotation(t) - turns).max() < 1e-14
+    assert np.abs(motion.third_axis(t) - turns[..., 2]).max() < 1e-14
+    assert np.abs(motion.rotation(t[-1]) - turns[-1]).max() < 1e-14
 
 
 @pytest.mark.parametrize("v", [2, -2])
@@ -303,8 +305,8 @@ def test_the_unit_of_time_changes_nothing() -> None:
     motion = quick()
     scaled = Balls(QUICK[0], *([x * 2**300 for x in fractions(v)] for v in QUICK[1:]))
     with ctx.workprec(80):
-        first, other = motion.rotation(6), scaled.rotation(fmpq(6, 2**300))
-    assert all(x.mid() == y.mid() for x, y in zip(np.ravel(first), np.ravel(other), strict=True))
+        rotation, rotation_scaled = motion.rotation(6), scaled.rotation(fmpq(6, 2**300))
+    assert all(x.mid() == y.mid() for x, y in zip(np.ravel(rotation), np.ravel(rotation_scaled), strict=True))
 
 
 def not_found(_: Any) -> None:
@@ -368,15 +370,17 @@ def test_floats_are_balls_rounded_and_arrays_are_motions_one_by_one() -> None:
     assert np.abs(R[1, 0] - true).max() <= 4 * EPS
     assert np.abs(np.vecmat(np.array(field), R) - K).max() <= 4 * EPS
     assert np.abs(motion.angular_momentum(0.0) - np.array(inertia) * omega)[0].max() <= 4 * EPS
-    one = atlas.AsymmetricMotion(inertia, field, omega)
-    assert np.abs(one.rotation_grid(0.5, 0.5, 3)[2] - R[1, 0]).max() <= 4 * EPS
-    assert (one._single().certified.rotation(1.5) == true).all()
-    assert one.energy == pytest.approx(sum(I * w * w for I, w in zip(inertia, omega, strict=True)) / 2, rel=4 * EPS)
+    motion_alone = atlas.AsymmetricMotion(inertia, field, omega)
+    assert np.abs(motion_alone.rotation_grid(0.5, 0.5, 3)[2] - R[1, 0]).max() <= 4 * EPS
+    assert (motion_alone._single().certified.rotation(1.5) == true).all()
+    assert motion_alone.energy == pytest.approx(
+        sum(I * w * w for I, w in zip(inertia, omega, strict=True)) / 2, rel=4 * EPS
+    )
     assert np.abs(Omega[0] - omega).max() <= EPS
-    both = atlas.AsymmetricMotion((1.0, np.array([[0.7], [0.7]]), 0.6), field, omega)
-    assert both.frequencies.shape == (2, 1, 3)
-    assert (both.frequencies == one.frequencies).all()
-    assert (both.energy == one.energy).all()
+    motions = atlas.AsymmetricMotion((1.0, np.array([[0.7], [0.7]]), 0.6), field, omega)
+    assert motions.frequencies.shape == (2, 1, 3)
+    assert (motions.frequencies == motion_alone.frequencies).all()
+    assert (motions.energy == motion_alone.energy).all()
 
 
 def test_the_start_is_known_without_a_closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -412,11 +416,11 @@ def test_impossible_motions_are_refused_in_one_line(case: tuple[Any, ...], words
 @pytest.mark.slow
 def test_the_command_prints_proven_digits_or_one_line() -> None:
     """`atlas motion` prints its kind and digits, or raises what becomes one line and status 2."""
-    given = [w for name, v in zip(("inertia", "field", "omega"), QUICK, strict=True) for w in (f"--{name}", *v)]
-    found = CliRunner().invoke(command, ["motion", *given, "--times", "0.5", "--digits", "25"])
-    assert found.exit_code == 0
-    assert "on a torus" in found.output
-    refused = CliRunner().invoke(command, ["motion", *given, "--inertia", "1", "1", "3"])
+    options = [w for name, v in zip(("inertia", "field", "omega"), QUICK, strict=True) for w in (f"--{name}", *v)]
+    outcome = CliRunner().invoke(command, ["motion", *options, "--times", "0.5", "--digits", "25"])
+    assert outcome.exit_code == 0
+    assert "on a torus" in outcome.output
+    refused = CliRunner().invoke(command, ["motion", *options, "--inertia", "1", "1", "3"])
     assert isinstance(refused.exception, atlas.AtlasError)
     assert "No body has the principal moments [1. 1. 3.]: " in str(refused.exception)
     assert "\n" not in str(refused.exception)
@@ -430,7 +434,7 @@ class Fake:
 
 
 @pytest.mark.parametrize(
-    ("fake", "apart", "times", "words"),
+    ("fake", "difference", "times", "words"),
     [
         (Fake(1e-40, 5e-15), 4e-15, [-4.05e11], r"^proved .* within 1.0e-40; rounding adds 5.0e-15 at most$"),
         (
@@ -450,18 +454,22 @@ class Fake:
     ],
 )
 def test_a_closed_form_is_held_against_the_twin(
-    fake: Fake, apart: float, times: list[float], words: str, monkeypatch: pytest.MonkeyPatch
+    fake: Fake, difference: float, times: list[float], words: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """At the last time alone where it is proved, else at four; within its bound and 1e-14, or it is not taken."""
-    asked = list[float]()
+    times_compared = list[float]()
     monkeypatch.setattr(kernels, "closed_form", lambda *_: fake)
-    monkeypatch.setattr(kernels.SingleAsymmetric, "_difference", lambda *given: (asked.append(given[-1]), apart)[1])
-    one = kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, -2.0, 0.2)))
-    assert one.closed is fake  # whose theta functions fit
-    assert not asked
-    assert re.match(words, one.agreement)
-    assert asked == pytest.approx(times, rel=1e-12)
-    assert (one.closed is fake) == (not words.startswith("^cert"))
+    monkeypatch.setattr(
+        kernels.SingleAsymmetric,
+        "_difference",
+        lambda *arguments: (times_compared.append(arguments[-1]), difference)[1],
+    )
+    single = kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, -2.0, 0.2)))
+    assert single.closed is fake  # whose theta functions fit
+    assert not times_compared
+    assert re.match(words, single.agreement)
+    assert times_compared == pytest.approx(times, rel=1e-12)
+    assert (single.closed is fake) == (not words.startswith("^cert"))
 
 
 def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:
@@ -478,9 +486,9 @@ def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:
         (0.0, 0.0, 2),
     ):
         times = start + step * np.arange(count)
-        found = motion.rotation_grid(start, step, count)
-        assert np.abs(found - motion.rotation(times)).max() <= 4 * EPS
-        for R, t in zip(found, times, strict=True):
+        grid = motion.rotation_grid(start, step, count)
+        assert np.abs(grid - motion.rotation(times)).max() <= 4 * EPS
+        for R, t in zip(grid, times, strict=True):
             assert (np.eye(3) == R).all() == (t == 0.0)
 
 
@@ -527,8 +535,8 @@ def test_balls_and_jacobis_functions_meet_for_any_time(inertia: Any, field: Any,
     single = kernels.SingleAsymmetric(Balls(inertia, field, omega))
     times = np.array([0.0, -7.5, 1e6, -1e12])
     for name in ("rotation", "angular_velocity", "field_in_body"):
-        found, true = getattr(single, name)(times), getattr(single.certified, name)(times)
-        assert np.abs(found - true).max() < 3.6e-15 * max(1.0, single.accuracy / 3.6e-15) * max(single.size, 1.0), name
+        values, true = getattr(single, name)(times), getattr(single.certified, name)(times)
+        assert np.abs(values - true).max() < 3.6e-15 * max(1.0, single.accuracy / 3.6e-15) * max(single.size, 1.0), name
 
 
 def test_an_elliptic_motion_by_its_state_is_made_of_jacobis_functions() -> None:

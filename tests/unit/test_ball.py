@@ -97,9 +97,9 @@ def test_the_small_third_column_keeps_its_digits() -> None:
 def test_rates_and_momenta_know_no_unit() -> None:
     """In arrays too, gamma grows with their unit, a power of two, and the axis does not change, to the last bit."""
     unit = 2.0 ** np.array([-900.0, 0.0, 900.0])
-    balls, one = BallMotion(2.0, 0.5 * unit, (0.3 * unit, -0.4 * unit)), BallMotion(2.0, 0.5, (0.3, -0.4))
-    assert (balls.gamma == one.gamma * unit).all()
-    assert (np.array(balls.k_hat) == np.array(one.k_hat)[:, None]).all()
+    balls, ball_alone = BallMotion(2.0, 0.5 * unit, (0.3 * unit, -0.4 * unit)), BallMotion(2.0, 0.5, (0.3, -0.4))
+    assert (balls.gamma == ball_alone.gamma * unit).all()
+    assert (np.array(balls.k_hat) == np.array(ball_alone.k_hat)[:, None]).all()
 
 
 @pytest.mark.parametrize("bad", [(0.0, 1.0, (1, 1)), (-1.0, 1.0, (1, 1)), (1.0, np.nan, (1, 1)), (1.0, 1.0, (1,))])

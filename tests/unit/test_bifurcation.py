@@ -50,13 +50,13 @@ def test_the_values_agree_with_elliptic_motions() -> None:
 @pytest.mark.parametrize("c", MOMENTA)
 def test_stability_is_the_convexity_of_the_curve(c: float) -> None:
     """The second derivative of H by F, by differences, has the sign of each stretch; the slope is -z/2D to 1e-6."""
-    one, kinds = Bifurcation(BODY, 1.0, c), set()
-    for stretch in one.stretches():
+    diagram, kinds = Bifurcation(BODY, 1.0, c), set()
+    for stretch in diagram.stretches():
         z = stretch.low + (stretch.high - stretch.low) * np.linspace(0.2, 0.8, 7)[:, None]
         step = 1e-4 * (stretch.high - stretch.low) * np.array([-1.0, 0.0, 1.0])
-        F, H = np.moveaxis(one.values((z + step).ravel(), stretch.branch).reshape(-1, 3, 2), -1, 0)
+        F, H = np.moveaxis(diagram.values((z + step).ravel(), stretch.branch).reshape(-1, 3, 2), -1, 0)
         slopes = np.diff(H) / np.diff(F)
-        assert np.abs(slopes.mean(axis=1) + z[:, 0] / (2 * one.D)).max() <= 1e-6
+        assert np.abs(slopes.mean(axis=1) + z[:, 0] / (2 * diagram.D)).max() <= 1e-6
         assert ((slopes[:, 1] > slopes[:, 0]) == ((F[:, 1] > F[:, 0]) == stretch.stable)).all()
         kinds.add((stretch.oval, stretch.stable))
     assert kinds >= {("unbounded", True), ("bounded", True), ("bounded", False)}
@@ -65,8 +65,8 @@ def test_stability_is_the_convexity_of_the_curve(c: float) -> None:
 @pytest.mark.parametrize("c", [*MOMENTA, 0.52, 1.38])
 def test_the_kinds_of_spins_agree_with_their_eigenvalues(c: float) -> None:
     """Of the equations of M and K, linear about a spin: imaginary, real, or complex exponents; both kinds occur."""
-    one = Bifurcation(BODY, 1.0, c)
-    for spin in one.spins:
+    diagram = Bifurcation(BODY, 1.0, c)
+    for spin in diagram.spins:
         M, K = np.zeros((2, 3))
         M[spin.axis], K[spin.axis] = c, 1.0
         states_ = np.concatenate([M, K]) + 1e-6 * np.concatenate([np.eye(6), -np.eye(6)])
@@ -74,8 +74,8 @@ def test_the_kinds_of_spins_agree_with_their_eigenvalues(c: float) -> None:
         rates = np.concatenate([np.cross(M, M / BODY) + np.cross(K, BODY * K), np.cross(K, M / BODY)], axis=1)
         exponents = np.linalg.eigvals((rates[:6] - rates[6:]).T / 2e-6)
         grows = exponents[exponents.real > 1e-3]
-        both = len(grows) and np.abs(grows.imag).max() > 1e-3
-        assert spin.kind == ("stable" if not len(grows) else "focus-focus" if both else "saddle")
+        is_focus = len(grows) and np.abs(grows.imag).max() > 1e-3
+        assert spin.kind == ("stable" if not len(grows) else "focus-focus" if is_focus else "saddle")
 
 
 @pytest.mark.parametrize("body", [BODY, np.array([1.0, 1.3, 2.1]), np.array([2.0, 0.6, 2.3])])
@@ -91,7 +91,7 @@ def test_the_spin_about_the_largest_moment_is_a_focus_between_two_momenta(body: 
 
 def test_no_motion_of_the_unbounded_oval_is_unstable_but_on_a_separatrix() -> None:
     """Of 400 draws, exactly; so is theorem-splitting's other case, s > 0 on the bounded oval."""
-    random, tried, kept = Random(4), set(), 0  # noqa: S311  draws, not secrets
+    random, tried, accepted = Random(4), set(), 0  # noqa: S311  draws, not secrets
     for _ in range(400):
         draw = ELLIPTIC["elliptic, ordinary"](random)
         motion = ExactElliptic(*draw)
@@ -101,8 +101,8 @@ def test_no_motion_of_the_unbounded_oval_is_unstable_but_on_a_separatrix() -> No
         tried.add((outer, s > 0, motion.stability))
         if motion.kind == "elliptic" and (outer or s > 0):
             assert motion.splitting > 0
-            kept += 1
-    assert kept > 100
+            accepted += 1
+    assert accepted > 100
     assert (False, False, "unstable") in tried
 
 
@@ -114,25 +114,25 @@ def test_random_motions_lie_in_the_shaded_region_and_fill_it() -> None:
         H = (np.vecdot(M, M / BODY) + np.vecdot(K, BODY * K)) / 2
         F = np.vecdot(M, M) - np.vecdot(K, BODY.prod() / BODY * K)
         points = np.column_stack([F, H - F / 2])[region.points[0, 0] > F]
-        edge, (left, right), (low, high) = Path(region.points), panel.x_limits, panel.y_limits
+        edge, (x_low, x_high), (low, high) = Path(region.points), panel.x_limits, panel.y_limits
         assert low < region.points[:, 1].min() < region.points[:, 1].max() < high
         wide = 1e-3 * (high - low)
         assert (edge.contains_points(points, radius=wide) | edge.contains_points(points, radius=-wide)).all()
-        count, xs, ys = np.histogram2d(*points.T, bins=(12, 12), range=((left, right), (low, high)))
+        count, xs, ys = np.histogram2d(*points.T, bins=(12, 12), range=((x_low, x_high), (low, high)))
         corners = np.array([[xs[i], ys[j]] for i, j in product(range(13), repeat=2)])
         inside = edge.contains_points(corners).reshape(13, 13)
-        whole = inside[1:, 1:] & inside[1:, :-1] & inside[:-1, 1:] & inside[:-1, :-1]
-        assert whole.sum() > 20
-        assert (count[whole] > 0).all()
-        for rest in (layer for layer in panel.layers if isinstance(layer, Points) and layer.role == "rest"):
-            assert abs(rest.points[0, 1] + rest.points[0, 0] / 2 - c) <= 1e-12  # at rest H = (M, K)
+        interior = inside[1:, 1:] & inside[1:, :-1] & inside[:-1, 1:] & inside[:-1, :-1]
+        assert interior.sum() > 20
+        assert (count[interior] > 0).all()
+        for layer_rest in (layer for layer in panel.layers if isinstance(layer, Points) and layer.role == "rest"):
+            assert abs(layer_rest.points[0, 1] + layer_rest.points[0, 0] / 2 - c) <= 1e-12  # at rest H = (M, K)
 
 
 def departed(M: np.ndarray, K: np.ndarray) -> float:
     """Return how many times farther a push takes a motion of BODY from its axis in the time 100."""
     push, times = np.array([0.3, 0.7, -0.5]), np.linspace(0.0, 100.0, 201)
-    one, other = (flow(BODY, (M + step * push) / BODY, K, 1.0, 0.0, times)[0] for step in (0.0, 1e-6))
-    return float(np.abs((other - one)[:, M == 0]).max()) / 1e-6
+    path, path_pushed = (flow(BODY, (M + step * push) / BODY, K, 1.0, 0.0, times)[0] for step in (0.0, 1e-6))
+    return float(np.abs((path_pushed - path)[:, M == 0]).max()) / 1e-6
 
 
 @pytest.mark.slow
@@ -141,8 +141,8 @@ def test_plane_pendulums_have_the_values_of_the_rays_and_their_stability() -> No
     for axis, low, high, stable in Bifurcation(BODY, 1.0, 0.0).rays():
         if low < high:
             F = min(low + 0.6, low + 0.7 * (high - low))
-            one, other = np.delete(np.arange(3), axis)
-            flat = max(one, other, key=lambda i: BODY.prod() / BODY[i])
+            axis_a, axis_b = np.delete(np.arange(3), axis)
+            flat = max(axis_a, axis_b, key=lambda i: BODY.prod() / BODY[i])
             K, M = np.eye(3)[flat], np.sqrt(F + BODY.prod() / BODY[flat]) * np.eye(3)[axis]
             H = (np.vecdot(M, M / BODY) + np.vecdot(K, BODY * K)) / 2
             assert abs(2 * H - F / BODY[axis] - BODY.sum() + BODY[axis]) <= 1e-12
@@ -152,27 +152,30 @@ def test_plane_pendulums_have_the_values_of_the_rays_and_their_stability() -> No
 @pytest.mark.slow
 def test_the_isolated_focus_has_monodromy_and_a_regular_value_has_none() -> None:
     """Round it one period comes back with the other added; the same loop beside it brings both back."""
-    one = Bifurcation(BODY, 1.0, 0.8)
+    diagram = Bifurcation(BODY, 1.0, 0.8)
     t = 2 * np.pi * np.arange(16) / 16
     ring = np.stack([0.06 * np.cos(t), 0.03 * np.cos(t) + 0.02 * np.sin(t)], axis=1)
-    spin = one.spins[2]
+    spin = diagram.spins[2]
     assert spin.kind == "focus-focus"
     centres = np.array([[spin.F, spin.H], [spin.F + 0.3, spin.H + 0.15]])
-    (matrix, step), (beside, _) = carried(one, 2, ring + centres[0]), carried(one, 2, ring[::2] + centres[1])
+    (matrix, step), (matrix_trivial, _) = (
+        carried(diagram, 2, ring + centres[0]),
+        carried(diagram, 2, ring[::2] + centres[1]),
+    )
     change = np.array(matrix) - np.eye(2, dtype=int)
     assert step < 0.2
     assert change.any()
     assert not (change @ change).any()  # unipotent
     assert np.gcd.reduce(change.ravel()) == 1  # one focus
-    assert beside == ((1, 0), (0, 1))
+    assert matrix_trivial == ((1, 0), (0, 1))
 
 
 def test_the_edge_is_reached() -> None:
     """Where the drawing has its edge there is an elliptic motion with these H, F and c: K is found from z."""
-    one = Bifurcation(BODY, 1.0, 0.8)
-    for stretch in one.stretches():
+    diagram = Bifurcation(BODY, 1.0, 0.8)
+    for stretch in diagram.stretches():
         z = stretch.low + 0.37 * (stretch.high - stretch.low)
-        x = z + one.D / BODY
+        x = z + diagram.D / BODY
         v = stretch.branch * np.sqrt(x.prod())
         s, (low, *_, high) = -0.8 / v, np.argsort(1 / x)
         share = (s - 1 / x[low]) / (1 / x[high] - 1 / x[low])
@@ -181,7 +184,7 @@ def test_the_edge_is_reached() -> None:
         motion = EllipticMotion(BODY, K, z, stretch.branch)
         true = clebsch(BODY, np.array(motion.omega), K)
         assert abs(true.MK - 0.8) <= 1e-12
-        F, H = one.values(np.array([z]), stretch.branch)[0]
+        F, H = diagram.values(np.array([z]), stretch.branch)[0]
         assert max(abs(F - true.F), abs(H - true.H)) <= 1e-11
 
 
@@ -216,8 +219,8 @@ def test_the_loop_on_the_torus_closes_and_turns_the_body_by_its_rate_less_an_are
     field, W = (fmpq(3, 5), fmpq(3, 5), fmpq(1, 2)), (fmpq(9, 10), fmpq(13, 10), fmpq(7, 10))
     moments = fmpq(1, 2), fmpq(1), fmpq(7, 5)
     with workprec(96):
-        found = min(Torus(moments, W, field).periods(96), key=lambda one: abs(float(one.H.mid())))
-        H, F, angle = (float(x.mid()) for x in (found.H, found.F, found.angle))
+        period = min(Torus(moments, W, field).periods(96), key=lambda period_drawn: abs(float(period_drawn.H.mid())))
+        H, F, angle = (float(x.mid()) for x in (period.H, period.F, period.angle))
     K, start = (np.array([float(x) for x in row]) for row in (field, W))
     b = float(np.linalg.norm(K))
     assert np.abs(back[-1] - K / b).max() <= 1e-8
@@ -230,12 +233,14 @@ def test_the_loop_on_the_torus_closes_and_turns_the_body_by_its_rate_less_an_are
 
 def test_the_line_on_the_torus_is_straight_and_the_orbit_that_of_the_certified_motion() -> None:
     """The tube's angle grows in proportion to the other; K at the end of the teal line is the certified one, 1e-8."""
-    left, right = recipes.load("torus_of_flows").scene(stop=12.0).panels
-    line = next(layer.points for layer in left.layers if isinstance(layer, Curve) and layer.role == "trajectory")
-    first, second = np.unwrap([np.arctan2(line[:, 1], line[:, 0]), np.arctan2(line[:, 2], np.hypot(*line.T[:2]) - 1)])
-    slopes = np.diff(second) / np.diff(first)
+    panel_torus, panel_orbit = recipes.load("torus_of_flows").scene(stop=12.0).panels
+    line = next(layer.points for layer in panel_torus.layers if isinstance(layer, Curve) and layer.role == "trajectory")
+    angle, second = np.unwrap([np.arctan2(line[:, 1], line[:, 0]), np.arctan2(line[:, 2], np.hypot(*line.T[:2]) - 1)])
+    slopes = np.diff(second) / np.diff(angle)
     assert np.ptp(slopes) <= 1e-9 * abs(slopes[0])
-    orbit = next(layer.points for layer in right.layers if isinstance(layer, Curve) and layer.role == "fine_trajectory")
+    orbit = next(
+        layer.points for layer in panel_orbit.layers if isinstance(layer, Curve) and layer.role == "fine_trajectory"
+    )
     motion = AsymmetricMotion(BODY, (0.6, 0.6, 0.5), (0.3, 0.7, 0.2))
     assert np.abs(orbit[-1] * np.sqrt(0.97) - motion.field_in_body(12.0)).max() <= 1e-8
 
@@ -258,8 +263,8 @@ def test_the_turn_is_the_dynamic_part_less_the_area_of_the_curve_on_the_sphere()
 def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
     """R_3 at the last time drawn, seen with the field upright, 1e-8; the first body is symmetric, its zone narrow."""
     panels = recipes.load("flattening").scene(first=(1.0, 0.5), stop=6.0).panels
-    across, along = np.array([1.0, 0.5]) / np.hypot(1.0, 0.5)
-    upright = np.array([[1.0, 0.0, 0.0], [0.0, along, -across], [0.0, across, along]])
+    sine, cosine = np.array([1.0, 0.5]) / np.hypot(1.0, 0.5)
+    upright = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
     for panel, I1 in zip(panels, (1.0, 0.5), strict=True):
         (line,) = (layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "trace")
         motion = AsymmetricMotion((I1, 1.0, 1.5), (0.0, 1.0, 0.5), (0.0, 0.9, 3.0))
@@ -269,10 +274,12 @@ def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
 @pytest.mark.parametrize("c", [0.7, -1.9])
 def test_the_diagram_does_not_depend_on_the_unit_of_time(c: float) -> None:
     """With b twice and c four times as large places are the same, F, H and C/D^2 four times as large, to the bit."""
-    one, other = Bifurcation((0.8, 1.0, 1.3), 1.25, c), Bifurcation((0.8, 1.0, 1.3), 2.5, 4 * c)
-    assert [*one.stretches()] == [*other.stretches()]
-    for stretch in one.stretches():
+    diagram, diagram_scaled = Bifurcation((0.8, 1.0, 1.3), 1.25, c), Bifurcation((0.8, 1.0, 1.3), 2.5, 4 * c)
+    assert [*diagram.stretches()] == [*diagram_scaled.stretches()]
+    for stretch in diagram.stretches():
         z = np.linspace(stretch.low, stretch.high, 7)[1:-1]
-        assert np.array_equal(4 * one.values(z, stretch.branch), other.values(z, stretch.branch))
-        assert np.array_equal(4 * one.splitting(z, stretch.branch), other.splitting(z, stretch.branch))
-    assert [(x.axis, x.kind, 4 * x.F, 4 * x.H) for x in one.spins] == [(x.axis, x.kind, x.F, x.H) for x in other.spins]
+        assert np.array_equal(4 * diagram.values(z, stretch.branch), diagram_scaled.values(z, stretch.branch))
+        assert np.array_equal(4 * diagram.splitting(z, stretch.branch), diagram_scaled.splitting(z, stretch.branch))
+    assert [(x.axis, x.kind, 4 * x.F, 4 * x.H) for x in diagram.spins] == [
+        (x.axis, x.kind, x.F, x.H) for x in diagram_scaled.spins
+    ]

@@ -123,15 +123,15 @@ def test_a_turned_body_is_found_with_its_axis(seed: int) -> None:
     rng = np.random.default_rng(seed)
     masses, positions = points([(rng.uniform(0.5, 2), z, rng.uniform(0.5, 2)) for z in rng.normal(size=3)], 7)
     turn = Rotation.random(rng=rng).as_matrix()
-    still = SymmetricBody.from_point_masses(masses, positions, tolerance=1e-9)
-    turned = SymmetricBody.from_point_masses(masses, positions @ turn.T + rng.normal(size=3), tolerance=1e-9)
-    size = max(still.I2, still.I3)
-    assert abs(still.I2 - turned.I2) < 100 * EPS * size
-    assert abs(still.I3 - turned.I3) < 100 * EPS * size
-    assert np.abs(turned.axes @ turned.axes.T - np.eye(3)).max() < 8 * EPS
-    assert np.linalg.det(turned.axes) > 0
-    gap = abs(still.mass_matrix[0] - still.mass_matrix[2]) / size
-    assert abs(abs(turned.axes[2] @ turn[:, 2]) - 1) < 100 * EPS / min(gap, 1) ** 2
+    body = SymmetricBody.from_point_masses(masses, positions, tolerance=1e-9)
+    body_turned = SymmetricBody.from_point_masses(masses, positions @ turn.T + rng.normal(size=3), tolerance=1e-9)
+    size = max(body.I2, body.I3)
+    assert abs(body.I2 - body_turned.I2) < 100 * EPS * size
+    assert abs(body.I3 - body_turned.I3) < 100 * EPS * size
+    assert np.abs(body_turned.axes @ body_turned.axes.T - np.eye(3)).max() < 8 * EPS
+    assert np.linalg.det(body_turned.axes) > 0
+    gap = abs(body.mass_matrix[0] - body.mass_matrix[2]) / size
+    assert abs(abs(body_turned.axes[2] @ turn[:, 2]) - 1) < 100 * EPS / min(gap, 1) ** 2
 
 
 @given(seeds)
@@ -208,8 +208,8 @@ def test_a_thin_plane_body_is_a_body() -> None:
     """A plane strip, whose largest moment is the sum of the others, is not refused for its rounding."""
     masses, strip = np.ones(4), np.array([[1, 1e-6, 0], [-1, 1e-6, 0], [1, -1e-6, 0], [-1, -1e-6, 0]])
     for seed in range(20):
-        turned = strip @ Rotation.random(rng=np.random.default_rng(seed)).as_matrix().T
-        inertia = inertia_from_mass_matrix(mass_matrix_of_points(masses, turned))
+        strip_turned = strip @ Rotation.random(rng=np.random.default_rng(seed)).as_matrix().T
+        inertia = inertia_from_mass_matrix(mass_matrix_of_points(masses, strip_turned))
         assert np.array_equal(inertia_tensor(inertia), inertia)
 
 
@@ -247,7 +247,7 @@ def test_a_ratio_above_two_is_refused_with_the_reason() -> None:
 
 
 @pytest.mark.parametrize(
-    "of",
+    "quantity",
     [
         lambda body: np.stack(body.mass_matrix, -1),
         lambda body: ElementaryMotion(body, (1.0, 2.0), 0.7).rotation(3.0),
@@ -259,13 +259,15 @@ def test_a_ratio_above_two_is_refused_with_the_reason() -> None:
         lambda body: TopMotion((body.I2, body.I3), (0.1, 0.2), (0.6, 0.8), (0, 0, 3)).rotation(1.0),
     ],
 )
-def test_an_array_of_bodies_is_its_bodies(of: Callable[[SymmetricBody], Any]) -> None:
+def test_an_array_of_bodies_is_its_bodies(quantity: Callable[[SymmetricBody], Any]) -> None:
     """What is computed of an array, made from arrays of masses and sizes, is what each body has, within 4e-15."""
     mass, radius = np.array([[1.0], [2.0]]), np.array([1.0, 1.2, 1.4])
     bodies = SymmetricBody.cylindrical_shell(mass, radius, 0.8)
-    each = [[SymmetricBody.cylindrical_shell(m, r, 0.8) for r in radius.tolist()] for m in mass[:, 0].tolist()]
-    assert of(bodies) == pytest.approx(np.array([[of(one) for one in row] for row in each]), rel=4e-15, abs=4e-15)
-    assert bodies == SymmetricBody(bodies.I2, bodies.I3) != each[0][0]
+    bodies_alone = [[SymmetricBody.cylindrical_shell(m, r, 0.8) for r in radius.tolist()] for m in mass[:, 0].tolist()]
+    assert quantity(bodies) == pytest.approx(
+        np.array([[quantity(body) for body in row] for row in bodies_alone]), rel=4e-15, abs=4e-15
+    )
+    assert bodies == SymmetricBody(bodies.I2, bodies.I3) != bodies_alone[0][0]
 
 
 @pytest.mark.parametrize(

@@ -40,10 +40,10 @@ def test_the_entry_of_another_key_is_missing(tmp_path: Path) -> None:
     cache = Cache(tmp_path)
     cache.put(KEY, b"one")
     cache.put(OTHER, b"two")
-    one, other = path_of(cache, KEY), path_of(cache, OTHER)
-    content = one.read_bytes()
-    one.write_bytes(other.read_bytes())
-    other.write_bytes(content)
+    entry, entry_other = path_of(cache, KEY), path_of(cache, OTHER)
+    content = entry.read_bytes()
+    entry.write_bytes(entry_other.read_bytes())
+    entry_other.write_bytes(content)
     assert cache.get(KEY) is cache.get(OTHER) is None
     assert cache.recall(KEY, lambda: b"one") == cache.get(KEY) == b"one"
 
@@ -94,11 +94,11 @@ def test_unused_cache_entries_are_removed(tmp_path: Path) -> None:
     fresh.write_text("half")
     for path, age in ((path_of(cache, RECENT), UNUSED), (fresh, DAY)):
         os.utime(path, (now - age + 60, now - age + 60))
-    left = [tmp_path / "tmp" / "killed" / "file", path_of(cache, OTHER).with_name(".half.part")]
-    for path in left:
+    leftovers = [tmp_path / "tmp" / "killed" / "file", path_of(cache, OTHER).with_name(".half.part")]
+    for path in leftovers:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("half")
-    for path in (left[0].parent, left[1]):
+    for path in (leftovers[0].parent, leftovers[1]):
         os.utime(path, (now - DAY - 10, now - DAY - 10))
     with cache.temporary() as folder:
         cache.prune()
@@ -107,7 +107,7 @@ def test_unused_cache_entries_are_removed(tmp_path: Path) -> None:
     assert (tmp_path / ".gitignore").read_text() == "*\n"
     assert cache.get(OTHER) == b"x"
     assert not list(tmp_path.glob(f"*/{KEY}"))
-    assert not any(path.exists() for path in left)
+    assert not any(path.exists() for path in leftovers)
     assert fresh.exists()
     assert path_of(cache, RECENT).exists()
 

@@ -48,9 +48,9 @@ def command(folder: Path, *words: str) -> list[str]:
     return [*program, "report", str(folder / "small.toml"), "--out", str(folder / "out"), *words]
 
 
-def run(words: list[str], **more: object) -> subprocess.CompletedProcess[str]:
+def run(words: list[str], **options: object) -> subprocess.CompletedProcess[str]:
     """Run a build to its end."""
-    return subprocess.run(words, capture_output=True, text=True, check=False, **more)  # type: ignore[call-overload,no-any-return]
+    return subprocess.run(words, capture_output=True, text=True, check=False, **options)  # type: ignore[call-overload,no-any-return]
 
 
 def content(folder: Path) -> dict[str, str]:
@@ -72,9 +72,9 @@ def peace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def undisturbed(peace: Path) -> dict[str, str]:
     """Return what is built in peace."""
-    found = content(peace)
-    assert {"small/index.html", "small/manifest.json", "small.pdf"} <= found.keys()
-    return found
+    files = content(peace)
+    assert {"small/index.html", "small/manifest.json", "small.pdf"} <= files.keys()
+    return files
 
 
 @pytest.fixture
@@ -213,11 +213,11 @@ def test_nothing_changed_means_nothing_built(copy: Path) -> None:
     after = {path: path.stat().st_mtime_ns for path in (copy / "out").rglob("*") if path.is_file()}
     assert {path for path in before if before[path] != after.get(path)} == set()
     victim = copy / "out" / "small" / "index.html"
-    good = victim.read_bytes()
+    content_before = victim.read_bytes()
     victim.unlink()
     assert run(words).returncode == 0
-    assert victim.read_bytes() == good
+    assert victim.read_bytes() == content_before
     victim.write_text("mine")
     assert run(words).returncode == 2
     assert victim.read_text() == "mine"
-    assert victim.with_name("index.new.html").read_bytes() == good
+    assert victim.with_name("index.new.html").read_bytes() == content_before

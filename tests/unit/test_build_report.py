@@ -141,13 +141,13 @@ def test_the_math_font_holds_radicals_and_all_characters_of_formulas(built: Buil
     assert 0x221A in covered
     for path, page in pages(built):
         for formula in page.xpath("//*[local-name()='math']"):
-            shown = {c for c in formula.text_content() if c.strip()}
+            characters = {c for c in formula.text_content() if c.strip()}
             letters = {mi.text for mi in formula.xpath(".//*[local-name()='mi'][not(@mathvariant)]") if mi.text}
-            shown |= {
+            characters |= {
                 italic(letter) for letter in letters if len(letter) == 1 and letter.isascii() and letter.isalpha()
             }
-            missing = {c for c in shown if ord(c) not in covered}
-            assert not missing, (path.name, missing)
+            uncovered = {c for c in characters if ord(c) not in covered}
+            assert not uncovered, (path.name, uncovered)
 
 
 def test_a_figure_that_fails_leaves_a_note_and_stops_nothing(built: Built) -> None:
@@ -183,14 +183,14 @@ def test_the_pdf_has_the_same_content(built: Built) -> None:
     for title in ("The first page", "The second page", "A section of it"):
         assert title in texts[1]
         assert any(title in text for text in texts[2:])
-    whole = " ".join(texts)
+    pdf_text = " ".join(texts)
     for words in ("Figure 1", "Table 1", "Table 2", "(71)", "(71)", "(A1)", "hyperbola", "stable"):
-        assert words in whole
-    assert not re.search(r"\\[a-z]{2,}|\$|@mf", whole)
+        assert words in pdf_text
+    assert not re.search(r"\\[a-z]{2,}|\$|@mf", pdf_text)
 
 
 @pytest.mark.parametrize(
-    ("right", "wrong", "said"),
+    ("line", "line_wrong", "message"),
     [
         (
             'recipe = "hyperbola"',
@@ -200,11 +200,11 @@ def test_the_pdf_has_the_same_content(built: Built) -> None:
         ('name = "mine"', 'name = "other"', "the report's name is 'other', and must be that of its file, 'mine'"),
     ],
 )
-def test_a_mistake_names_the_file(tmp_path: Path, right: str, wrong: str, said: str) -> None:
+def test_a_mistake_names_the_file(tmp_path: Path, line: str, line_wrong: str, message: str) -> None:
     """Of several reports that are built at once it is known which to mend."""
     file = tmp_path / "mine.toml"
-    file.write_text(MINE.replace(right, wrong), encoding="utf-8")
-    with pytest.raises(AtlasError, match=rf"mine\.toml: {said}"):
+    file.write_text(MINE.replace(line, line_wrong), encoding="utf-8")
+    with pytest.raises(AtlasError, match=rf"mine\.toml: {message}"):
         build_report(file, tmp_path / "out")
 
 
@@ -236,11 +236,11 @@ def test_text_is_escaped_for_html(tmp_path: Path) -> None:
     title = "I < 2 & [#this] $5 *now* <b>"
     short = MINE.split("blocks = [", maxsplit=1)[0].replace("The first page", title) + "blocks = []\n"
     file.write_text(short, encoding="utf-8")
-    made = build_report(file, tmp_path / "out")
-    heading = re.search(r"<h1>(.*?)</h1>", made.index.read_text(encoding="utf-8"))
+    report = build_report(file, tmp_path / "out")
+    heading = re.search(r"<h1>(.*?)</h1>", report.index.read_text(encoding="utf-8"))
     assert heading
     assert unescape(heading[1]) == title
-    assert title in " ".join(PdfReader(BytesIO(made.pdf.read_bytes())).pages[2].extract_text().split())
+    assert title in " ".join(PdfReader(BytesIO(report.pdf.read_bytes())).pages[2].extract_text().split())
 
 
 @pytest.mark.slow
@@ -248,16 +248,16 @@ def test_pages_or_the_pdf_alone(tmp_path: Path) -> None:
     """With one format the other stays as it was; asked for both, only the one that is out of date is made."""
     file, out = tmp_path / "mine.toml", tmp_path / "out"
     file.write_text(MINE.replace("{ mu = 0.0 }", "{ }"), encoding="utf-8")
-    first = build_report(file, out)
+    report = build_report(file, out)
     assert build_report(file, out).reasons[0][2].startswith("taken")
-    before = first.pdf.read_bytes()
+    before = report.pdf.read_bytes()
     file.write_text(MINE.replace("{ mu = 0.0 }", "{ }").replace("A Small Report", "A New Title"), encoding="utf-8")
     build_report(file, out, formats=["html"])
-    assert "A New Title" in first.index.read_text("utf-8")
-    assert first.pdf.read_bytes() == before
+    assert "A New Title" in report.index.read_text("utf-8")
+    assert report.pdf.read_bytes() == before
     assert build_report(file, out, formats=["html"]).reasons[0][2].startswith("taken")
-    pages = {path: path.stat().st_mtime_ns for path in first.index.parent.rglob("*") if path.is_file()}
+    pages = {path: path.stat().st_mtime_ns for path in report.index.parent.rglob("*") if path.is_file()}
     build_report(file, out, formats=["pdf"])
-    assert "A New Title" in PdfReader(first.pdf).pages[0].extract_text()
-    assert {path: path.stat().st_mtime_ns for path in first.index.parent.rglob("*") if path.is_file()} == pages
+    assert "A New Title" in PdfReader(report.pdf).pages[0].extract_text()
+    assert {path: path.stat().st_mtime_ns for path in report.index.parent.rglob("*") if path.is_file()} == pages
     assert build_report(file, out).reasons[0][2].startswith("taken")

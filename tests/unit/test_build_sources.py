@@ -149,12 +149,12 @@ def test_one_thread_parses_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyP
     inside, together = list[str](), list[int]()
     parse = ast.parse
 
-    def slow(*given: Any) -> ast.Module:
+    def slow(*arguments: Any) -> ast.Module:
         inside.append("")
         together.append(len(inside))
         time.sleep(0.02)
         inside.pop()
-        return parse(*given)
+        return parse(*arguments)
 
     files = [tmp_path / f"recipe_{i}.py" for i in range(4)]
     for i, file in enumerate(files):
@@ -163,7 +163,7 @@ def test_one_thread_parses_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyP
     with ThreadPoolExecutor(4) as threads:
         digests = [threads.submit(Sources().closure, [file]) for file in files[:2]]
         titles = [threads.submit(recipes.load, str(file)) for file in files[2:]]
-        assert len({one.result() for one in digests}) == 2
-        assert [one.result().title for one in titles] == ["Title 2", "Title 3"]
+        assert len({future.result() for future in digests}) == 2
+        assert [future.result().title for future in titles] == ["Title 2", "Title 3"]
     assert len(together) >= 4
     assert max(together) == 1

@@ -42,10 +42,12 @@ build_report(sys.argv[1], __import__("pathlib").Path(sys.argv[2]), tell)
 def state(folder: Path) -> dict[str, bytes]:
     """Return what a reader gets: all files but hidden ones and the times that a build took."""
     names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
-    shown = (
-        name for name in names if not any(part.startswith(".") for part in name.parts) and "costs" not in name.name
+    names_shown = (
+        name
+        for name in names
+        if not any(segment.startswith(".") for segment in name.parts) and "costs" not in name.name
     )
-    return {str(name): (folder / name).read_bytes() for name in shown}
+    return {str(name): (folder / name).read_bytes() for name in names_shown}
 
 
 def report(folder: Path, title: str) -> Path:
@@ -122,11 +124,11 @@ def test_stale_pages_are_removed_and_user_files_are_kept(tmp_path: Path) -> None
 @pytest.mark.slow
 def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
     """Where a folder of the report's name holds the user's own files, they stay."""
-    mine = tmp_path / "out" / "plain" / "notes" / "thesis.tex"
-    mine.parent.mkdir(parents=True)
-    mine.write_text("mine")
+    file_mine = tmp_path / "out" / "plain" / "notes" / "thesis.tex"
+    file_mine.parent.mkdir(parents=True)
+    file_mine.write_text("mine")
     build_report(report(tmp_path, "T"), tmp_path / "out")
-    assert mine.read_text() == "mine"
+    assert file_mine.read_text() == "mine"
 
 
 @pytest.mark.parametrize("link", [False, True])
@@ -143,8 +145,8 @@ def test_an_edited_file_is_kept_and_the_new_file_is_written_beside_it(tmp_path: 
     for version in (b"2", b"3"):
         with pytest.raises(AtlasError, match=r"a\.tex is not as atlas wrote it: the new one is a\.new\.new\.tex"):
             replace(place, {"a.tex": version, "b.tex": version})
-        found = {name: content for name, content in state(place).items() if name != WRITTEN}
-        assert found == {
+        files = {name: content for name, content in state(place).items() if name != WRITTEN}
+        assert files == {
             "a.tex": b"mine", "a.new.tex": b"mine too", "a.new.new.tex": version, "b.tex": version, "s/c.tex": b"mine",
         }  # fmt: skip
     (place / "a.new.new.tex").replace(place / "a.tex")
@@ -155,20 +157,20 @@ def test_an_edited_file_is_kept_and_the_new_file_is_written_beside_it(tmp_path: 
 def test_a_pdf_or_a_page_beside_the_folder_is_kept_by_the_same_rule(tmp_path: Path) -> None:
     """One that was edited, or is none of ours, stays; the new one is beside it, and what is beside it is as it was."""
     (tmp_path / "other.pdf").write_text("of somebody")
-    publish(made("1", "c.html"), tmp_path, "plain")
+    publish(files_of("1", "c.html"), tmp_path, "plain")
     publish({"single": {"page.html": b"1"}}, tmp_path, "page")
-    publish(made("2", "c.html"), tmp_path, "plain")
+    publish(files_of("2", "c.html"), tmp_path, "plain")
     assert (tmp_path / "plain.pdf").read_bytes() == b"2"
     (tmp_path / "plain.pdf").write_text("mine")
     for version in ("3", "4"):
         with pytest.raises(AtlasError, match=r"plain\.pdf is not as atlas wrote it: the new one is plain\.new\.pdf"):
-            publish(made(version, "c.html"), tmp_path, "plain")
+            publish(files_of(version, "c.html"), tmp_path, "plain")
         assert (tmp_path / "plain.pdf").read_text() == "mine"
         assert (tmp_path / "plain.new.pdf").read_text() == (tmp_path / "plain" / "a.html").read_text() == version
     with pytest.raises(AtlasError, match=r"other\.new\.pdf"):
         publish({"pdf": {"other.pdf": b"1"}}, tmp_path, "other")
     (tmp_path / "plain.new.pdf").replace(tmp_path / "plain.pdf")
-    publish(made("5", "c.html"), tmp_path, "plain")
+    publish(files_of("5", "c.html"), tmp_path, "plain")
     publish({"single": {"page.html": b"2"}}, tmp_path, "page")
     assert (tmp_path / "plain.pdf").read_bytes() == b"5"
     assert (tmp_path / "page.html").read_bytes() == b"2"
@@ -200,7 +202,7 @@ class Killed(BaseException):
     """The end of a process."""
 
 
-def made(version: str, extra: str) -> dict[str, dict[str, bytes]]:
+def files_of(version: str, extra: str) -> dict[str, dict[str, bytes]]:
     """Return the files of a report in two formats."""
     pages = {f"plain/{name}": version.encode() for name in ("a.html", "figures/b.svg", extra, "z.html")}
     return {"html": pages, "pdf": {"plain.pdf": version.encode()}}
@@ -220,7 +222,7 @@ def test_pages_take_their_places_at_once(tmp_path: Path, monkeypatch: pytest.Mon
 
         return step
 
-    publish(made("old", "c.html"), tmp_path, "plain")
+    publish(files_of("old", "c.html"), tmp_path, "plain")
     old = state(tmp_path)
     while killed:
         with monkeypatch.context() as patched:
@@ -229,15 +231,15 @@ def test_pages_take_their_places_at_once(tmp_path: Path, monkeypatch: pytest.Mon
             patched.setattr(shutil, "rmtree", lambda *_, **__: None)
             steps[0] = 0
             try:
-                publish(made("new", "d.html"), tmp_path, "plain")
+                publish(files_of("new", "d.html"), tmp_path, "plain")
             except Killed:
                 limit += 1
             else:
                 killed = False
-        left = {name: content for name, content in state(tmp_path).items() if name != "plain.pdf"}
-        (version,) = set(left.values())
-        assert left.keys() & set(named.values()) == {named[version]}
-        publish(made("old", "c.html"), tmp_path, "plain")
+        files = {name: content for name, content in state(tmp_path).items() if name != "plain.pdf"}
+        (version,) = set(files.values())
+        assert files.keys() & set(named.values()) == {named[version]}
+        publish(files_of("old", "c.html"), tmp_path, "plain")
         assert state(tmp_path) == old
         assert {path.name for path in tmp_path.iterdir()} == {WRITTEN, "plain", "plain.pdf"}
     assert limit >= 2
@@ -249,7 +251,7 @@ def test_pages_behind_a_link_are_written_there(tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "plain").symlink_to(tmp_path / "elsewhere")
     for version, extra in (("old", "c.html"), ("new", "d.html")):
-        publish(made(version, extra), tmp_path / "out", "plain")
+        publish(files_of(version, extra), tmp_path / "out", "plain")
     assert (tmp_path / "out" / "plain").is_symlink()
     assert {path.name for path in (tmp_path / "elsewhere").iterdir()} == {
         "a.html",

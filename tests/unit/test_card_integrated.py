@@ -19,13 +19,13 @@ def cross(a: Any, b: Any) -> Any:
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
-def moved(moments: Any, Omega: Any, K: Any) -> Any:
+def torque_free(moments: Any, Omega: Any, K: Any) -> Any:
     """Return I Omega' in a field."""
     W = Omega + K
     return cross(moments * W, W) - cross(moments * K, K) - moments * cross(K, Omega)
 
 
-def turned(y: Any) -> Any:
+def axes_rate(y: Any) -> Any:
     """Return R' of a state, whose rows r have r' = r x Omega."""
     return np.concatenate([cross(row, y[:3]) for row in y[6:].reshape(3, 3)])
 
@@ -43,25 +43,25 @@ def integrated(
     def slope(_: float, y: Any) -> Any:
         Omega, K = y[:3], field * y[3:6]
         torque = weight * cross(y[3:6], (0.0, 0.0, 1.0))
-        return np.concatenate([(torque + moved(moments, Omega, K)) / moments, cross(y[3:6], Omega), turned(y)])
+        return np.concatenate([(torque + torque_free(moments, Omega, K)) / moments, cross(y[3:6], Omega), axes_rate(y)])
 
     def nodding(_: float, y: Any) -> float:
         return float(y[3] * y[1] - y[4] * y[0])
 
     nodding.direction = 1  # type: ignore[attr-defined]
     start = np.concatenate([np.array(omega, float), c0, np.eye(3).ravel()])
-    found = solve_ivp(slope, (0, end), start, "DOP853", rtol=1e-12, atol=1e-13, dense_output=True, events=nodding)
-    times = found.t_events[0]
-    first, last = (times[0], times[-1]) if len(times) > 1 else (0.0, end)
-    y = found.sol(np.linspace(first, last, 40_001))
-    axis, across = y[[8, 11, 14]], cross(c0, (1.0, 0.0, 0.0))
-    about = np.unwrap(np.arctan2(cross(c0, across) @ axis, across @ axis))
-    own = np.unwrap(np.arctan2(y[3], y[4]))
-    rate, spin = ((angle[-1] - angle[0]) / (last - first) for angle in (about, own))
+    solution = solve_ivp(slope, (0, end), start, "DOP853", rtol=1e-12, atol=1e-13, dense_output=True, events=nodding)
+    times = solution.t_events[0]
+    t_first, t_last = (times[0], times[-1]) if len(times) > 1 else (0.0, end)
+    y = solution.sol(np.linspace(t_first, t_last, 40_001))
+    axis, horizontal = y[[8, 11, 14]], cross(c0, (1.0, 0.0, 0.0))
+    angle_about = np.unwrap(np.arctan2(cross(c0, horizontal) @ axis, horizontal @ axis))
+    angle_own = np.unwrap(np.arctan2(y[3], y[4]))
+    rate, spin = ((angle[-1] - angle[0]) / (t_last - t_first) for angle in (angle_about, angle_own))
     return {
         "turn": 2 * np.pi / abs(rate),
         "spin": spin,
-        "nutation": (last - first) / max(len(times) - 1, 1),
+        "nutation": (t_last - t_first) / max(len(times) - 1, 1),
     }
 
 
@@ -74,8 +74,8 @@ def in_field(I: float, K: Any, omega: Any = L, end: float = 60.0) -> Mapping[str
 
 def of_asteroid(*start: Any) -> Mapping[str, float]:
     """Return the numbers of a free body, which nods twice while its angular velocity goes round once."""
-    found = integrated(*start, 1000.0)
-    return {**found, "nutation": 2 * found["nutation"]}
+    numbers = integrated(*start, 1000.0)
+    return {**numbers, "nutation": 2 * numbers["nutation"]}
 
 
 SHELL = 1 / (1 / 2 + 0.9**2 / 12)
@@ -120,34 +120,34 @@ CASES = {
 @pytest.mark.parametrize("words", CASES)
 def test_the_numbers_of_a_card_are_those_of_an_integration(words: str) -> None:
     """Long, short, disk, ball, rod, negative charge, SI, Gaussian, near a separatrix, on the curve, free, a top."""
-    made = card(request_of(words.split())[0])
+    numbers = card(request_of(words.split())[0])
     for key, value in CASES[words]().items():
-        assert made[key]["value"] == pytest.approx(value, rel=1e-8, abs=1e-9), key
+        assert numbers[key]["value"] == pytest.approx(value, rel=1e-8, abs=1e-9), key
 
 
 @pytest.mark.slow
 def test_frequencies_of_the_card_are_those_of_the_motion() -> None:
     """B in the body is a sum of lines at m f1 + n f2, and the axis across B at f3 more; at other places it is not."""
-    made = card(request_of("--inertia 1 1.5 2.2 --field 0.2 1 0.6 --omega 0.3 0.7 0.2".split())[0])
-    f1, f2, f3 = (made[key]["value"] for key in ("f1", "f2", "f3"))
+    numbers = card(request_of("--inertia 1 1.5 2.2 --field 0.2 1 0.6 --omega 0.3 0.7 0.2".split())[0])
+    f1, f2, f3 = (numbers[key]["value"] for key in ("f1", "f2", "f3"))
     I, K0 = np.array([1, 1.5, 2.2]), np.array([0.2, 1, 0.6])
 
     def slope(_: float, y: Any) -> Any:
-        return np.concatenate([moved(I, y[:3], y[3:6]) / I, cross(y[3:6], y[:3]), turned(y)])
+        return np.concatenate([torque_free(I, y[:3], y[3:6]) / I, cross(y[3:6], y[:3]), axes_rate(y)])
 
     t = np.linspace(0, 150, 1001)
     start = np.concatenate([L, K0, np.eye(3).ravel()])
     y = solve_ivp(slope, (0, 150), start, "DOP853", t_eval=t, rtol=1e-10, atol=1e-11).y
-    across = cross(K0, (1.0, 0.0, 0.0))
-    other = cross(K0, across) / np.linalg.norm(K0)
+    horizontal = cross(K0, (1.0, 0.0, 0.0))
+    horizontal_other = cross(K0, horizontal) / np.linalg.norm(K0)
     axis = y[[8, 11, 14]]
-    turning = axis.T @ across + 1j * (axis.T @ other)
+    turning = axis.T @ horizontal + 1j * (axis.T @ horizontal_other)
 
     def missed(signal: Any, f1: float, f2: float, f3: float) -> float:
         orders = range(-6, 7)
         lines = np.exp(1j * np.outer(t, [f3 + m * f1 + n * f2 for m in orders for n in orders]))
-        rest = signal - lines @ np.linalg.lstsq(lines, signal, rcond=None)[0]
-        return float(np.linalg.norm(rest) / np.linalg.norm(signal))
+        residual = signal - lines @ np.linalg.lstsq(lines, signal, rcond=None)[0]
+        return float(np.linalg.norm(residual) / np.linalg.norm(signal))
 
     assert max(missed(y[5], f1, f2, 0.0), missed(turning, f1, f2, f3)) < 1e-3
     assert min(missed(y[5], f1, f2 * 1.01, 0.0), missed(turning, f1, f2, -f3)) > 0.05

@@ -136,8 +136,8 @@ def test_an_error_of_any_size_can_be_drawn(write: Writer) -> None:
     scene = result.scene()
     (panel,) = scene.panels
     assert isinstance(panel, Plane)
-    drawn = [layer.points[:, 1].max() for layer in panel.layers if isinstance(layer, Curve)]
-    assert drawn == [1e17, 1e17, 1e-6]
+    heights = [layer.points[:, 1].max() for layer in panel.layers if isinstance(layer, Curve)]
+    assert heights == [1e17, 1e17, 1e-6]
     assert "Errors beyond 1e+17 are drawn there." in scene.caption
     assert "beyond" not in graded(write).scene().caption
     for R11, Omega1 in ((1e308, 0.0), (1.0, 1e308)):
@@ -301,21 +301,21 @@ def long_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_the_size_of_the_blocks_changes_nothing(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Digits, failures, drifts and the curve are the same in one block and in blocks of 97 lines."""
-    whole = check(long_file, threshold=11)
+    result = check(long_file, threshold=11)
     monkeypatch.setattr(trajectory, "BLOCK", 97)
-    assert check(long_file, threshold=11) == whole
+    assert check(long_file, threshold=11) == result
 
 
 @pytest.mark.slow
 def test_the_balls_agree_with_the_blocks_and_are_asked_seldom(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Graded by balls alone every column has the same grade; with blocks, balls decide fewer than 1 row in 20."""
-    asked, certified = [], grades.Errors.certified
-    monkeypatch.setattr(grades.Errors, "certified", lambda *row: asked.append(row) or certified(*row))
+    times_certified, certified = [], grades.Errors.certified
+    monkeypatch.setattr(grades.Errors, "certified", lambda *row: times_certified.append(row) or certified(*row))
     blocks = check(long_file, threshold=12)
-    assert len(asked) < 250
+    assert len(times_certified) < 250
     monkeypatch.setattr(truth, "EXTENDED", False)
     balls = check(long_file, threshold=12)
-    assert len(asked) > 5000
+    assert len(times_certified) > 5000
     for ours, theirs in zip(blocks.columns, balls.columns, strict=True):
         assert (ours.worst, ours.worst_time, ours.fails_at) == (theirs.worst, theirs.worst_time, theirs.fails_at)
         assert ours.median == pytest.approx(theirs.median, abs=0.0011)
@@ -339,13 +339,13 @@ def test_a_curve_keeps_the_largest_errors_of_its_rows() -> None:
 @given(st.sampled_from(sorted(REGIMES)), st.integers(0, 10**6))
 def test_the_truth_of_blocks_is_certain_to_2e_18(regime: str, seed: int) -> None:
     """R, Omega in units of its length, and the quaternion are within UNCERTAINTY of the balls, on extreme inputs."""
-    drawn = extreme.motion(regime, Random(seed))  # noqa: S311  reproducible, not secret
-    motion = exact.ElementaryMotion(drawn.exact_ratio, (drawn.B2, drawn.B3), drawn.omega2, drawn.omega3)
-    found = truth.Truth(motion)
-    t = np.array(drawn.times)
-    t = t[found.within(t)]
-    length = np.hypot(found.omega2, found.omega3) or 1
-    for time, R, Omega, q in zip(t.tolist(), *found.values(t), strict=True):
+    inputs = extreme.motion(regime, Random(seed))  # noqa: S311  reproducible, not secret
+    motion = exact.ElementaryMotion(inputs.exact_ratio, (inputs.B2, inputs.B3), inputs.omega2, inputs.omega3)
+    checker = truth.Truth(motion)
+    t = np.array(inputs.times)
+    t = t[checker.within(t)]
+    length = np.hypot(checker.omega2, checker.omega3) or 1
+    for time, R, Omega, q in zip(t.tolist(), *checker.values(t), strict=True):
         balls = enclosed(lambda time=time: (motion.rotation(time), motion.angular_velocity(time)), 90)
         turned = enclosed(lambda time=time: motion.quaternion(time), 90)
         same = (
@@ -354,12 +354,12 @@ def test_the_truth_of_blocks_is_certain_to_2e_18(regime: str, seed: int) -> None
             > 0
             else -1
         )
-        assert max(map(apart, R, chain(*balls[0]))) <= truth.UNCERTAINTY
-        assert max(map(apart, Omega, balls[1])) <= truth.UNCERTAINTY * float(length)
-        assert max(apart(same * a, b) for a, b in zip(q, turned, strict=True)) <= truth.UNCERTAINTY
+        assert max(map(difference, R, chain(*balls[0]))) <= truth.UNCERTAINTY
+        assert max(map(difference, Omega, balls[1])) <= truth.UNCERTAINTY * float(length)
+        assert max(difference(same * a, b) for a, b in zip(q, turned, strict=True)) <= truth.UNCERTAINTY
 
 
-def apart(found: np.longdouble, ball: Any) -> float:
+def difference(found: np.longdouble, ball: Any) -> float:
     """Return the distance of a long double from a ball."""
     head = float(found)
     with ctx.workprec(120):
@@ -374,13 +374,13 @@ def test_a_binary_file_is_no_trajectory(tmp_path: Path) -> None:
         check(path)
 
 
-@pytest.mark.parametrize(("name", "shown"), [(":smile:.csv", ":smile:.csv"), ("[b]\x1b[2J\n", "[b]\ufffd[2J\ufffd")])
-def test_the_name_of_a_file_is_printed_as_it_is(tmp_path: Path, name: str, shown: str) -> None:
+@pytest.mark.parametrize(("name", "printed"), [(":smile:.csv", ":smile:.csv"), ("[b]\x1b[2J\n", "[b]\ufffd[2J\ufffd")])
+def test_the_name_of_a_file_is_printed_as_it_is(tmp_path: Path, name: str, printed: str) -> None:
     """No markup, no picture, nothing that a terminal obeys."""
     path = tmp_path / name
     path.write_text(SETTING + table(["t", *MATRIX], [[t, *true_row(t)[:9]] for t in TIMES]), encoding="utf-8")
     done = CliRunner().invoke(program, ["check", str(path)])
-    assert done.output.startswith(f"{shown}: {len(TIMES)} rows")
+    assert done.output.startswith(f"{printed}: {len(TIMES)} rows")
 
 
 def test_the_record_is_json_and_the_scene_shows_the_errors(write: Writer) -> None:
@@ -425,13 +425,13 @@ def test_three_moments_are_a_diagonal_tensor(write: Writer) -> None:
     """A body by I1, I2, I3 drifts as one by the six elements of its tensor, and another by other elements."""
     rows = [[t, *true_row(t)] for t in TIMES]
     text = table(["t", *MATRIX, *OMEGA], rows)
-    first, second, third = (
+    result, second, third = (
         check(write(f"# inertia = {inertia}\n# field = 1 2\n" + text))
         for inertia in ("2 2.5 3", "2 2.5 3 0 0 0", "2 2.5 3 0.1 0 0")
     )
-    assert first.drifts == second.drifts != third.drifts
-    assert first.rows == len(TIMES)
-    assert first.columns == ()
+    assert result.drifts == second.drifts != third.drifts
+    assert result.rows == len(TIMES)
+    assert result.columns == ()
 
 
 def general_table(omega: tuple[float, float, float], worse: float = 0.0) -> str:
@@ -451,8 +451,8 @@ def test_a_general_trajectory_is_graded(write: Writer) -> None:
     assert true.parameters == {"ratio": 1.5, "field": [1.0, 2.0], "omega": list(omega)}
     assert min(column.worst for column in true.columns) >= 14.8
     assert max(drift.worst for drift in true.drifts) <= 1e-14
-    wrong = check(write(head + general_table(omega, 1e-8)), omega=omega, threshold=9.0)
-    (found,) = [column for column in wrong.columns if column.fails_at is not None]
+    result = check(write(head + general_table(omega, 1e-8)), omega=omega, threshold=9.0)
+    (found,) = [column for column in result.columns if column.fails_at is not None]
     assert (found.name, found.fails_at) == ("R22", TIMES[3])
     assert found.worst == pytest.approx(8, abs=1e-6)
 

@@ -28,7 +28,7 @@ BODIES = {
 
 def flow(name: str) -> Flow:
     """Return the flow of a body."""
-    return Flow(*([fmpq(*x.as_integer_ratio()) for x in part] for part in BODIES[name]))
+    return Flow(*([fmpq(*x.as_integer_ratio()) for x in vector] for vector in BODIES[name]))
 
 
 @pytest.mark.parametrize(
@@ -49,12 +49,16 @@ def test_errors_of_a_path_are_within_their_stated_bounds(
     H, F = map(fmpq, times)
     with monkeypatch.context() as patch:
         patch.setattr(clebsch_flow._Way, "step", lambda way: (count.append(0), step(way))[1])
-        found = flow(name).go(H, F, bits)
+        path = flow(name).go(H, F, bits)
     true = flow(name).go(H, F, bits + 120, proven=False)
     assert len(count) - 1 == steps
     with ctx.workprec(bits + 200):
-        for parts, radius in ((("W", "K"), state), (("q",), turn)):
-            pairs = [(x, y) for part in parts for x, y in zip(getattr(found, part), getattr(true, part), strict=True)]
+        for quantities, radius in ((("W", "K"), state), (("q",), turn)):
+            pairs = [
+                (x, y)
+                for quantity in quantities
+                for x, y in zip(getattr(path, quantity), getattr(true, quantity), strict=True)
+            ]
             assert all(abs(x.mid() - y.mid()) <= x.rad() for x, y in pairs)
             assert max(float(x.rad()) for x, _ in pairs) * 2.0**bits == pytest.approx(radius, rel=1e-3)
 
@@ -66,12 +70,12 @@ def test_intermediate_states_of_a_path_agree_with_shorter_paths(name: str) -> No
     fractions = [fmpq(n, 97) for n in (1, 2, 40, 41, 90, 97)]
     passed = list(flow(name).pass_by(fmpq(-3), fractions, 128))
     with ctx.workprec(328):
-        for fraction, found in zip(fractions, passed, strict=True):
+        for fraction, state in zip(fractions, passed, strict=True):
             true = flow(name).go(-3 * fraction, fmpq(0), 248, proven=False)
             pairs = [
                 (x, y)
-                for part in ("W", "K", "q")
-                for x, y in zip(getattr(found, part), getattr(true, part), strict=True)
+                for quantity in ("W", "K", "q")
+                for x, y in zip(getattr(state, quantity), getattr(true, quantity), strict=True)
             ]
             assert all(abs(x.mid() - y.mid()) <= x.rad() for x, y in pairs)
             assert max(float(x.rad()) for x, _ in pairs) < 2.0**-80
@@ -81,10 +85,10 @@ def test_errors_that_grow_too_far_are_reported() -> None:
     """Errors beyond half of the bits have no bound; those that come near to it have one that holds."""
     with pytest.raises(NotCertifiedError, match="grow beyond their bounds"):
         flow("quick").go(fmpq(1), fmpq(0), 30)
-    found = flow("quick").go(fmpq(1), fmpq(0), 36)
+    path = flow("quick").go(fmpq(1), fmpq(0), 36)
     true = flow("quick").go(fmpq(1), fmpq(0), 248, proven=False)
     for name in ("W", "K", "q"):
-        for x, y in zip(getattr(found, name), getattr(true, name), strict=True):
+        for x, y in zip(getattr(path, name), getattr(true, name), strict=True):
             assert abs(float(x.mid()) - float(y.mid())) <= x.rad() < 2.0**-18
 
 
@@ -93,7 +97,7 @@ CELL = 0.3
 Form = tuple[float, float, float]
 
 
-def at(form: Form, phases: tuple[float, ...]) -> float:
+def value_at(form: Form, phases: tuple[float, ...]) -> float:
     """Return value + slope n + bend x^2/2 at phases (x, y), with n the difference of the exponents."""
     value, slope, bend = form
     p, q = INTO.real @ phases
@@ -121,8 +125,8 @@ def test_a_quotient_is_as_far_from_its_middle_as_the_bound_says(form: Form, divi
     corners = list(product((-CELL, CELL), repeat=2))
     middle = form[0] / divisor[0]
     assert y[:D].real == pytest.approx(middle, abs=0.0)
-    assert least == pytest.approx(min(abs(at(divisor, x)) for x in corners), rel=1e-14, abs=0.0)
-    farthest = max(abs(at(form, x) / at(divisor, x) - middle) for x in corners)
+    assert least == pytest.approx(min(abs(value_at(divisor, x)) for x in corners), rel=1e-14, abs=0.0)
+    farthest = max(abs(value_at(form, x) / value_at(divisor, x) - middle) for x in corners)
     assert varying[:D] == pytest.approx(farthest, rel=1e-14, abs=0.0)
 
 
@@ -146,17 +150,17 @@ def test_all_five_are_conserved(inertia: object) -> None:
 
 def test_kinetic_energy_is_the_hamiltonian_less_a_casimir() -> None:
     """T = H - (M, K), theorem-kinetic-energy, within 16 eps of the terms."""
-    found = atlas.clebsch(TENSOR, OMEGA, B)
-    assert found.energy == pytest.approx(found.H - found.MK, abs=16 * EPS * abs(found.H))
+    integrals = atlas.clebsch(TENSOR, OMEGA, B)
+    assert integrals.energy == pytest.approx(integrals.H - integrals.MK, abs=16 * EPS * abs(integrals.H))
 
 
 def test_no_turn_of_the_axes_changes_them() -> None:
     """In other axes of the body, J, Omega and K turn and the integrals stay, within 64 eps of their terms."""
     axis = exact(0.36, 0.48, 0.8)
     Q = DoubleRotation(axis, *exact(1.0, 0.7)).rotation(0.9)
-    here, there = atlas.clebsch(TENSOR, OMEGA, B), atlas.clebsch(Q @ TENSOR @ Q.T, Q @ OMEGA, Q @ B)
+    here, integrals_turned = atlas.clebsch(TENSOR, OMEGA, B), atlas.clebsch(Q @ TENSOR @ Q.T, Q @ OMEGA, Q @ B)
     for name in NAMES:
-        assert getattr(there, name) == pytest.approx(getattr(here, name), abs=64 * EPS * 20)
+        assert getattr(integrals_turned, name) == pytest.approx(getattr(here, name), abs=64 * EPS * 20)
 
 
 def test_a_symmetric_body_has_them_from_its_own_integrals() -> None:
@@ -164,18 +168,18 @@ def test_a_symmetric_body_has_them_from_its_own_integrals() -> None:
     rng = np.random.default_rng(11)
     Omega, K = rng.normal(size=(2, 40, 3))
     for I in (0.5, 1.0, 1.5, 2.0):
-        found, own = atlas.clebsch(I, Omega, K), integrals(I, Omega, K)
-        MK = own.c5 + own.K2 - (1 - I) * own.c3**2
-        H = own.E / 2 + MK
-        F = 2 * H + (1 - 1 / I) * (I * own.c3) ** 2 - (1 + I) * own.K2
-        for got, true in ((found.MK, MK), (found.H, H), (found.F, F)):
+        general, symmetric = atlas.clebsch(I, Omega, K), integrals(I, Omega, K)
+        MK = symmetric.c5 + symmetric.K2 - (1 - I) * symmetric.c3**2
+        H = symmetric.E / 2 + MK
+        F = 2 * H + (1 - 1 / I) * (I * symmetric.c3) ** 2 - (1 + I) * symmetric.K2
+        for got, true in ((general.MK, MK), (general.H, H), (general.F, F)):
             assert np.abs(got - true).max() <= 64 * EPS * 50
 
 
 def test_a_state_gives_numbers_and_an_array_of_states_arrays() -> None:
     """Shapes broadcast; a state gives plain floats."""
-    one = atlas.clebsch((1.0, 1.7, 2.2), OMEGA, B)
-    assert all(type(getattr(one, name)) is float for name in NAMES)
+    integrals_alone = atlas.clebsch((1.0, 1.7, 2.2), OMEGA, B)
+    assert all(type(getattr(integrals_alone, name)) is float for name in NAMES)
     many = atlas.clebsch((1.0, 1.7, 2.2), np.tile(OMEGA, (4, 5, 1)), B)
     assert all(getattr(many, name).shape == (4, 5) for name in NAMES)
     with pytest.raises(atlas.AtlasError, match="do not broadcast"):

@@ -31,14 +31,14 @@ def balls() -> Balls:
 
 
 @cache
-def known() -> ThetaMotion:
+def theta_cached() -> ThetaMotion:
     """Return its closed form."""
     return ThetaMotion(torus().integrals, torus().W, torus().K, torus().lattice)
 
 
-def made() -> ThetaMotion:
+def theta_copy() -> ThetaMotion:
     """Return its closed form, to be changed."""
-    return copy(known())
+    return copy(theta_cached())
 
 
 def torus() -> Torus:
@@ -50,9 +50,9 @@ def slipped(theta: ThetaMotion, *names: str) -> ThetaMotion:
     """Return it with the first weights of the first of some forms off by 1e-40."""
     with workprec(240):
         for name in names:
-            first, *others = getattr(theta, name)
-            weights = first.weights[0] + TINY, first.weights[1]
-            setattr(theta, name, [replace(first, weights=weights), *others])
+            form, *forms = getattr(theta, name)
+            weights = form.weights[0] + TINY, form.weights[1]
+            setattr(theta, name, [replace(form, weights=weights), *forms])
     return theta
 
 
@@ -67,19 +67,19 @@ def bound(theta: ThetaMotion) -> float:
 @pytest.mark.slow
 def test_the_bound_holds_where_balls_know_the_motion() -> None:
     """K of the theta functions at t = 7/2 is that of Taylor's series, within the proved bound and 1e-35."""
-    theta, t = made(), fmpq(7, 2)
+    theta, t = theta_copy(), fmpq(7, 2)
     error = bound(theta)
     assert error < 1e-36
     rate = balls().on_torus.rate  # type: ignore[union-attr]
     with workprec(200):
         zeta = [x + y for x, y in zip(theta.zeta((acb(t * rate), acb(0))), theta.start, strict=True)]
         true = [x / rate for x in balls().field_in_body(t)]
-        apart = [abs(x - y) for x, y in zip(theta.state(zeta).K, true, strict=True)]
-    assert all(float(x.upper()) < error + 1e-35 for x in apart)
+        distances = [abs(x - y) for x, y in zip(theta.state(zeta).K, true, strict=True)]
+    assert all(float(x.upper()) < error + 1e-35 for x in distances)
 
 
 @pytest.mark.parametrize(
-    ("slip", "apart", "rates"),
+    ("slip", "errors_expected", "rates"),
     [
         ("M", (5207.21, 8361.1, 6972.09), ((1.96852, 4.48898, 4.46747), (0.380117, 4.48898, 4.46747))),
         ("K", (5080.39, 8155.17, 6708.45), ((1.53867, 4.68341, 0), (1.0159, 3.10384, 0))),
@@ -90,37 +90,37 @@ def test_the_bound_holds_where_balls_know_the_motion() -> None:
     ],
 )  # fmt: skip
 def test_a_slip_of_a_part_in_1e40_is_in_the_bounds(
-    slip: str, apart: Any, rates: Any, monkeypatch: pytest.MonkeyPatch
+    slip: str, errors_expected: Any, rates: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """One weight, the start or w off by 1e-40: so much of it is found in the defects and, grown, in the distances.
 
     A start that is off is another motion of the same torus, without a defect, and N does not act on K and M.
     """
-    theta, size, real, found = made(), 1e-40, Cell.rates, list[Any]()
+    theta, size, real, growths = theta_copy(), 1e-40, Cell.rates, list[Any]()
     with workprec(240):
         if slip == "denominator":
             value = theta.denominator
             theta.denominator = replace(value, weights=(value.weights[0] + TINY, value.weights[1]))
         elif slip in {"start", "w"}:
-            first, second = getattr(theta, slip)
-            setattr(theta, slip, [first + TINY, second])
+            start, second = getattr(theta, slip)
+            setattr(theta, slip, [start + TINY, second])
         else:
             slipped(theta, slip)
-    monkeypatch.setattr(Cell, "rates", lambda cell: found.append(real(cell)) or found[-1])
+    monkeypatch.setattr(Cell, "rates", lambda cell: growths.append(real(cell)) or growths[-1])
     bounds = distances(theta, torus(), torus().periods(128))
-    np.testing.assert_allclose(found[0] / size, rates, rtol=1e-3, atol=1e-10)
-    np.testing.assert_allclose(bounds / size, apart, rtol=1e-3, atol=1e-2)
+    np.testing.assert_allclose(growths[0] / size, rates, rtol=1e-3, atol=1e-10)
+    np.testing.assert_allclose(bounds / size, errors_expected, rtol=1e-3, atol=1e-2)
 
 
 @pytest.mark.slow
 def test_the_bounds_of_a_body_whose_times_are_complex() -> None:
     """Nearly a ball, where forms are large far from the real times: slips in K and N, and the size of N's factor."""
     body = (1.0, 1.00390625, 1.006640625), (-0.41, -1.04, 0.92), (-0.65, -1.37, 0.32)
-    found = Balls(*body).on_torus
-    assert found is not None
-    theta = ThetaMotion(found.torus.integrals, found.torus.W, found.torus.K, found.torus.lattice)
+    torus = Balls(*body).on_torus
+    assert torus is not None
+    theta = ThetaMotion(torus.torus.integrals, torus.torus.W, torus.torus.K, torus.torus.lattice)
     with workprec(240):
-        cell = Cell(slipped(theta, "K", "N"), found.torus.periods(128))
+        cell = Cell(slipped(theta, "K", "N"), torus.torus.periods(128))
         corners = [[acb(x) for x in 0.55 * cell.times @ sides] for sides in product((-1, 1), repeat=2)]
         sizes = [float(abs((acb(0, 1) * dot(theta.l, theta.zeta(times))).exp()).mid()) for times in corners]
         assert cell.largest_factor == pytest.approx(max(sizes), rel=1e-9)
@@ -130,9 +130,9 @@ def test_the_bounds_of_a_body_whose_times_are_complex() -> None:
 
 def test_the_defects_over_the_denominator_are_bounded_at_each_place() -> None:
     """What K, M and N miss, by differences of balls at some places of the cell, is no more than the bound on it."""
-    theta = made()
-    first, *others = theta.K
-    theta.K = [replace(first, weights=(first.weights[0] + acb(1e-9), first.weights[1])), *others]
+    theta = theta_copy()
+    form, *forms = theta.K
+    theta.K = [replace(form, weights=(form.weights[0] + acb(1e-9), form.weights[1])), *forms]
     with workprec(240):
         cell = Cell(theta, torus().periods(128))
         rates = cell.rates()
@@ -143,11 +143,11 @@ def test_the_defects_over_the_denominator_are_bounded_at_each_place() -> None:
                 (M, K), (after, _), (_, later) = (state(theta, t + a, g + b) for a, b in ((0, 0), (dt, dg), (dt, dg)))
                 W = [m / i for m, i in zip(M, I, strict=True)]
                 J = [-theta.motion.D / i * k for k, i in zip(K, I, strict=True)]
-                turned = [
+                rate = [
                     x + y
                     for x, y in zip(cross(M, W), cross(K, [i * k for i, k in zip(I, K, strict=True)]), strict=True)
                 ]
-                laws = (turned, cross(K, W)) if flow == 0 else (cross(K, J), cross(K, M))
+                laws = (rate, cross(K, W)) if flow == 0 else (cross(K, J), cross(K, M))
                 for n, (now, then, law) in enumerate(((M, after, laws[0]), (K, later, laws[1]))):
                     missed = [(b - a) / h - c for a, b, c in zip(now, then, law, strict=True)]
                     assert sum(float(abs(z).mid()) ** 2 for z in missed) ** 0.5 <= rates[flow, n]
@@ -156,48 +156,48 @@ def test_the_defects_over_the_denominator_are_bounded_at_each_place() -> None:
 
 def state(theta: ThetaMotion, t: acb, g: acb) -> tuple[list[acb], list[acb]]:
     """Return M and K of the forms at times of both flows."""
-    found = theta.state([x + y for x, y in zip(theta.zeta((t, g)), theta.start, strict=True)])
-    return found.M, found.K
+    state_at = theta.state([x + y for x, y in zip(theta.zeta((t, g)), theta.start, strict=True)])
+    return state_at.M, state_at.K
 
 
 @pytest.mark.slow
 def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """A denominator that has a zero in the cell, and errors that might grow to the size of the motion, are refused."""
-    theta = made()
+    theta = theta_copy()
     n0, n1 = theta.denominator.weights
-    zero, one = (
+    zero, shift = (
         replace(theta.denominator, weights=w).value(theta.pairs(theta.start)) for w in ((n0, 0 * n1), (0 * n0, n1))
     )
-    theta.denominator = replace(theta.denominator, weights=(n0, -n1 * zero / one))
+    theta.denominator = replace(theta.denominator, weights=(n0, -n1 * zero / shift))
     with workprec(240):
         assert np.isinf(Cell(theta, torus().periods(128)).rates()).all()
     assert bound(theta) == np.inf
     with monkeypatch.context() as patch:  # a bound beyond SMALL is none: there the growth is not bounded
         patch.setattr(clebsch_proof, "_deviation", lambda *_: np.full(3, 1e-3))
-        assert bound(made()) == np.inf
+        assert bound(theta_copy()) == np.inf
     growth = clebsch_proof._growth
-    monkeypatch.setattr(clebsch_proof, "_growth", lambda *given: 1e3 * growth(*given))
-    assert bound(made()) == np.inf
+    monkeypatch.setattr(clebsch_proof, "_growth", lambda *arguments: 1e3 * growth(*arguments))
+    assert bound(theta_copy()) == np.inf
 
 
 @pytest.mark.parametrize(("H", "F"), [(1.0, 0.0), (0.0, 1.0), (3.0, -3.0), (2.0, 3.0)])
 def test_errors_grow_no_faster_than_the_stated_rate(H: float, F: float) -> None:
     """Lengths of small errors of M, K and N change by what the linearized equations make of them, at most."""
-    sizes = clebsch_proof._sizes(made())
-    growth, I = clebsch_proof._growth(made(), sizes, H, F), np.array([float(x) for x in torus().moments])
+    sizes = clebsch_proof._sizes(theta_copy())
+    growth, I = clebsch_proof._growth(theta_copy(), sizes, H, F), np.array([float(x) for x in torus().moments])
     draws = np.random.default_rng(7).standard_normal((20000, 6, 3))
     draws /= np.linalg.norm(draws, axis=-1, keepdims=True)
     M, K, N = (size * draws[:, i] for i, size in enumerate(sizes))
     m, k, n = (draws[:, i] for i in (3, 4, 5))
-    both, turn = H * I - F * I.prod() / I, H / I + F
+    weights, turn = H * I - F * I.prod() / I, H / I + F
     rates = (
-        H * (np.cross(m, M / I) + np.cross(M, m / I)) + np.cross(k, both * K) + np.cross(K, both * k),
+        H * (np.cross(m, M / I) + np.cross(M, m / I)) + np.cross(k, weights * K) + np.cross(K, weights * k),
         np.cross(k, turn * M) + np.cross(K, turn * m),
         np.cross(n, turn * M) + np.cross(N, turn * m),
     )
     for error, rate, bounds in zip((m, k, n), rates, growth, strict=True):
-        worst = np.einsum("ni,ni->n", error, rate).max()
-        assert bounds.sum() / 4 < worst <= bounds.sum() * (1 + 1e-12)
+        largest = np.einsum("ni,ni->n", error, rate).max()
+        assert bounds.sum() / 4 < largest <= bounds.sum() * (1 + 1e-12)
 
 
 def test_a_start_is_taken_near_the_real_times() -> None:
@@ -214,7 +214,7 @@ def test_a_start_is_taken_near_the_real_times() -> None:
 
 def test_defects_that_are_no_numbers_are_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where coefficients overflow there is no bound, at once."""
-    theta = made()
+    theta = theta_copy()
     with workprec(240):
         cell = Cell(theta, torus().periods(128))
         places, sizes, beyond = cell._defects()
@@ -224,7 +224,7 @@ def test_defects_that_are_no_numbers_are_no_proof(monkeypatch: pytest.MonkeyPatc
 
 def test_a_denominator_no_larger_than_its_errors_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cells are not cut for ever, which would take all the memory there is."""
-    theta = made()
+    theta = theta_copy()
     with workprec(240):
         cell = Cell(theta, torus().periods(128))
         monkeypatch.setattr(clebsch_proof, "FLOATS", 1.0)
@@ -234,7 +234,7 @@ def test_a_denominator_no_larger_than_its_errors_is_no_proof(monkeypatch: pytest
 def test_forms_of_other_characteristics_are_no_proof() -> None:
     """Two axes of one characteristic, or an N that is shifted otherwise, have no common law of coefficients."""
     for name in ("K", "M", "N"):
-        theta = made()
-        first, second, third = getattr(theta, name)
-        setattr(theta, name, [replace(first, place=second.place), second, third])
+        theta = theta_copy()
+        form, second, third = getattr(theta, name)
+        setattr(theta, name, [replace(form, place=second.place), second, third])
         assert bound(theta) == np.inf

@@ -74,14 +74,14 @@ def test_motion_agrees_with_fifty_digits() -> None:
         for sample in out["samples"]:
             ck, sk = mpmath.cos(k * sample["t"]), mpmath.sin(k * sample["t"])
             cp, sp = mpmath.cos(phi * sample["t"]), mpmath.sin(phi * sample["t"])
-            first = mpmath.matrix(
+            precession = mpmath.matrix(
                 [
                     [ck, -c * sk, s * sk],
                     [c * sk, s * s + c * c * ck, s * c * (1 - ck)],
                     [-s * sk, s * c * (1 - ck), c * c + s * s * ck],
                 ]
             )
-            R = first * mpmath.matrix([[cp, -sp, 0], [sp, cp, 0], [0, 0, 1]])
+            R = precession * mpmath.matrix([[cp, -sp, 0], [sp, cp, 0], [0, 0, 1]])
             assert max(abs(R[i, j] - sample["R"][i][j]) for i in range(3) for j in range(3)) <= 4 * EPS
             Omega = (omega2 * sp, omega2 * cp, omega3)
             assert max(abs(a - b) for a, b in zip(Omega, sample["Omega"], strict=True)) <= 8 * EPS * 2
@@ -112,8 +112,8 @@ def test_point_masses_may_have_units_in_their_heading(tmp_path: Path) -> None:
         assert (point_masses(file).masses.sum(), ratio_of_points(file)) == (6, 2)
         assert points(file).inertia == (4, 4, 4)
         for separator in ";\t":
-            (other := tmp_path / "other.csv").write_text(file.read_text().replace(",", separator))
-            assert points(other).inertia == (4, 4, 4)
+            (file_other := tmp_path / "other.csv").write_text(file.read_text().replace(",", separator))
+            assert points(file_other).inertia == (4, 4, 4)
     file.write_text("x,y,z [kg],mass\n0,0,1,1\n")
     with pytest.raises(UsageError, match=r"points\.csv: line 2: '1' under z \[kg\] is not a number in m, "):
         points(file)
@@ -193,10 +193,10 @@ def test_no_float_is_left_out_in_silence(words: str, places: set[str]) -> None:
     """JSON holds no infinity: there is null in its place, and the reason under "missing"; NumPy warns of nothing."""
     result = run(*words.split(), "--json")
     assert (result.returncode, result.stderr) == (0, "")
-    found = json.loads(result.stdout)
-    assert found["missing"] == dict.fromkeys(places, "beyond the largest float")
+    record = json.loads(result.stdout)
+    assert record["missing"] == dict.fromkeys(places, "beyond the largest float")
     for place in places:
-        value = found
+        value = record
         for key in re.findall(r"\w+", place):
             value = value[int(key) if key.isdigit() else key]
         assert value is None
@@ -225,14 +225,14 @@ def test_no_digit_is_cut_on_a_narrow_terminal() -> None:
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1".split()
     with subprocess.Popen([*ATLAS, *words], stdout=theirs) as process:
         os.close(theirs)
-        said = b""
+        output = b""
         with contextlib.suppress(OSError):  # the end of a pseudo-terminal is an error
             while piece := os.read(ours, 65536):
-                said += piece
+                output += piece
     os.close(ours)
     assert process.returncode == 0
-    assert "…" not in said.decode()
-    assert "-0.008501748978" in said.decode()
+    assert "…" not in output.decode()
+    assert "-0.008501748978" in output.decode()
 
 
 def test_the_plane_pair_has_a_hyperbola() -> None:
@@ -255,7 +255,7 @@ def test_the_plane_pair_has_a_hyperbola() -> None:
 def test_a_motion_is_labelled_by_its_case(words: str, says: tuple[str, ...]) -> None:
     """A free omega3 is not said to follow from (71), and without a field nothing precesses about it."""
     out = CliRunner().invoke(command, f"motion --ratio 1.5 {words}".split(), catch_exceptions=False).stdout
-    assert all(part in out for part in says)
+    assert all(phrase in out for phrase in says)
     assert ("(71)" in out) == ("(71)" in says)
 
 
@@ -329,9 +329,9 @@ def test_a_failing_figure_names_the_fault_of_its_parameter(bad_recipe: Path) -> 
         '"""Bad."""\ndef scene(*, ratio=1.0):\n    return 1 / 0\n', encoding="utf-8"
     )
     words = ["figure", "aa_bad", "lssc", "--format", "svg", "--set", "ratio=5/2", "--out", str(bad_recipe)]
-    unexpected, wrong = CliRunner().invoke(command, words, standalone_mode=False).stderr.splitlines()
+    unexpected, message = CliRunner().invoke(command, words, standalone_mode=False).stderr.splitlines()
     assert unexpected == "atlas: figure aa_bad: figures/aa_bad.py, line 3: ZeroDivisionError: division by zero"
-    assert wrong.startswith("atlas: figure lssc: No body has I = I3/I2 = 2.5")
+    assert message.startswith("atlas: figure lssc: No body has I = I3/I2 = 2.5")
 
 
 @pytest.mark.parametrize(
@@ -392,8 +392,8 @@ def test_a_typed_number_keeps_its_exact_value(text: str) -> None:
 def test_times_with_a_unit_are_exact(times: str) -> None:
     """With --decimal each row is that of its own time, as it is without a unit."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --digits 12 --decimal".split()
-    first, second = (record(*words, *times.replace("{}", unit).split())["samples"] for unit in ("s", ""))
-    assert first == second
+    samples, second = (record(*words, *times.replace("{}", unit).split())["samples"] for unit in ("s", ""))
+    assert samples == second
 
 
 def test_zero_may_have_a_unit() -> None:
@@ -416,14 +416,14 @@ def test_the_reader_of_a_pipe_may_leave(words: str) -> None:
 
 def test_a_long_table_is_the_same_as_all_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rows that are computed and printed a few at a time are those of one table; the heading stands once."""
-    words, whole = f"{MOTION} --times 0:10:40".split(), []
+    words, rows = f"{MOTION} --times 0:10:40".split(), []
     for few in (7, 1000):
         monkeypatch.setattr(family, "AT_ONCE", few)
         monkeypatch.setattr(present, "PIECE", few)
         out = CliRunner().invoke(command, words, catch_exceptions=False).stdout
-        whole.append([line.split() for line in out.splitlines() if "\N{BOX DRAWINGS LIGHT HORIZONTAL}" not in line])
-    assert whole[0] == whole[1]
-    assert len(whole[0]) > 3 * 40
+        rows.append([line.split() for line in out.splitlines() if "\N{BOX DRAWINGS LIGHT HORIZONTAL}" not in line])
+    assert rows[0] == rows[1]
+    assert len(rows[0]) > 3 * 40
 
 
 def test_check_shows_only_existing_digits_and_integrals(tmp_path: Path) -> None:
@@ -441,7 +441,7 @@ def test_check_shows_only_existing_digits_and_integrals(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("rows", "more", "status", "says"),
+    ("rows", "options", "status", "says"),
     [
         ("t,R11\n0,1\n", "", 0, ""),
         ("t,R11\n0,1.001\n", "--threshold 2", 0, ""),
@@ -452,11 +452,11 @@ def test_check_shows_only_existing_digits_and_integrals(tmp_path: Path) -> None:
         ("", "", 2, "is empty"),
     ],
 )
-def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, more: str, status: int, says: str) -> None:
+def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, options: str, status: int, says: str) -> None:
     """0 if every column has the digits asked for, 1 with one line that names those that fail, 2 for a wrong input."""
     file = tmp_path / "mine.csv"
     file.write_text(rows, encoding="utf-8")
-    result = run("check", str(file), *f"--ratio 1.5 --field 1 2 --omega2 0.7 {more}".split())
+    result = run("check", str(file), *f"--ratio 1.5 --field 1 2 --omega2 0.7 {options}".split())
     assert result.returncode == status
     assert says in result.stderr
     assert result.stderr.count("\n") == bool(says)

@@ -41,7 +41,7 @@ POINTS = np.array(
 REST = "--omega 0.3 0.7 0.2 --times 1 --json"
 
 
-def written(folder: Path, points: np.ndarray = POINTS, names: str = "x,y,z,mass,charge") -> str:
+def points_file(folder: Path, points: np.ndarray = POINTS, names: str = "x,y,z,mass,charge") -> str:
     """Write points, and return the name of the file."""
     path = folder / "points.csv"
     rows = [",".join(map(repr, row)) for row in points[:, : names.count(",") + 1].tolist()]
@@ -51,8 +51,8 @@ def written(folder: Path, points: np.ndarray = POINTS, names: str = "x,y,z,mass,
 
 def run(*words: str) -> tuple[int, str]:
     """Return status and output of a command, of which a file's name may have blanks."""
-    found = CliRunner().invoke(command, list(words))
-    return found.exit_code, found.output
+    outcome = CliRunner().invoke(command, list(words))
+    return outcome.exit_code, outcome.output
 
 
 def numbers(*words: str) -> dict[str, Any]:
@@ -82,14 +82,14 @@ def test_a_symmetric_body_is_printed_in_its_own_and_in_the_given_axes() -> None:
 @pytest.mark.slow
 def test_points_and_tesla_are_moments_and_rates(tmp_path: Path) -> None:
     """Moved as a whole the points have their moments; B of 100, 200, 2000 T at 1e-3 C/kg is B' = (0.05, 0.1, 1) /s."""
-    typed = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
-    moved = POINTS + np.array([8.0, -4.0, 2.0, 0.0, 0.0])
+    typed_record = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
+    moved_points = POINTS + np.array([8.0, -4.0, 2.0, 0.0, 0.0])
     tesla = "--magnetic 100 200 2000".split()
     units = "--magnetic 100 200 2000 --mass 2 --charge 2e-3".split()
-    for body in (["--points", written(tmp_path, moved), *tesla], ["--inertia", "5", "3", "6", *units]):
-        found = numbers("motion", *body, *REST.split())
-        assert found["family"] == typed["family"]
-        R, true = (np.array(x["samples"][0]["R"]) for x in (found, typed))
+    for body in (["--points", points_file(tmp_path, moved_points), *tesla], ["--inertia", "5", "3", "6", *units]):
+        record = numbers("motion", *body, *REST.split())
+        assert record["family"] == typed_record["family"]
+        R, true = (np.array(x["samples"][0]["R"]) for x in (record, typed_record))
         assert np.abs(R - true).max() <= 1e-14  # 1e-3 times 100 over 2 is no float
 
 
@@ -107,20 +107,22 @@ def test_the_unit_of_time_is_a_second_where_the_field_is_in_tesla() -> None:
 def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> None:
     """Points turned by 30 degrees about z: it says the axes, right-handed, and the moments 3, 5, 6."""
     c, s = np.sqrt(3) / 2, 0.5
-    turned = POINTS.copy()
-    turned[:, :3] = POINTS[:, :3] @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-    found = numbers("motion", "--points", written(tmp_path, turned), "--field", "0", "1", "2", *REST.split())
-    axes = np.array(found["principal_axes"])
+    turned_points = POINTS.copy()
+    turned_points[:, :3] = POINTS[:, :3] @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    record = numbers(
+        "motion", "--points", points_file(tmp_path, turned_points), "--field", "0", "1", "2", *REST.split()
+    )
+    axes = np.array(record["principal_axes"])
     assert np.linalg.det(axes) == pytest.approx(1, abs=1e-15)
     assert abs(axes[:, :2]) == pytest.approx(np.array([[s, c], [c, s], [0, 0]]), abs=1e-15)
-    assert found["principal_moments"] == pytest.approx([3, 5, 6], rel=1e-15)
+    assert record["principal_moments"] == pytest.approx([3, 5, 6], rel=1e-15)
 
 
-def turned_digits(digits: list[list[str]], turn: list[list[Fraction]], other: list[list[Fraction]]) -> list[Any]:
+def turned_digits(digits: list[list[str]], turn: list[list[Fraction]], matrix: list[list[Fraction]]) -> list[Any]:
     """Return turn R other of printed digits, as fractions."""
     R = [[Fraction(x) for x in row] for row in digits]
     once = [[sum(a * b for a, b in zip(row, column, strict=True)) for column in zip(*R, strict=True)] for row in turn]
-    columns = list(zip(*other, strict=True))
+    columns = list(zip(*matrix, strict=True))
     return [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in once]
 
 
@@ -129,27 +131,27 @@ def test_digits_are_proven_in_any_axes_and_from_any_attitude() -> None:
     """A tensor and an attitude of rational turns have the digits of the motion along its principal axes from R(0)=1."""
     turn = [[Fraction(x) for x in row] for row in (("0.6", "0.8", "0"), ("-0.8", "0.6", "0"), ("0", "0", "1"))]
     back, unit = [list(x) for x in zip(*turn, strict=True)], [[Fraction(i == j) for j in range(3)] for i in range(3)]
-    rest = "--times 3 --digits 25 --decimal --json".split()
+    options = "--times 3 --digits 25 --decimal --json".split()
     words = "--tensor 1.64 1.36 2.5 -0.48 0 0 --field 0.3 0.1 1 --omega 0.2 0.3 1".split()
-    own = "--inertia 1 2 2.5 --field 0.26 -0.18 1 --omega 0.36 0.02 1".split()
+    own_words = "--inertia 1 2 2.5 --field 0.26 -0.18 1 --omega 0.36 0.02 1".split()
     from_attitude = "--inertia 1 2 2.5 --field 0.3 -0.584 0.83 --omega 0.2 0.3 1 --attitude 0.6 0 0 0.8".split()
-    found, true = (numbers("motion", *x, *rest)["samples"][0]["R"] for x in (words, own))
-    for one, other in zip(found, turned_digits(true, back, turn), strict=True):
-        assert all(abs(Fraction(x) - y) < Fraction(1, 10**23) for x, y in zip(one, other, strict=True))
+    entries, true = (numbers("motion", *x, *options)["samples"][0]["R"] for x in (words, own_words))
+    for digits, digits_true in zip(entries, turned_digits(true, back, turn), strict=True):
+        assert all(abs(Fraction(x) - y) < Fraction(1, 10**23) for x, y in zip(digits, digits_true, strict=True))
     start = [[Fraction(x) for x in row] for row in (("1", "0", "0"), ("0", "0.28", "-0.96"), ("0", "0.96", "0.28"))]
     B = [Fraction(x) for x in from_attitude[5:8]]
     K = [sum(row[i] * x for row, x in zip(start, B, strict=True)) for i in range(3)]
-    alone = [*"--inertia 1 2 2.5 --omega 0.2 0.3 1 --field".split(), *(str(x) for x in K)]
-    found, true = (numbers("motion", *x, *rest)["samples"][0]["R"] for x in (from_attitude, alone))
-    for one, other in zip(found, turned_digits(true, start, unit), strict=True):
-        assert all(abs(Fraction(x) - y) < Fraction(1, 10**23) for x, y in zip(one, other, strict=True))
+    free_words = [*"--inertia 1 2 2.5 --omega 0.2 0.3 1 --field".split(), *(str(x) for x in K)]
+    entries, true = (numbers("motion", *x, *options)["samples"][0]["R"] for x in (from_attitude, free_words))
+    for digits, digits_true in zip(entries, turned_digits(true, start, unit), strict=True):
+        assert all(abs(Fraction(x) - y) < Fraction(1, 10**23) for x, y in zip(digits, digits_true, strict=True))
 
 
 def test_an_attitude_is_evaluated_as_it_was_typed() -> None:
     """At t = 1e8 doubles from an attitude whose length is not 1 have the proven digits; matrices stay as they are."""
     words = "motion --inertia 1 1 1.5 --attitude 0.6 0 0 0.8 --field .3 .1 1 --omega .2 .3 1 --times 1e8 --json"
-    near, proven = (numbers(*words.split(), *more)["samples"][0]["R"] for more in ([], ["--digits", "17"]))
-    assert np.array(near) == pytest.approx(np.array(proven, float), abs=4e-15)
+    entries, proven = (numbers(*words.split(), *option)["samples"][0]["R"] for option in ([], ["--digits", "17"]))
+    assert np.array(entries) == pytest.approx(np.array(proven, float), abs=4e-15)
     for R in Rotation.random(20, random_state=1).as_matrix():
         assert (atlas.motion(1.5, (0.3, 1, 2), (0.3, 0.7, 0.2), R).rotation(0.0) == R).all()
 
@@ -157,21 +159,21 @@ def test_an_attitude_is_evaluated_as_it_was_typed() -> None:
 @pytest.mark.slow
 def test_points_without_charges_are_a_body(tmp_path: Path) -> None:
     """They serve with --field."""
-    file = written(tmp_path, names="x,y,z,mass")
+    file = points_file(tmp_path, names="x,y,z,mass")
     assert numbers("motion", "--points", file, "--field", "0", "1", "2", *REST.split())["kind"] == "on a torus"
 
 
 @pytest.mark.slow
 def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
     """`atlas check` takes the same body and field; at t = 0 R = 1 and Omega = omega."""
-    mine = tmp_path / "mine.csv"
-    mine.write_text("t,R11,R12,Omega3\n0,1,0,0.2\n", encoding="utf-8")
+    trajectory = tmp_path / "mine.csv"
+    trajectory.write_text("t,R11,R12,Omega3\n0,1,0,0.2\n", encoding="utf-8")
     words = "--magnetic 100 200 2000 --omega 0.3 0.7 0.2 --json".split()
-    status, out = run("check", str(mine), "--points", written(tmp_path), *words)
+    status, out = run("check", str(trajectory), "--points", points_file(tmp_path), *words)
     assert status == 0
-    found = json.loads(out)
-    assert found["parameters"] == {"inertia": [5.0, 3.0, 6.0], "field": [0.05, 0.1, 1.0], "omega": [0.3, 0.7, 0.2]}
-    assert [column["name"] for column in found["columns"]] == ["R11", "R12", "Omega3"]
+    record = json.loads(out)
+    assert record["parameters"] == {"inertia": [5.0, 3.0, 6.0], "field": [0.05, 0.1, 1.0], "omega": [0.3, 0.7, 0.2]}
+    assert [column["name"] for column in record["columns"]] == ["R11", "R12", "Omega3"]
 
 
 @pytest.mark.slow
@@ -181,9 +183,9 @@ def test_frequencies_or_why_there_are_none() -> None:
     status, out = run("motion", *f"--inertia 1 1.2 1.3 {words}".split())
     assert status == 0
     assert re.search(r"^f3 +-1\.154812784 +1/time", out, re.MULTILINE)
-    found = numbers("motion", *f"--inertia 1 1 1.3 {words} --json --digits 9".split())
-    assert "frequencies" not in found
-    assert found["missing"]["frequencies"].startswith("There is no torus with three frequencies")
+    record = numbers("motion", *f"--inertia 1 1 1.3 {words} --json --digits 9".split())
+    assert "frequencies" not in record
+    assert record["missing"]["frequencies"].startswith("There is no torus with three frequencies")
 
 
 @pytest.mark.slow
@@ -191,21 +193,24 @@ def test_a_tensor_in_any_axes_is_that_of_its_principal_axes(tmp_path: Path) -> N
     """Points turned by 30 degrees about z, or their tensor, in a field turned with them: the turned motion."""
     c, s = np.sqrt(3) / 2, 0.5
     P = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    turned = POINTS.copy()
-    turned[:, :3] = POINTS[:, :3] @ P.T
+    turned_points = POINTS.copy()
+    turned_points[:, :3] = POINTS[:, :3] @ P.T
     B, omega = P @ (0.05, 0.1, 1.0), P @ (0.3, 0.7, 0.2)
     J = P @ np.diag([5.0, 3.0, 6.0]) @ P.T
     places = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-    rest = ["--field", *map(repr, B.tolist()), "--omega", *map(repr, omega.tolist()), "--times", "1", "--json"]
-    found = [
-        numbers("motion", *words, *rest)
-        for words in (("--points", written(tmp_path, turned)), ("--tensor", *(repr(float(J[ij])) for ij in places)))
+    options = ["--field", *map(repr, B.tolist()), "--omega", *map(repr, omega.tolist()), "--times", "1", "--json"]
+    records = [
+        numbers("motion", *words, *options)
+        for words in (
+            ("--points", points_file(tmp_path, turned_points)),
+            ("--tensor", *(repr(float(J[ij])) for ij in places)),
+        )
     ]
     true = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())["samples"][0]
-    for one in found:
-        assert one["family"] == "asymmetric"
-        assert one["principal_moments"] == pytest.approx([3, 5, 6], abs=1e-12)
-        R, Omega = (np.array(one["samples"][0][name]) for name in ("R", "Omega"))
+    for record in records:
+        assert record["family"] == "asymmetric"
+        assert record["principal_moments"] == pytest.approx([3, 5, 6], abs=1e-12)
+        R, Omega = (np.array(record["samples"][0][name]) for name in ("R", "Omega"))
         assert pytest.approx(P @ np.array(true["R"]) @ P.T, abs=1e-12) == R
         assert Omega == pytest.approx(P @ np.array(true["Omega"]), abs=1e-12)
     status, out = run("motion", *"--tensor 1 1 1 0 0 0.2 --field 0 0 1 --spin 3 --times 0 1".split())
@@ -223,9 +228,9 @@ def test_one_command_takes_any_body_and_any_start() -> None:
     ):  # fmt: skip
         assert numbers("motion", *words.split(), "--json")["family"] == family
         assert run("motion", *words.split())[1]
-    shown = run("motion", "--help")[1]
+    help_text = run("motion", "--help")[1]
     for option in ("I2 I3 or I1 I2 I3", "--tensor", "--omega2", "--spin"):
-        assert option in shown
+        assert option in help_text
 
 
 def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -> None:
@@ -235,7 +240,7 @@ def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -
     R = atlas.motion((1, 1, 1.5), (0.3, 1, 2), (0.3, 0.7, 0.2)).rotation(1e6)
     assert R.tolist() == late["R"]
     assert pytest.approx(R, abs=1e-14) == Rotation.from_quat(late["q"]).as_matrix()
-    soon = [numbers(*words, "1", "--json", *more)["samples"][0]["R"] for more in ([], ["--digits", "12"])]
+    soon = [numbers(*words, "1", "--json", *option)["samples"][0]["R"] for option in ([], ["--digits", "12"])]
     assert np.array(soon[0]) == pytest.approx(np.array(soon[1], float), abs=1e-12)
     assert "no digit is proven without --digits" in run(*words, "1")[1]
 
@@ -243,7 +248,7 @@ def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -
 @pytest.mark.slow
 def test_units_agree_with_si() -> None:
     """A cylinder in um, kg/m3, e, T and degrees is that in SI by hand, and turns a second are 2 pi as many radians."""
-    typed = (
+    words_typed = (
         "motion --shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e --magnetic 0.8T "
         "--angle 30deg --spin 2MHz --times 1ms --json"
     )
@@ -251,16 +256,16 @@ def test_units_agree_with_si() -> None:
     b = 5000 * 1.602176634e-19 / mass * 0.8 / 2
     ratio = 1 / (0.5 + (3 / 1.2) ** 2 / 6)
     by_hand = f"motion --ratio {ratio!r} --field {b / 2!r} {b * 0.75**0.5!r} --spin {4e6 * np.pi!r} --times 1e-3 --json"
-    found, true = numbers(*typed.split()), numbers(*by_hand.split())
-    assert found["precession_rate"] == pytest.approx(true["precession_rate"], rel=1e-9)
-    assert found["spin_rate"] == pytest.approx(true["spin_rate"], rel=1e-14)
-    assert run(*typed.replace("30deg", "30°").split()) == run(*typed.split())
-    assert np.array(found["samples"][0]["R"]) == pytest.approx(np.array(true["samples"][0]["R"]), abs=1e-9)
-    assert "2MHz is 12566370.61 rad/s." in run(*typed.removesuffix("--json").split())[1]
+    record, true = numbers(*words_typed.split()), numbers(*by_hand.split())
+    assert record["precession_rate"] == pytest.approx(true["precession_rate"], rel=1e-9)
+    assert record["spin_rate"] == pytest.approx(true["spin_rate"], rel=1e-14)
+    assert run(*words_typed.replace("30deg", "30°").split()) == run(*words_typed.split())
+    assert np.array(record["samples"][0]["R"]) == pytest.approx(np.array(true["samples"][0]["R"]), abs=1e-9)
+    assert "2MHz is 12566370.61 rad/s." in run(*words_typed.removesuffix("--json").split())[1]
 
 
 @pytest.mark.parametrize(
-    ("one", "other"),
+    ("one", "words_other"),
     [
         ("--ratio 1.5 --field 5/s 3e-3/s --omega2 0.7/s", "--ratio 1.5 --field 5 3e-3 --omega2 0.7"),
         (
@@ -279,10 +284,12 @@ def test_units_agree_with_si() -> None:
         ),
     ],
 )
-def test_numbers_with_units_equal_numbers_in_si(one: str, other: str) -> None:
+def test_numbers_with_units_equal_numbers_in_si(one: str, words_other: str) -> None:
     """Prefixes, powers and quotients; where no quantity of the kind has a unit, a bare number is in SI."""
-    found, true = (numbers("motion", *f"--omega2 0.7 {words} --times 1 --json".split()) for words in (one, other))
-    assert found["k"] == pytest.approx(true["k"], rel=1e-15)
+    record, true = (
+        numbers("motion", *f"--omega2 0.7 {words} --times 1 --json".split()) for words in (one, words_other)
+    )
+    assert record["k"] == pytest.approx(true["k"], rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -297,18 +304,18 @@ def test_numbers_with_units_equal_numbers_in_si(one: str, other: str) -> None:
 )
 def test_zero_has_any_unit(words: str, plain: dict[str, str]) -> None:
     """It is that without: beside other numbers with units, in a range of times and among several."""
-    other = " ".join(plain.get(word, word) for word in words.split())
-    assert other != words
-    assert numbers(*words.split(), "--json") == numbers(*other.split(), "--json")
+    words_plain = " ".join(plain.get(word, word) for word in words.split())
+    assert words_plain != words
+    assert numbers(*words.split(), "--json") == numbers(*words_plain.split(), "--json")
 
 
 def test_help_and_lists_are_asked_for_as_one_would() -> None:
     """`atlas help motion` is its help, `atlas list shapes` the one list."""
     assert run("help", "motion")[1] == run("motion", "--help")[1]
     assert run("help")[1] == run("--help")[1]
-    shown = run("list", "shapes")[1]
-    assert "solid-cylinder" in shown
-    assert "figure" not in shown
+    listing = run("list", "shapes")[1]
+    assert "solid-cylinder" in listing
+    assert "figure" not in listing
     assert json.loads(run("list", "reports", "--json")[1])["reports"]
 
 
@@ -317,17 +324,19 @@ def test_a_start_without_a_field_is_a_free_body(start: str) -> None:
     """A start along three axes needs no field: JSON and table are those of the field zero."""
     zeros = "--field 0 0 0" if "inertia" in start else "--field 0 0"
     for form in ("--json", "--times 1"):
-        alone, given = (run("motion", *words.split(), *form.split()) for words in (start, f"{start} {zeros}"))
-        assert alone == given
-        assert alone[0] == 0
+        free_output, zero_output = (
+            run("motion", *words.split(), *form.split()) for words in (start, f"{start} {zeros}")
+        )
+        assert free_output == zero_output
+        assert free_output[0] == 0
 
 
 @pytest.mark.slow
 def test_the_table_of_a_tensor_has_its_principal_moments() -> None:
     """The printed moments and axes are those of the JSON."""
     words = "motion --tensor 1 1.2 1.1 .1 0 .05 --field 0 0 1 --omega .1 .2 .3".split()
-    shown, record = run(*words)[1], json.loads(run(*words, "--json")[1])
-    lines = {line.split()[0]: line for line in shown.splitlines() if line}
+    table, record = run(*words)[1], json.loads(run(*words, "--json")[1])
+    lines = {line.split()[0]: line for line in table.splitlines() if line}
     for i, (moment, axis) in enumerate(zip(record["principal_moments"], record["principal_axes"], strict=True), 1):
         assert f" {moment:.10g} " in lines[f"I{i}"]
         assert f"({', '.join(f'{x:.10g}' for x in axis)})" in lines[f"I{i}"]
@@ -359,14 +368,14 @@ def test_each_list_names_its_entries_with_their_keys(name: str, entry: str, word
 def test_lists_and_ranges_of_times_are_one(times: str) -> None:
     """Words, commas, a range and a grid give the same times; even steps of the logarithm their powers."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7"
-    found = numbers(*words.split(), *times.split(), "--json")["samples"]
-    assert [one["t"] for one in found] == [0.0, 0.5, 1.0]
-    found = numbers(*words.split(), *"--times 1:100:3:log --json".split())["samples"]
-    assert [one["t"] for one in found] == pytest.approx([1, 10, 100])
-    for typed in ("--times 1ms:3ms:3", "--grid 1ms 1ms 3", "--times 1ms 2ms 3ms"):
-        found = numbers(*words.split(), *typed.split(), "--json")["samples"]
-        assert [row["t"] for row in found] == [1e-3, 2e-3, 3e-3]
-        assert "Omega_i [1/s]" in run(*words.split(), *typed.split())[1]
+    samples = numbers(*words.split(), *times.split(), "--json")["samples"]
+    assert [sample["t"] for sample in samples] == [0.0, 0.5, 1.0]
+    samples = numbers(*words.split(), *"--times 1:100:3:log --json".split())["samples"]
+    assert [sample["t"] for sample in samples] == pytest.approx([1, 10, 100])
+    for times_typed in ("--times 1ms:3ms:3", "--grid 1ms 1ms 3", "--times 1ms 2ms 3ms"):
+        samples = numbers(*words.split(), *times_typed.split(), "--json")["samples"]
+        assert [row["t"] for row in samples] == [1e-3, 2e-3, 3e-3]
+        assert "Omega_i [1/s]" in run(*words.split(), *times_typed.split())[1]
     assert "Omega_i [1/s]" in run(*words.split(), *"--times 1ms:1s:4:log".split())[1]
 
 
@@ -420,10 +429,10 @@ TENSOR = "--tensor 2 1.5 1 0.1 0.05 0.2 --field 0.3 0 1 --spin 3"
 def test_a_tensor_is_the_same_body_for_every_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Digits, a page, sliders and a sweep are of the motion along its principal axes, which they name."""
     monkeypatch.chdir(tmp_path)
-    own = in_group(["page", *TENSOR.split()])[1:-1]
-    moments, field, omega = (own[i : i + 3] for i in (1, 5, 9))
+    request = in_group(["page", *TENSOR.split()])[1:-1]
+    moments, field, omega = (request[i : i + 3] for i in (1, 5, 9))
     motion = atlas.motion([[2.0, 0.1, 0.05], [0.1, 1.5, 0.2], [0.05, 0.2, 1.0]], (0.3, 0.0, 1.0), (0.0, 0.0, 3.0))
-    assert in_group(["page", *TENSOR.split(), "--name", "mine"]) == ["asymmetric", *own, "--name", "mine", "--note"]
+    assert in_group(["page", *TENSOR.split(), "--name", "mine"]) == ["asymmetric", *request, "--name", "mine", "--note"]
     name, numbers_of = started(TENSOR.split())
     assert name == "asymmetric"
     names = [f"{x}{i}" for x in ("I", "B", "omega") for i in "123"]
@@ -481,19 +490,22 @@ def test_an_unstable_start_in_any_field_is_that_of_every_command(
 def page_of(words: list[str]) -> list[str]:
     """Return the command of a page and its arguments, but for the sentence on its axes."""
     context = ByOptions("page", commands=COMMANDS).make_context("page", words)
-    found = [*context._protected_args, *context.args]
-    return found[: found.index("--note")] if "--note" in found else found
+    request = [*context._protected_args, *context.args]
+    return request[: request.index("--note")] if "--note" in request else request
 
 
 @pytest.mark.slow
 def test_an_attitude_turns_the_laboratory() -> None:
     """A motion that starts from R(0) in a field of the laboratory is R(0) times that in the field of the body."""
     Q = Rotation.from_quat([0.6, 0.0, 0.0, 0.8]).as_matrix()
-    found = numbers("motion", *TENSOR.split(), *"--attitude 0.6 0 0 0.8 --times 0 2 --json".split())["samples"]
-    there = [*"--tensor 2 1.5 1 0.1 0.05 0.2 --spin 3 --field".split(), *map(repr, (Q.T @ (0.3, 0.0, 1.0)).tolist())]
-    own = numbers("motion", *there, "--times", "0", "2", "--json")["samples"]
-    assert found[0]["R"] == Q.tolist()
-    assert pytest.approx(Q @ np.array(own[1]["R"]), abs=1e-13) == np.array(found[1]["R"])
+    samples = numbers("motion", *TENSOR.split(), *"--attitude 0.6 0 0 0.8 --times 0 2 --json".split())["samples"]
+    words_there = [
+        *"--tensor 2 1.5 1 0.1 0.05 0.2 --spin 3 --field".split(),
+        *map(repr, (Q.T @ (0.3, 0.0, 1.0)).tolist()),
+    ]
+    samples_own = numbers("motion", *words_there, "--times", "0", "2", "--json")["samples"]
+    assert samples[0]["R"] == Q.tolist()
+    assert pytest.approx(Q @ np.array(samples_own[1]["R"]), abs=1e-13) == np.array(samples[1]["R"])
 
 
 def in_group(words: list[str]) -> list[str]:
@@ -504,10 +516,10 @@ def in_group(words: list[str]) -> list[str]:
 
 def test_a_vector_in_one_word_may_have_uncertainties() -> None:
     """A bracket at the end of a word is that of the last component."""
-    rest = "--ratio 1.5 --omega2 0.7 --json".split()
-    found = run("motion", "--field=1.0(1),2.0(2)", *rest)
-    assert found == run("motion", "--field", "1.0(1)", "2.0(2)", *rest)
-    assert found[0] == 0
+    options = "--ratio 1.5 --omega2 0.7 --json".split()
+    outcome = run("motion", "--field=1.0(1),2.0(2)", *options)
+    assert outcome == run("motion", "--field", "1.0(1)", "2.0(2)", *options)
+    assert outcome[0] == 0
 
 
 def test_help_is_printed_despite_other_wrong_words() -> None:
@@ -528,8 +540,8 @@ def test_points_off_symmetry_are_reported(tmp_path: Path) -> None:
     """Products of 1e-10 stay where the body may have three moments; where it must be symmetric it is said once."""
     square = np.array([[1.0, 0, 0, 1], [-1, 0, 0, 1], [0, 1, 0, 1], [0, -1, 0, 1], [0, 0, 0.5, 1], [0, 0, -0.5, 1]])
     words = "--field 1 2 --omega 0.1 0.2 0.3 --json".split()
-    assert "off by" not in run("motion", "--points", written(tmp_path, square, "x,y,z,mass"), *words)[1]
+    assert "off by" not in run("motion", "--points", points_file(tmp_path, square, "x,y,z,mass"), *words)[1]
     square[0, 1] = 1e-10
     with pytest.warns(NearlySymmetricWarning, match=r"symmetric about z is taken, off by \de-1\d of the largest"):
-        assert run("motion", "--points", written(tmp_path, square, "x,y,z,mass"), *words)[0] == 0
-    assert oblique_tensor(Path(written(tmp_path, square, "x,y,z,mass")))[0, 1] == pytest.approx(-1e-10)
+        assert run("motion", "--points", points_file(tmp_path, square, "x,y,z,mass"), *words)[0] == 0
+    assert oblique_tensor(Path(points_file(tmp_path, square, "x,y,z,mass")))[0, 1] == pytest.approx(-1e-10)

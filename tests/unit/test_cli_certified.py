@@ -64,33 +64,33 @@ def test_floats_are_the_certified_digits_rounded(words: str) -> None:
     compare(floats, texts, "")
 
 
-def compare(found: Any, certified: Any, where: str) -> None:
+def compare(values: Any, certified: Any, place: str) -> None:
     """Compare two nested records; vectors by their length, all else by its own size."""
-    assert isinstance(found, dict) == isinstance(certified, dict), where
-    if isinstance(found, dict):
-        assert found.keys() == certified.keys(), where
-        for key in found:
-            compare(found[key], certified[key], f"{where}.{key}")
-    elif isinstance(found, list):
-        assert len(found) == len(certified), where
-        if found and all(isinstance(x, float) for x in found) and all(isinstance(x, str) for x in certified):
+    assert isinstance(values, dict) == isinstance(certified, dict), place
+    if isinstance(values, dict):
+        assert values.keys() == certified.keys(), place
+        for key in values:
+            compare(values[key], certified[key], f"{place}.{key}")
+    elif isinstance(values, list):
+        assert len(values) == len(certified), place
+        if values and all(isinstance(x, float) for x in values) and all(isinstance(x, str) for x in certified):
             size = max(abs(float(x)) for x in certified)
-            for x, text in zip(found, certified, strict=True):
-                assert ulps_apart(x, text, size) <= 8, (where, x, text)
+            for x, text in zip(values, certified, strict=True):
+                assert ulps_apart(x, text, size) <= 8, (place, x, text)
         else:
-            for index, pair in enumerate(zip(found, certified, strict=True)):
-                compare(*pair, f"{where}[{index}]")
-    elif isinstance(found, float) and isinstance(certified, str):
-        assert ulps_apart(found, certified, abs(float(certified))) <= 8, (where, found, certified)
+            for index, pair in enumerate(zip(values, certified, strict=True)):
+                compare(*pair, f"{place}[{index}]")
+    elif isinstance(values, float) and isinstance(certified, str):
+        assert ulps_apart(values, certified, abs(float(certified))) <= 8, (place, values, certified)
     else:
-        assert found == certified, where
+        assert values == certified, place
 
 
-@pytest.mark.parametrize(("digits", "more"), list(pairwise([1, 5, 17, 60, 400])))
-def test_more_digits_begin_with_the_same_ones(digits: int, more: int) -> None:
+@pytest.mark.parametrize(("digits", "more_digits"), list(pairwise([1, 5, 17, 60, 400])))
+def test_more_digits_begin_with_the_same_ones(digits: int, more_digits: int) -> None:
     """Asking for more digits never changes those already printed, but for the rounding of the last."""
     words = "motion --ratio 0.3 --field 1 2 --omega2 0.7 --times 1e3"
-    few, many = (answer(f"{words} --digits {n}")["samples"][0]["R"] for n in (digits, more))
+    few, many = (answer(f"{words} --digits {n}")["samples"][0]["R"] for n in (digits, more_digits))
     for i in range(3):
         for j in range(3):
             assert abs(float(few[i][j]) - float(many[i][j])) <= 0.51 * 10.0 ** (1 - digits) + 1e-15
@@ -115,9 +115,9 @@ def test_the_ratio_of_a_charge_to_a_mass_is_exact_in_decimals() -> None:
 def test_a_point_charge_in_si_is_shown_with_its_frequency() -> None:
     """Its table has Hz, and no Larmor frequency, which is of a body."""
     words = "particle --mass 9.11e-31 --charge -1.602e-19 --magnetic 0 0 1e-3 --velocity 1e5 0 0 --times 1e-9"
-    found = CliRunner().invoke(command, words.split(), catch_exceptions=False)
-    assert "cyclotron_frequency/2 pi  -2.79875e+07  Hz" in found.stdout
-    assert "larmor" not in found.stdout
+    outcome = CliRunner().invoke(command, words.split(), catch_exceptions=False)
+    assert "cyclotron_frequency/2 pi  -2.79875e+07  Hz" in outcome.stdout
+    assert "larmor" not in outcome.stdout
 
 
 @pytest.mark.parametrize(
@@ -125,9 +125,9 @@ def test_a_point_charge_in_si_is_shown_with_its_frequency() -> None:
 )
 def test_the_field_of_a_charge_is_exact(units: str, c: int) -> None:
     """B' = mu B/(2c) is that of the doubles typed for mu and B; the pole of the hyperbola is -B2."""
-    found = answer(f"hyperbola --ratio 0.5 --magnetic 0.1 0.2 {units} --digits 40")
-    assert abs(Fraction(found["pole"]) / (3 * Fraction(0.1) / (2 * c)) + 1) < Fraction(1, 10**39)
-    assert found["inputs"] == "the doubles nearest to what was typed"
+    record = answer(f"hyperbola --ratio 0.5 --magnetic 0.1 0.2 {units} --digits 40")
+    assert abs(Fraction(record["pole"]) / (3 * Fraction(0.1) / (2 * c)) + 1) < Fraction(1, 10**39)
+    assert record["inputs"] == "the doubles nearest to what was typed"
 
 
 def test_rounding_of_typed_numbers_is_reported(tmp_path: Path) -> None:
@@ -140,9 +140,9 @@ def test_rounding_of_typed_numbers_is_reported(tmp_path: Path) -> None:
         ("--ratio 1.5 --omega2 0.1rad/s --field 1Hz 2Hz", "numbers in turns or degrees"),
         (f"--points {tmp_path / 'ring.csv'} --omega2 0.1 --field 1 2", "sums over more than 4096 points"),
     ):
-        whole = f"the doubles nearest to what was typed, and, rounded to doubles, {says}"
-        assert answer(f"{start} {words}")["inputs"] == whole
-        assert f"inputs: {whole}." in CliRunner().invoke(command, [*start.split(), *words.split()]).stdout
+        sentence = f"the doubles nearest to what was typed, and, rounded to doubles, {says}"
+        assert answer(f"{start} {words}")["inputs"] == sentence
+        assert f"inputs: {sentence}." in CliRunner().invoke(command, [*start.split(), *words.split()]).stdout
     angle = CliRunner().invoke(
         command, [*start.split(), *"--ratio 1.5 --omega2 0.1 --field 2 --angle 1 --decimal".split()]
     )
@@ -166,10 +166,10 @@ def test_times_by_a_step_are_exact() -> None:
 )
 def test_a_charge_is_in_coulomb_unless_another_system_is_named(words: str, system: str) -> None:
     """SI where a charge is given, as in every other command; of mu alone nothing is known."""
-    found = answer(f"particle {words} --magnetic 0 0 3")
-    assert found["parameters"]["units"] == system
+    record = answer(f"particle {words} --magnetic 0 0 3")
+    assert record["parameters"]["units"] == system
     c = 2.99792458e10 if system == "gaussian" else 1.0
-    assert found["cyclotron_frequency"] == pytest.approx(6.0 / c, rel=1e-15)
+    assert record["cyclotron_frequency"] == pytest.approx(6.0 / c, rel=1e-15)
 
 
 def test_one_time_that_cannot_be_had_does_not_lose_the_others() -> None:
@@ -186,9 +186,9 @@ def test_one_time_that_cannot_be_had_does_not_lose_the_others() -> None:
             return [arb(1)] * 3
 
     with ctx.workprec(64):
-        first = sample(vector, Motion(), 0, best)
+        vector_sample = sample(vector, Motion(), 0, best)
     with ctx.workprec(128):
-        assert sample(vector, Motion(), 0, best) is first
+        assert sample(vector, Motion(), 0, best) is vector_sample
         assert sample(vector, Motion(), 1, best) == ["not certified"] * 3
     assert best.reason == "too far"
 

@@ -18,18 +18,18 @@ CHARGED = "--inertia 2e-27 1e-27 --charged 1e-23 2e-23 --magnetic 1 2 --omega 0.
 
 def record(words: str) -> dict[str, Any]:
     """Return what the command prints as JSON."""
-    found = CliRunner().invoke(TOP, [*words.split(), "--json"], catch_exceptions=False)
-    assert found.exit_code == 0, found.output
-    return json.loads(found.stdout)  # type: ignore[no-any-return]
+    outcome = CliRunner().invoke(TOP, [*words.split(), "--json"], catch_exceptions=False)
+    assert outcome.exit_code == 0, outcome.output
+    return json.loads(outcome.stdout)  # type: ignore[no-any-return]
 
 
 def test_a_heavy_top_from_body_gravity_and_length_is_that_of_python() -> None:
     """Kind, period and rates of the top of a disk on a peg, those of `TopMotion.heavy` to the bit."""
     body = atlas.SymmetricBody.disk(0.1, 0.03)
     top = atlas.TopMotion.heavy(body, 9.81, 0.04, (0.3, 1.0), (0, 0, 150), mass=0.1)
-    found = record(HEAVY)
-    assert (found["kind"], found["period"]) == (top.kind, top.period)
-    assert found["steady_precessions"] == [one.rate for one in top.steady_precessions]
+    computed = record(HEAVY)
+    assert (computed["kind"], computed["period"]) == (top.kind, top.period)
+    assert computed["steady_precessions"] == [precession.rate for precession in top.steady_precessions]
     text = CliRunner().invoke(TOP, HEAVY.split()).stdout
     assert "1/s" in text
     assert "1/time" not in text
@@ -38,8 +38,10 @@ def test_a_heavy_top_from_body_gravity_and_length_is_that_of_python() -> None:
 def test_a_top_takes_numbers_with_units_and_a_spin() -> None:
     """Gravity and the distance each in its own unit, in this order; a spin in Hz; none beside Gaussian units."""
     plain = record("--shape disk --radius 0.03 --mass 0.1 --heavy 9.81 0.04 --direction 0.3 1 --omega 0 0 150")
-    typed = record("--shape disk --radius 3cm --mass 100g --heavy 981cm/s2 4cm --direction 0.3 1 --spin 150rad/s")
-    assert typed["period"] == pytest.approx(plain["period"], rel=1e-14)
+    typed_record = record(
+        "--shape disk --radius 3cm --mass 100g --heavy 981cm/s2 4cm --direction 0.3 1 --spin 150rad/s"
+    )
+    assert typed_record["period"] == pytest.approx(plain["period"], rel=1e-14)
     by_energy = record("--inertia 1e-5kg*m2 5e-6kg*m2 --direction 0.6 0.8 --linear 15mJ --spin 40Hz")
     assert (
         by_energy["period"]
@@ -47,12 +49,12 @@ def test_a_top_takes_numbers_with_units_and_a_spin() -> None:
     )
     assert "1/time" not in CliRunner().invoke(TOP, "--inertia 1 0.5 --direction 0.6 0.8 --spin 40Hz".split()).stdout
     swapped = HEAVY.replace("9.81 0.04", "4cm 9.81m/s2")
-    both = HEAVY + " --spin 2"
+    words_both = HEAVY + " --spin 2"
     gaussian = "--inertia 2 1 --charged 1 2 --magnetic 1T 1T --spin 9 --units gaussian"
-    for words, says in ((swapped, "m/s2 and m"), (both, "--spin"), (gaussian, "is in SI")):
-        found = CliRunner().invoke(TOP, words.split())
-        assert found.exit_code == 2, words
-        assert says in found.output, words
+    for words, says in ((swapped, "m/s2 and m"), (words_both, "--spin"), (gaussian, "is in SI")):
+        outcome = CliRunner().invoke(TOP, words.split())
+        assert outcome.exit_code == 2, words
+        assert says in outcome.output, words
 
 
 def test_a_charged_top_takes_moments_in_si_or_in_gaussian_units() -> None:
@@ -81,15 +83,15 @@ def test_point_masses_may_have_any_charges(tmp_path: Path) -> None:
     rows = ["1,0,0,1,2", "-1,0,0,1,2", "0,1,0,1,2", "0,-1,0,1,2", "0,0,1,5,0", "0,0,-1,5,0"]
     path = tmp_path / "points.csv"
     path.write_text("\n".join(["x,y,z,mass,charge", *rows]), "utf-8")
-    found = record(f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3")
+    computed = record(f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3")
     top = atlas.TopMotion.charged(
         atlas.SymmetricBody(12.0, 4.0), atlas.ChargeMoments(4.0, 8.0), (1, 2), (0.1, 0.2, 0.3), units="SI"
     )
-    assert found["period"] == pytest.approx(top.period, rel=1e-14, abs=0.0)
+    assert computed["period"] == pytest.approx(top.period, rel=1e-14, abs=0.0)
     path.write_text("\n".join(["x,y,z,mass,charge", *rows[:-1], "0,0,-1,5,3"]), "utf-8")
-    wrong = CliRunner().invoke(TOP, f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3".split())
-    assert "centre of charge is off the centre of mass" in str(wrong.exception)
-    assert "of a body held at a point, say held=True, or --heavy." in str(wrong.exception)
+    outcome = CliRunner().invoke(TOP, f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3".split())
+    assert "centre of charge is off the centre of mass" in str(outcome.exception)
+    assert "of a body held at a point, say held=True, or --heavy." in str(outcome.exception)
 
 
 @pytest.mark.parametrize(("up", "sign"), [("", 1), ("--direction -3 -4", -1)])
@@ -109,9 +111,9 @@ def test_a_charged_heavy_top_has_both_forces(tmp_path: Path, up: str, sign: int)
         f"--points {path}",
     )
     for way in ways:
-        found = record(f"{way} --heavy {g} {l} --magnetic 3 4 --omega 0.1 0.2 3 {up}")
-        assert found["period"] == pytest.approx(byhand.period, rel=1e-13)
-        assert found["precession_per_period"] == pytest.approx(byhand.precession_per_period, rel=1e-12)
+        computed = record(f"{way} --heavy {g} {l} --magnetic 3 4 --omega 0.1 0.2 3 {up}")
+        assert computed["period"] == pytest.approx(byhand.period, rel=1e-13)
+        assert computed["precession_per_period"] == pytest.approx(byhand.precession_per_period, rel=1e-12)
 
 
 def test_a_steady_motion_says_whether_it_is_stable() -> None:

@@ -27,8 +27,8 @@ def few(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def run(words: str) -> tuple[int, str]:
     """Return status and output of a command."""
-    found = CliRunner().invoke(command, words.split())
-    return found.exit_code, found.output
+    outcome = CliRunner().invoke(command, words.split())
+    return outcome.exit_code, outcome.output
 
 
 def test_answers_that_take_long_are_drawn_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -49,28 +49,28 @@ def numbers(words: str) -> dict[str, Any]:
 
 def test_every_number_has_the_deviation_of_a_monte_carlo() -> None:
     """Of a body and a field that are known within a percent; the numbers stay those of the middle."""
-    found = numbers("motion --ratio 1.3(0.01) --field 1.00(2) 2 --omega 0.3 0.7 0.2 --times 3")
+    record = numbers("motion --ratio 1.3(0.01) --field 1.00(2) 2 --omega 0.3 0.7 0.2 --times 3")
     draw = np.random.default_rng(3).normal
     many = atlas.GeneralMotion(draw(1.3, 0.01, 4000), (draw(1.0, 0.02, 4000), 2.0), (0.3, 0.7, 0.2))
-    one = atlas.GeneralMotion(1.3, (1.0, 2.0), (0.3, 0.7, 0.2))
+    motion = atlas.GeneralMotion(1.3, (1.0, 2.0), (0.3, 0.7, 0.2))
     for name in ("period", "precession_per_period", "precession_rate", "spin_rate", "modulus"):
-        assert found[name] == pytest.approx(getattr(one, name), rel=1e-13), name
-        assert found["sigma"][name] == pytest.approx(float(getattr(many, name).std()), rel=0.06), name
-    R = np.array(found["sigma"]["samples"][0]["R"])
+        assert record[name] == pytest.approx(getattr(motion, name), rel=1e-13), name
+        assert record["sigma"][name] == pytest.approx(float(getattr(many, name).std()), rel=0.06), name
+    R = np.array(record["sigma"]["samples"][0]["R"])
     assert pytest.approx(many.rotation(3.0).std(axis=0), rel=0.08) == R
 
 
 def test_a_charge_and_a_radius_carry_theirs_to_the_larmor_frequency() -> None:
     """Larmor's frequency q B/(2 m) has the relative deviation of the charge, and of a sphere's mass three of r."""
     words = "--height 3um --density 1850kg/m3 --magnetic 0.4T 0.69T --spin 2MHz"
-    found = numbers(f"motion --shape solid-cylinder --radius 1.20(3)um --charge 5000(200)e {words}")
-    part = math.hypot(200 / 5000, 2 * 0.03 / 1.2)
-    assert found["sigma"]["larmor"] / found["larmor"] == pytest.approx(part, rel=1e-3)
+    record = numbers(f"motion --shape solid-cylinder --radius 1.20(3)um --charge 5000(200)e {words}")
+    relative = math.hypot(200 / 5000, 2 * 0.03 / 1.2)
+    assert record["sigma"]["larmor"] / record["larmor"] == pytest.approx(relative, rel=1e-3)
     status, out = run(f"motion --shape solid-cylinder --radius 1.20(3)um --charge 5000(200)e {words}")
     assert status == 0
     hertz = re.search(r"larmor/2 pi +([\d.]+)\((\d+)\) +Hz", out)
     assert hertz is not None
-    assert float(hertz[1]) == pytest.approx(found["larmor"] / (2 * math.pi), abs=1e-4)
+    assert float(hertz[1]) == pytest.approx(record["larmor"] / (2 * math.pi), abs=1e-4)
     assert "by derivatives" in out
 
 
@@ -83,20 +83,20 @@ def test_an_uncertainty_is_written_as_anywhere(radius: str) -> None:
 
 def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
     """A precession's k = omega2/sin(angle), (79), has that of the angle alone, Larmor's frequency that of strength."""
-    found = numbers("motion --ratio 1.3 --magnetic 0.8(1)T --angle 30(2)deg --mu 1C/kg --omega2 0.3")
+    record = numbers("motion --ratio 1.3 --magnetic 0.8(1)T --angle 30(2)deg --mu 1C/kg --omega2 0.3")
     slope = 0.3 * math.cos(math.pi / 6) / math.sin(math.pi / 6) ** 2
-    assert found["k"] == pytest.approx(0.6)
-    assert found["sigma"]["k"] == pytest.approx(slope * math.pi / 90, rel=1e-2)
-    assert found["larmor"] == pytest.approx(0.4)
-    assert found["sigma"]["larmor"] == pytest.approx(0.05)
+    assert record["k"] == pytest.approx(0.6)
+    assert record["sigma"]["k"] == pytest.approx(slope * math.pi / 90, rel=1e-2)
+    assert record["larmor"] == pytest.approx(0.4)
+    assert record["sigma"]["larmor"] == pytest.approx(0.05)
 
 
 def test_families_with_fields_of_their_own_carry_theirs() -> None:
     """A particle's e B/m has that of B, a ball's gamma = |(0, m2, m3 + larmor)| of its Larmor frequency, (29)."""
-    found = numbers("particle --mass 1u --charge 1e --electric 0 0.5V/m 0 --magnetic 0 0 1.0(1)T --velocity 1km/s 0 0")
-    assert found["sigma"]["cyclotron_frequency"] / found["cyclotron_frequency"] == pytest.approx(0.1)
-    found = numbers("ball --larmor 0.50(1) --momentum 0.3 -0.7")
-    assert found["sigma"]["gamma"] == pytest.approx(0.01 * 0.2 / math.hypot(0.3, 0.2), rel=1e-2)
+    record = numbers("particle --mass 1u --charge 1e --electric 0 0.5V/m 0 --magnetic 0 0 1.0(1)T --velocity 1km/s 0 0")
+    assert record["sigma"]["cyclotron_frequency"] / record["cyclotron_frequency"] == pytest.approx(0.1)
+    record = numbers("ball --larmor 0.50(1) --momentum 0.3 -0.7")
+    assert record["sigma"]["gamma"] == pytest.approx(0.01 * 0.2 / math.hypot(0.3, 0.2), rel=1e-2)
     words = "top --inertia 1 0.5 --magnetic 1 2 --charged 0.1(0.01) 0.2 --omega 1 2 3"
     assert numbers(words)["sigma"]["period"] > 0
 
@@ -113,14 +113,14 @@ def test_quantities_beyond_first_order_are_sampled_and_named() -> None:
 
 def test_where_the_domain_ends_the_derivative_is_that_on_its_side() -> None:
     """By (71) omega3 = omega2 B3 (3 - I)/(2 I B2), of slope -3/I^2 here, and no body has I > 2; the modulus is bent."""
-    found = numbers("motion --ratio 2.00(1) --field 1 2 --omega2 1")
-    assert found["sigma"]["omega3"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
-    assert found["sigma"]["phi"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
-    assert "on one side" in found["notes"][1]
-    found = numbers("motion --ratio 1.995(10) --field 1.00(1) 2 --omega 0.3 0.7 0.2")
-    assert found["sigma"]["period"] > 0
-    assert found["sigma"]["modulus"] is None
-    assert "modulus, nome no deviation" in found["notes"][-1]
+    record = numbers("motion --ratio 2.00(1) --field 1 2 --omega2 1")
+    assert record["sigma"]["omega3"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
+    assert record["sigma"]["phi"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
+    assert "on one side" in record["notes"][1]
+    record = numbers("motion --ratio 1.995(10) --field 1.00(1) 2 --omega 0.3 0.7 0.2")
+    assert record["sigma"]["period"] > 0
+    assert record["sigma"]["modulus"] is None
+    assert "modulus, nome no deviation" in record["notes"][-1]
 
 
 def test_an_input_of_a_negligible_share_does_not_ask_for_sampling() -> None:
@@ -133,8 +133,8 @@ def test_an_input_of_a_negligible_share_does_not_ask_for_sampling() -> None:
 
 def test_numbers_that_depend_on_all_inputs_together_have_a_deviation() -> None:
     """A product of two numbers about zero has that of either times that of the other."""
-    found = numbers("motion --ratio 1.3 --magnetic 0.0(2) 0 --mu 0.0(1) --omega 0.3 0.7 0.2")
-    assert found["sigma"]["larmor"] > 0
+    record = numbers("motion --ratio 1.3 --magnetic 0.0(2) 0 --mu 0.0(1) --omega 0.3 0.7 0.2")
+    assert record["sigma"]["larmor"] > 0
 
 
 def test_a_sweep_has_a_column_for_each_deviation(tmp_path: Path) -> None:
@@ -146,8 +146,8 @@ def test_a_sweep_has_a_column_for_each_deviation(tmp_path: Path) -> None:
     assert "B2 = 0.400(20)" in head
     assert names.endswith("phi [1/s],case,phi_sigma [1/s]")
     for omega2, row in zip((0.2, 0.3), rows, strict=True):
-        wanted = numbers(f"motion {words} --omega2 {omega2}")["sigma"]["phi"]
-        assert float(row.split(",")[-1]) == pytest.approx(wanted, rel=1e-6)
+        sigma_phi = numbers(f"motion {words} --omega2 {omega2}")["sigma"]["phi"]
+        assert float(row.split(",")[-1]) == pytest.approx(sigma_phi, rel=1e-6)
     table = atlas.sweep("elementary", {"ratio": ufloat(1.3, 0.1), "B2": 1, "B3": 2, "omega2": [0.2, 0.3]}, ["phi"])
     motions = [atlas.ElementaryMotion(ufloat(1.3, 0.1), (1, 2), omega2) for omega2 in (0.2, 0.3)]
     assert table["phi_sigma"] == pytest.approx([motion.phi.std_dev for motion in motions])
@@ -184,18 +184,18 @@ def test_a_torus_is_drawn_with_the_certified_frequencies(monkeypatch: pytest.Mon
     proofs = []
     proved = Torus._enclosed
     monkeypatch.setattr(Torus, "_enclosed", lambda *args: proofs.append(args) or proved(*args))
-    found = numbers("motion --inertia 0.90(1) 1.1 1.45 --field 0 1 2 --omega 0.3 0.7 0.2")
+    record = numbers("motion --inertia 0.90(1) 1.1 1.45 --field 0 1 2 --omega 0.3 0.7 0.2")
     assert len(proofs) <= 2, "two periods of the middle"
-    assert all(found["sigma"]["frequencies"])
+    assert all(record["sigma"]["frequencies"])
 
 
 @pytest.mark.slow
 def test_frequencies_of_a_neighbour_are_in_the_same_basis() -> None:
     """The bases of I1 = 0.75 and 0.8 differ, f1 by f2: the deviation of f1 is that of its slope, not of a jump."""
-    middle, beside = (atlas.AsymmetricMotion((I1, 1.1, 1.45), (0, 1, 2), (0.3, 0.7, 0.2)) for I1 in (0.8, 0.75))
-    f1, f2, f3 = beside.frequencies
+    middle, neighbour = (atlas.AsymmetricMotion((I1, 1.1, 1.45), (0, 1, 2), (0.3, 0.7, 0.2)) for I1 in (0.8, 0.75))
+    f1, f2, f3 = neighbour.frequencies
     assert abs(f1 - middle.frequencies[0]) > 0.5
-    np.testing.assert_allclose(beside._frequencies_near(middle.frequencies), (f1 + f2, f2, f3), rtol=1e-13)
+    np.testing.assert_allclose(neighbour._frequencies_near(middle.frequencies), (f1 + f2, f2, f3), rtol=1e-13)
 
 
 def test_the_basis_nearest_to_equal_frequencies_is_a_basis() -> None:

@@ -29,11 +29,11 @@ def _true_frequency(ratio: float, field: tuple[float, float], r: Fraction) -> mp
 def test_a_closed_motion_is_an_elementary_motion(ratio: float, field: tuple, p: int, q: int) -> None:
     """Its frequencies and omega3 are those of the nearest omega2, within what the rounding of omega2 moves them."""
     motion = atlas.Hyperbola(ratio, field).closed(p, q)
-    near = atlas.ElementaryMotion(ratio, field, motion.omega2)
-    assert motion.case == near.case == "precession"
-    assert motion.k == pytest.approx(near.k, rel=4 * EPS)
-    assert motion.phi == pytest.approx(near.phi, rel=64 * EPS)
-    assert motion.omega3 == pytest.approx(near.omega3, rel=64 * EPS)
+    motion_typed = atlas.ElementaryMotion(ratio, field, motion.omega2)
+    assert motion.case == motion_typed.case == "precession"
+    assert motion.k == pytest.approx(motion_typed.k, rel=4 * EPS)
+    assert motion.phi == pytest.approx(motion_typed.phi, rel=64 * EPS)
+    assert motion.omega3 == pytest.approx(motion_typed.omega3, rel=64 * EPS)
     assert motion.phi == pytest.approx(motion.k * p / q, rel=4 * EPS)
     assert motion.winding == Fraction(p, q)
 
@@ -54,9 +54,9 @@ def test_a_closed_motion_is_where_the_true_phases_say_after_a_billion_turns(
             t = turns * motion.period
             x = k * mpmath.mpf(t)
             c, s, y = mpmath.cos(x), mpmath.sin(x), x * r.numerator / r.denominator
-            about = c * np.eye(3, dtype=int) + s * cross + (1 - c) * np.outer(B, B)
+            precession = c * np.eye(3, dtype=int) + s * cross + (1 - c) * np.outer(B, B)
             cf, sf = mpmath.cos(y), mpmath.sin(y)
-            truth = about @ np.array([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
+            truth = precession @ np.array([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
             assert np.abs(motion.rotation(t) - truth).max() <= 4 * EPS
 
 
@@ -114,8 +114,8 @@ def test_next_to_an_excluded_number_no_digit_is_lost(ratio: float, field: tuple[
 
         w = excess(mpmath.mpf(0)) / (excess(mpmath.mpf(0)) - excess(mpmath.mpf(1)))
         true = (w * b / B2, w, B3 * w * (w + (2 - I) * B2) / (I * B2 * (w + B2)))
-        for found, value in zip((motion.k, motion.omega2, motion.omega3), true, strict=True):
-            assert found == float(value)
+        for computed, value in zip((motion.k, motion.omega2, motion.omega3), true, strict=True):
+            assert computed == float(value)
 
 
 def test_a_closed_motion_has_actions_and_no_derivatives() -> None:

@@ -47,28 +47,28 @@ def test_a_convention_that_fits_is_reported(name: str, kind: str) -> None:
     """It is the only one, and is not said where the data are off by 1e-3 in it, nor where they are right as given."""
     motion, (make, words) = MOTIONS[kind], CONVENTIONS[name]
     data = make(motion)
-    (what,) = data.keys() - {"scalar_first"}
+    (quantity,) = data.keys() - {"scalar_first"}
     result = atlas.check(TIMES, **data, motion=motion)
     assert isinstance(result, Check)
-    (said,) = result.conventions
-    assert words in said
-    assert said in str(result)
-    noise = 1e-3 * np.cos(np.arange(data[what].size)).reshape(data[what].shape)
-    off = atlas.check(TIMES, **data | {what: data[what] + noise}, motion=motion)
-    right = atlas.check(TIMES, **{what: getattr(motion, what)(TIMES)}, motion=motion)
+    (sentence,) = result.conventions
+    assert words in sentence
+    assert sentence in str(result)
+    noise = 1e-3 * np.cos(np.arange(data[quantity].size)).reshape(data[quantity].shape)
+    off = atlas.check(TIMES, **data | {quantity: data[quantity] + noise}, motion=motion)
+    result_right = atlas.check(TIMES, **{quantity: getattr(motion, quantity)(TIMES)}, motion=motion)
     assert not off.conventions
-    assert not right.conventions
+    assert not result_right.conventions
 
 
 def test_the_attitude_that_is_named_makes_the_trajectory_right(tmp_path: Path) -> None:
     """Graded again with the attitude and the field in that laboratory, all digits are there."""
     frame = atlas.motion(1.4, TURN @ [0.4, -0.9, 1.2], (0.5, 0.3, -1.1), TURN).to_dataframe(TIMES)
     frame.to_csv(tmp_path / "turned.csv", index=False)
-    known: dict[str, Any] = {"inertia": (1.0, 1.0, 1.4), "omega": (0.5, 0.3, -1.1)}
-    first = check_file(tmp_path / "turned.csv", field=(0.4, -0.9, 1.2), **known)
-    attitude = [*map(float, first.conventions[0].partition("--attitude ")[2].partition(",")[0].split())]
-    again = check_file(tmp_path / "turned.csv", field=TURN @ [0.4, -0.9, 1.2], attitude=attitude, **known)
-    assert min(column.worst for column in first.columns) < 1
+    inputs: dict[str, Any] = {"inertia": (1.0, 1.0, 1.4), "omega": (0.5, 0.3, -1.1)}
+    result = check_file(tmp_path / "turned.csv", field=(0.4, -0.9, 1.2), **inputs)
+    attitude = [*map(float, result.conventions[0].partition("--attitude ")[2].partition(",")[0].split())]
+    again = check_file(tmp_path / "turned.csv", field=TURN @ [0.4, -0.9, 1.2], attitude=attitude, **inputs)
+    assert min(column.worst for column in result.columns) < 1
     assert min(column.worst for column in again.columns) > 8
 
 
@@ -98,8 +98,8 @@ def test_simulated_attitudes_are_followed_in_the_convention_they_have(family: An
     """Residuals of rounding, and of an integration, are no sign of drag: the fit is silent, or names the convention."""
     body: Any = {"general": 1.4, "asymmetric": (0.9, 1.1, 1.45)}[family]
     motion, t = atlas.motion(body, (0.3, -0.8, 0.5), (0.4, -0.9, 1.3)), np.linspace(0, 12, 121)
-    found = atlas.fit(t, family, rotation=motion.rotation(t))
-    assert not found.warnings
-    assert found.sigma < 1e-7
+    fit = atlas.fit(t, family, rotation=motion.rotation(t))
+    assert not fit.warnings
+    assert fit.sigma < 1e-7
     (words,) = atlas.fit(t, family, rotation=motion.rotation(t).swapaxes(1, 2)).warnings
     assert "matrices that are transposed" in words

@@ -61,9 +61,9 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def described(data: Path) -> dict[str, Any]:
     """Return what the description says of each file."""
     text = (data / "datapackage.json").read_text("utf-8")
-    found = json.loads(text)
-    assert f"{json.dumps(found, indent=1, ensure_ascii=False)}\n" == text  # for people, too
-    return found | {"resources": {one["path"]: one for one in found["resources"]}}
+    record = json.loads(text)
+    assert f"{json.dumps(record, indent=1, ensure_ascii=False)}\n" == text  # for people, too
+    return record | {"resources": {resource["path"]: resource for resource in record["resources"]}}
 
 
 def read(path: Path) -> list[dict[str, str]]:
@@ -73,16 +73,18 @@ def read(path: Path) -> list[dict[str, str]]:
 
 def test_each_file_is_described_and_nothing_else_is_there(data: Path, described: dict[str, Any]) -> None:
     """Paths, sizes, digests and columns are those of the files, and no file is left out."""
-    there = {str(path.relative_to(data)) for path in data.rglob("*") if path.is_file()}
-    assert there == {*described["resources"], "datapackage.json", WRITTEN}
-    for path, one in described["resources"].items():
+    files = {str(path.relative_to(data)) for path in data.rglob("*") if path.is_file()}
+    assert files == {*described["resources"], "datapackage.json", WRITTEN}
+    for path, resource in described["resources"].items():
         content = (data / path).read_bytes()
-        assert one["bytes"] == len(content)
-        assert one["hash"] == f"sha256:{hashlib.sha256(content).hexdigest()}"
-        assert one["format"] == path.rpartition(".")[2]
-        assert one["name"].endswith("-parquet") == (one["format"] == "parquet")
-        if one["format"] == "csv":
-            assert content.decode().splitlines()[0].split(",") == [field["name"] for field in one["schema"]["fields"]]
+        assert resource["bytes"] == len(content)
+        assert resource["hash"] == f"sha256:{hashlib.sha256(content).hexdigest()}"
+        assert resource["format"] == path.rpartition(".")[2]
+        assert resource["name"].endswith("-parquet") == (resource["format"] == "parquet")
+        if resource["format"] == "csv":
+            assert content.decode().splitlines()[0].split(",") == [
+                field["name"] for field in resource["schema"]["fields"]
+            ]
     assert described["description"] == "One body, I=3/2."
 
 
@@ -103,13 +105,13 @@ def test_parquet_holds_the_nearest_doubles(data: Path, described: dict[str, Any]
     """Read back by pyarrow it has the same columns and the doubles nearest to the digits; heads and units go along."""
     parquet = pytest.importorskip("pyarrow.parquet")
     for path in [path for path in described["resources"] if path.endswith(".parquet")]:
-        found, rows = parquet.read_table(data / path), read(data / path.replace(".parquet", ".csv"))
+        table, rows = parquet.read_table(data / path), read(data / path.replace(".parquet", ".csv"))
         for field in described["resources"][path]["schema"]["fields"]:
-            cells = found.column(field["name"]).to_pylist()
+            cells = table.column(field["name"]).to_pylist()
             texts = [row[field["name"]] for row in rows]
             convert = {"number": float, "integer": int, "string": str}[field["type"]]
             assert cells == [convert(x) if x or convert is str else None for x in texts]
-        units = {f.name: (f.metadata or {}).get(b"unit", b"").decode() for f in found.schema}
+        units = {f.name: (f.metadata or {}).get(b"unit", b"").decode() for f in table.schema}
         assert units == {f["name"]: f.get("unit", "") for f in described["resources"][path]["schema"]["fields"]}
 
 
@@ -124,7 +126,7 @@ def test_without_pyarrow_there_is_csv_and_a_line(tmp_path: Path, monkeypatch: py
     )
     place = tmp_path / "small"
     described = json.loads((place / "datapackage.json").read_text("utf-8"))["resources"]
-    assert {one["path"] for one in described} == {str(x.relative_to(place)) for x in place.glob("*/*")}
+    assert {resource["path"] for resource in described} == {str(x.relative_to(place)) for x in place.glob("*/*")}
     with pytest.raises(AtlasError, match="Parquet needs pyarrow"):
         build_data(tmp_path / "small.toml", tmp_path)
 
@@ -138,9 +140,9 @@ def test_samples_agree_with_the_motion(data: Path) -> None:
 
 def test_a_column_of_words_and_numbers_is_one_of_words(data: Path, described: dict[str, Any]) -> None:
     """What stands in a table of words is text; its heads become names, its caption's equations are named."""
-    one = described["resources"]["tables/words.csv"]
-    assert [(f["name"], f["type"]) for f in one["schema"]["fields"]] == [("omega2", "string"), ("What", "string")]
-    assert one["equations"] == ["(71)"]
+    resource = described["resources"]["tables/words.csv"]
+    assert [(f["name"], f["type"]) for f in resource["schema"]["fields"]] == [("omega2", "string"), ("What", "string")]
+    assert resource["equations"] == ["(71)"]
     assert read(data / "tables" / "words.csv")[1] == {"omega2": "x", "What": "b"}
 
 
@@ -149,9 +151,9 @@ def test_a_figure_gives_the_points_that_it_draws(data: Path, described: dict[str
     scene = recipes.load("frequencies").scene(ratio=1.5)
     expected = "".join(line for line in table(scene).splitlines(keepends=True) if not line.startswith("#"))
     assert (data / "figures" / "curves.csv").read_text("utf-8") == expected
-    one = described["resources"]["figures/curves.csv"]
-    assert one["command"].startswith("atlas figure frequencies --set ratio=1.5")
-    assert one["axes"][0].startswith("panel 1: ")
+    resource = described["resources"]["figures/curves.csv"]
+    assert resource["command"].startswith("atlas figure frequencies --set ratio=1.5")
+    assert resource["axes"][0].startswith("panel 1: ")
 
 
 def test_the_same_report_gives_the_same_bytes(data: Path) -> None:
@@ -181,9 +183,9 @@ def test_files_of_the_user_are_kept(data: Path, tmp_path: Path, kind: str) -> No
 
 def test_a_failing_figure_keeps_existing_files(data: Path, tmp_path: Path) -> None:
     """The reason is told in a line, and the status is 2."""
-    wrong = REPORT.replace("parameters.ratio = 1.5", "parameters.ratio = 7.5")
-    assert wrong != REPORT
-    (tmp_path / "small.toml").write_text(wrong, encoding="utf-8")
+    report_wrong = REPORT.replace("parameters.ratio = 1.5", "parameters.ratio = 7.5")
+    assert report_wrong != REPORT
+    (tmp_path / "small.toml").write_text(report_wrong, encoding="utf-8")
     done = CliRunner().invoke(program, ["data", str(tmp_path / "small.toml"), "--out", str(data.parent)])
     assert isinstance(done.exception, AtlasError)
     assert "frequencies" in str(done.exception)
@@ -200,15 +202,15 @@ def test_heads_become_names() -> None:
 def test_unproven_numbers_are_marked_in_a_second_column(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A column with one number that is not proven has another, which tells them apart; the rest has none."""
     document, *_ = composed(data.parents[1] / "small.toml", data.parent, lambda _: ("csv.gz",), lambda *_: None, 1)
-    (table, *_) = [one for one in document.listed("table") if one.id == "tab-samples"]
-    (time, first, *rest), last = table.rows
-    rows = (time, replace(first, proven=False), *rest), last
+    (table, *_) = [table_listed for table_listed in document.listed("table") if table_listed.id == "tab-samples"]
+    (time, cell, *cells), row_last = table.rows
+    rows = (time, replace(cell, proven=False), *cells), row_last
     monkeypatch.setattr(document, "listed", lambda kind: [replace(table, rows=rows)] if kind == "table" else [])
     content = package(document, {})["tables/samples.csv"].decode()
     names = content.splitlines()[0].split(",")
-    (said,) = [name for name in names if name.endswith("_proven")]
-    assert said == f"{names[1]}_proven"
-    assert [row[said] for row in csv.DictReader(StringIO(content))] == ["false", "true"]
+    (name_proven,) = [name for name in names if name.endswith("_proven")]
+    assert name_proven == f"{names[1]}_proven"
+    assert [row[name_proven] for row in csv.DictReader(StringIO(content))] == ["false", "true"]
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,7 @@ def test_every_kind_of_block_has_its_name() -> None:
 
 def test_the_table_of_blocks_lists_all_block_kinds() -> None:
     """Each kind has its record under the name that is written in a file, and its templates; there is no other."""
-    assert {kind: one.record for kind, one in KINDS.items()} == {
+    assert {kind: record_kind.record for kind, record_kind in KINDS.items()} == {
         block.__struct_config__.tag: block for block in get_args(Block)
     }
     for one in KINDS.values():
@@ -156,10 +156,10 @@ def test_a_caption_is_marked_where_the_ledger_has_the_number() -> None:
 @pytest.mark.slow
 def test_every_citation_of_the_sources_is_in_the_ledger() -> None:
     """Docstrings, messages, captions and comments of the package and of the recipes."""
-    found = [(path.name, line, name) for path in SOURCES for line, text in words(path) for name in cited(text)]
-    assert len({name for _, _, name in found}) > 150
+    citations = [(path.name, line, name) for path in SOURCES for line, text in words(path) for name in cited(text)]
+    assert len({name for _, _, name in citations}) > 150
     css = {"text-align"}
-    assert [place for place in found if place[2] not in {*EQUATIONS, *css}] == []
+    assert [place for place in citations if place[2] not in {*EQUATIONS, *css}] == []
 
 
 @pytest.mark.parametrize("path", sorted(files().values()), ids=lambda path: path.stem)
@@ -200,8 +200,12 @@ CASES = sorted({(name, floor, tie.quantity) for tie in TIES for floor in tie.flo
 @pytest.mark.parametrize("name", sorted({name for name, _, _ in CASES}, key=lambda name: int(name[1:-1])))
 def test_the_number_leads_to_kernel_ball_entry_and_proof(name: str) -> None:
     """A search for the number finds a file of each floor that computes it, its entry, and its proof."""
-    for floor in {floor for found, floor, _ in CASES if found == name}:
-        homes = {home(floor, quantity) for found, at, quantity in CASES if (found, at) == (name, floor)}
+    for floor in {floor for case_name, floor, _ in CASES if case_name == name}:
+        homes = {
+            home(floor, quantity)
+            for case_name, case_floor, quantity in CASES
+            if (case_name, case_floor) == (name, floor)
+        }
         assert any(name in path.read_text("utf-8") for path in homes), (floor, homes)
     trial = ROOT / "atlas" / "trial"
     assert name in tomllib.loads((trial / "ledger" / f"{topic(name)}.toml").read_text("utf-8"))

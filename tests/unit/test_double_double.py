@@ -86,8 +86,8 @@ def test_arrays_and_single_numbers_have_the_same_bits(rows: list[tuple[float, fl
     x, y = (np.array([row[i] for row in rows]) for i in (0, 1))
     x = np.where(x == 0, 1.0, x)
     z = -(x * y) * (1 + np.array([row[2] for row in rows]) * 2.0**-52)
-    found = over(cancelling, x * scale, y, z * scale, unit=slice(0))
-    for a, b, c, result in zip(x * scale, y, z * scale, found, strict=True):
+    results = over(cancelling, x * scale, y, z * scale, unit=slice(0))
+    for a, b, c, result in zip(x * scale, y, z * scale, results, strict=True):
         assert result == over(cancelling, float(a), float(b), float(c))
 
 
@@ -106,9 +106,9 @@ def test_scaled_rows_have_the_bits_of_the_rows_themselves() -> None:
 def test_results_below_the_smallest_normal_double_are_rounded_once() -> None:
     """A row that is scaled by a power of two is not rounded again where doubles have fewer digits."""
     x, y = np.random.default_rng(3).uniform(1.0, 2.0, (2, 200)) * 2.0**-512
-    found = over(lambda a, b: a * b, x, y, unit=slice(0, 2), degree=2)
+    products = over(lambda a, b: a * b, x, y, unit=slice(0, 2), degree=2)
     true = [float(Fraction(a) * Fraction(b)) for a, b in zip(x.tolist(), y.tolist(), strict=True)]
-    assert found.tolist() == true
+    assert products.tolist() == true
     assert over(lambda a, b: a * b, np.array([0.0, 2.0**-600]), 2.0**-600, unit=slice(0, 2), degree=2).tolist() == [
         0,
         0,
@@ -117,8 +117,8 @@ def test_results_below_the_smallest_normal_double_are_rounded_once() -> None:
 
 def test_shapes_broadcast_and_empty_arrays_stay_empty() -> None:
     """Inputs broadcast as NumPy's do; no rows give no rows, and plain inputs a float."""
-    found = over(lambda a, b: a + b, np.ones((3, 1)), np.arange(4.0))
-    assert found.shape == (3, 4)
+    sums = over(lambda a, b: a + b, np.ones((3, 1)), np.arange(4.0))
+    assert sums.shape == (3, 4)
     assert over(lambda a, b: a + b, np.ones(0), 1.0).shape == (0,)
     assert isinstance(over(lambda a, b: a + b, 1.0, 2.0), float)
     assert isinstance(over(lambda a: (a, a * a), 2.0, degree=(1, 2)), list)
@@ -143,7 +143,7 @@ def test_one_turn_is_two_pi_to_250_digits() -> None:
 @given(st.floats(-1e30, 1e30))
 def test_a_phase_less_whole_turns_is_within_half_a_turn(x: float) -> None:
     """What is left of a number differs from it by a whole number and is at most 1/2."""
-    rest = turn_of(rational(x))
-    assert abs(nearest(rest)) <= 0.5
+    reduced = turn_of(rational(x))
+    assert abs(nearest(reduced)) <= 0.5
     with workprec():
-        assert (arb(rational(x)) - rest).is_integer()
+        assert (arb(rational(x)) - reduced).is_integer()

@@ -60,9 +60,9 @@ def ball_scene(**options: Any) -> Scene:
 @pytest.mark.parametrize(("make", "kind"), [(flat_scene, "svg"), (flat_scene, "pdf"), (ball_scene, "png")])
 def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, make: Callable[[], Scene], kind: str) -> None:
     """No date, no random name, nothing left over from the first drawing."""
-    first, second = (draw(make(), tmp_path / f"{n}.{kind}").read_bytes() for n in "ab")
-    assert first == second
-    assert len(first) > 1000
+    picture, second = (draw(make(), tmp_path / f"{n}.{kind}").read_bytes() for n in "ab")
+    assert picture == second
+    assert len(picture) > 1000
 
 
 @pytest.mark.slow
@@ -182,26 +182,26 @@ def test_a_name_is_drawn_wherever_it_stands() -> None:
     panel = Plane((curve, label), "$x$", "$y$", (0.0, 1.0), (0.0, 1.0))
     figure = to_figure(Scene("A line", "A caption.", "A line.", (panel,)))
     renderer = FigureCanvasAgg(figure).get_renderer()
-    drawn = [text.get_tightbbox(renderer) for text in figure.axes[0].texts if text.get_text() == "beside"]
-    assert drawn
-    assert all(box.width > 0.0 for box in drawn)
+    boxes_drawn = [text.get_tightbbox(renderer) for text in figure.axes[0].texts if text.get_text() == "beside"]
+    assert boxes_drawn
+    assert all(box.width > 0.0 for box in boxes_drawn)
 
 
 @pytest.mark.parametrize("name", IN_SPACE)
 def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None:
     """Each name of the default figure is inside the page and clear of every other."""
     figure = to_figure(recipes.load(name).scene())
-    found = boxes(figure)
-    assert len(found) >= 4
-    for text, (left, bottom, right, top) in found:
-        assert left >= 0.0, text
-        assert right <= figure.bbox.width, text
+    text_boxes = boxes(figure)
+    assert len(text_boxes) >= 4
+    for text, (x_left, bottom, x_right, top) in text_boxes:
+        assert x_left >= 0.0, text
+        assert x_right <= figure.bbox.width, text
         assert bottom >= 0.0, text
         assert top <= figure.bbox.height, text
-    for i, (text, a) in enumerate(found):
-        for other, b in found[i + 1 :]:
+    for i, (text, a) in enumerate(text_boxes):
+        for name_other, b in text_boxes[i + 1 :]:
             overlap = (min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1]))
-            assert min(overlap) <= 0.0, (text, other)
+            assert min(overlap) <= 0.0, (text, name_other)
 
 
 @pytest.mark.parametrize("name", IN_SPACE)
@@ -225,28 +225,28 @@ def test_the_silhouette_lies_on_the_surface_where_the_line_of_sight_grazes_it(na
     assert isinstance(panel, Space)
 
     view = fit(panel, (300.0, 250.0))
-    found = 0
+    count = 0
     for surface in view.surfaces:
         for line in silhouette(surface, view):
-            found += len(line)
+            count += len(line)
             x = np.concatenate([line, np.ones((len(line), 1))], axis=1)
             d = np.append(view.towards, 0.0)
             size = np.sum((np.abs(x) @ np.abs(surface.quadric)) * np.abs(x), axis=1).max()
             assert np.abs(np.sum((x @ surface.quadric) * x, axis=1)).max() < 1e-12 * size
             assert np.abs(x @ surface.quadric @ d).max() < 1e-12 * size
             assert (line @ surface.clip[:, :3].T <= surface.clip[:, 3] + 1e-12).all()
-    assert found > 10
+    assert count > 10
 
 
 def test_a_piece_of_a_line_too_short_to_see_is_no_dot() -> None:
     """Rounding may leave a piece of a line where it touches a surface: that is not drawn, on no machine."""
     (ball, arrow) = ball_scene().panels[0].layers
     bit = Curve(np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0 + 1e-9]]), "loop")
-    found = []
+    segments = []
     for layers in ((ball, arrow), (ball, arrow, bit)):
         axes = to_figure(replace(ball_scene(), panels=(Space(layers),))).axes[0]
-        found.append([len(lines.get_segments()) for lines in axes.collections])
-    assert found[0] == found[1]
+        segments.append([len(lines.get_segments()) for lines in axes.collections])
+    assert segments[0] == segments[1]
 
 
 def test_a_name_moves_away_from_ink() -> None:
@@ -302,36 +302,36 @@ def test_dark_marks_stand_off_a_map_by_a_white_ring(mapped: bool) -> None:
 
 def test_a_path_of_an_svg_is_short_and_the_same() -> None:
     """To a hundredth of a point, each point from the one before, none twice; what is no path stays."""
-    given = (
+    path = (
         '<path d="M 1.234567 2 \nL 1.2349 2.001 \nL 3.5 -0.001 \nQ 1 2 3.14159 4 \nL 5 6 \nz\nM 1 1 \n" '
         'style="w: 1.2345"/>'
     )
-    assert _short(given) == '<path d="m1.23 2 2.27-2q-2.5 2-.36 4l1.86 2zm-.23-1" style="w: 1.2345"/>'
+    assert _short(path) == '<path d="m1.23 2 2.27-2q-2.5 2-.36 4l1.86 2zm-.23-1" style="w: 1.2345"/>'
 
 
 ROD = np.array([[0.0, 0.0], [1.0, 1.0]])
 
 
-def drawn(*layers: Curve | Points | Label) -> Plane:
+def plane_of(*layers: Curve | Points | Label) -> Plane:
     """Return a panel of the unit square."""
     return Plane(layers, "$x$", "$y$", (0.0, 1.0), (0.0, 1.0))
 
 
 @pytest.mark.parametrize(
-    ("at", "whole"), [((0.0, 0.5), True), ((0.5, 1.0), True), ((0.5, 0.5), False), ((-0.1, 0.5), False)]
+    ("place", "is_whole"), [((0.0, 0.5), True), ((0.5, 1.0), True), ((0.5, 0.5), False), ((-0.1, 0.5), False)]
 )
-def test_a_mark_on_the_frame_is_drawn_whole(at: tuple[float, float], whole: bool) -> None:
+def test_a_mark_on_the_frame_is_drawn_whole(place: tuple[float, float], is_whole: bool) -> None:
     """Not cut in two by the frame; marks within may be moved out of sight, and one outside is not drawn."""
-    axes = to_figure(Scene("a", "b", "c", (drawn(Curve(ROD, "main"), Points(np.array([at]), "start")),))).axes[0]
+    axes = to_figure(Scene("a", "b", "c", (plane_of(Curve(ROD, "main"), Points(np.array([place]), "start")),))).axes[0]
     line, mark = axes.get_lines()
-    assert mark.get_clip_on() is not whole
+    assert mark.get_clip_on() is not is_whole
     assert line.get_clip_on()
 
 
 def test_a_legend_finds_curves_named_by_a_label() -> None:
     """A label names the last curve or points of its role that have no name: ``axes.legend()`` lists them."""
     layers = (Curve(ROD, "guide"), Curve(ROD, "main"), Points(ROD, "rest"), Label(ROD[0], "$a$", "main"))
-    panel = drawn(*layers, Curve(ROD, "second", "$b$"), Label(ROD[1], "rest", "rest"), Label(ROD[1], "note", "main"))
+    panel = plane_of(*layers, Curve(ROD, "second", "$b$"), Label(ROD[1], "rest", "rest"), Label(ROD[1], "note", "main"))
     handles, labels = to_figure(Scene("a", "b", "c", (panel,))).axes[0].get_legend_handles_labels()
     assert labels == ["$a$", "rest", "$b$"]
     assert [handle.get_gid() for handle in handles] == ["main-1-2", "rest-1-3", "second-1-5"]
@@ -345,20 +345,26 @@ def test_the_components_of_a_motion_are_in_a_legend() -> None:
 
 def test_no_name_is_taken_for_that_of_a_guide() -> None:
     """A line with no name does not drive another line's name away, where a line that may have one does."""
-    own, other = (np.stack([np.linspace(0.0, 90.0, 91), np.full(91, height)], axis=1) for height in (50.0, 62.5))
+    line_own, line_other = (
+        np.stack([np.linspace(0.0, 90.0, 91), np.full(91, height)], axis=1) for height in (50.0, 62.5)
+    )
     tag = Tag("a", (45.0, 50.0), (0.0, 4.0), (12.0, 8.0), "#000000", 9.0, owner=0)
     window = (0.0, 0.0, 90.0, 90.0)
-    beside, away = (place([tag], [(own, 1.5, 0), (other, 0.2, whose)], window)[0] for whose in (NOBODY, 1))
-    assert beside[1] > 50.0 > away[1]
+    place_beside, away = (
+        place([tag], [(line_own, 1.5, 0), (line_other, 0.2, whose)], window)[0] for whose in (NOBODY, 1)
+    )
+    assert place_beside[1] > 50.0 > away[1]
 
 
 def test_a_name_of_a_point_stands_beside_that_point() -> None:
     """A marked point above the name drives it to another side, where a line would not."""
     window = (0.0, 0.0, 90.0, 90.0)
     tag = Tag("a", (45.0, 45.0), (0.0, 4.0), (12.0, 8.0), "#000000", 9.0)
-    own, other = np.array([[45.0, 45.0]]), np.array([[45.0, 58.5]])
-    alone, beside = (place([tag], [(own, MARK, 0), (other, cost, 1)], window)[0] for cost in (1.5, MARK))
-    assert beside[1] < alone[1] == 53.0
+    points_own, points_other = np.array([[45.0, 45.0]]), np.array([[45.0, 58.5]])
+    place_alone, place_beside = (
+        place([tag], [(points_own, MARK, 0), (points_other, cost, 1)], window)[0] for cost in (1.5, MARK)
+    )
+    assert place_beside[1] < place_alone[1] == 53.0
 
 
 def test_curves_on_a_sphere_stand_off_its_graticule_in_grey() -> None:

@@ -25,30 +25,30 @@ def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
 
 def test_the_first_that_draws_is_taken_and_remembered(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """EGL is asked before OSMesa; the next process reads the answer and asks nobody."""
-    asked = []
-    monkeypatch.setattr(gl, "_draws", lambda name: asked.append(name) or name == "osmesa")
+    drivers_tried = []
+    monkeypatch.setattr(gl, "_draws", lambda name: drivers_tried.append(name) or name == "osmesa")
     assert gl.library() == "osmesa"
-    assert asked == ["egl", "osmesa"]
+    assert drivers_tried == ["egl", "osmesa"]
     (note,) = (fresh / "atlas").iterdir()
     assert json.loads(note.read_text(encoding="utf-8")) == {note.stem: "osmesa"}
     gl.library.cache_clear()
     assert gl.library() == "osmesa"
-    assert asked == ["egl", "osmesa"]
+    assert drivers_tried == ["egl", "osmesa"]
     note.write_text(json.dumps({"gl-elsewhere": "egl"}), encoding="utf-8")  # the answer of another machine
     gl.library.cache_clear()
     assert gl.library() == "osmesa"
-    assert len(asked) == 4
+    assert len(drivers_tried) == 4
 
 
 def test_a_no_is_remembered_until_libraries_are_installed(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nobody is asked again until what the answer depends on has changed; then what was installed is found."""
-    drivers, asked = fresh / "dri", list[str]()
+    drivers, drivers_tried = fresh / "dri", list[str]()
     monkeypatch.setattr(gl, "DRIVERS", (str(drivers),))
-    monkeypatch.setattr(gl, "_draws", lambda name: asked.append(name) or drivers.exists())
+    monkeypatch.setattr(gl, "_draws", lambda name: drivers_tried.append(name) or drivers.exists())
     assert gl.library() is None
     gl.library.cache_clear()
     assert gl.library() is None
-    assert asked == ["egl", "osmesa"]
+    assert drivers_tried == ["egl", "osmesa"]
     drivers.mkdir()
     gl.library.cache_clear()
     assert gl.library() == "egl"
@@ -130,11 +130,13 @@ def test_set_up_installs_missing_libraries_where_permitted(tmp_path: Path, answe
     for name, text in {"python": f"echo '{answer}'", "id": "echo 0", "apt-get": apt}.items():
         (tmp_path / name).write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
         (tmp_path / name).chmod(0o755)
-    own = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", gl.CHOICE))}
+    variables = {
+        name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", gl.CHOICE))
+    }
     done = subprocess.run(
         ["make", "-s", "gl", f"BIN={tmp_path}"],  # noqa: S607  whichever make there is
         cwd=Path(__file__).parents[2],
-        env=own | {"PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"},
+        env=variables | {"PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

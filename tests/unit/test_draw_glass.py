@@ -30,7 +30,7 @@ def bare(surface: Surface) -> Surface:
     return replace(surface, wires=(), rims=(), label="")
 
 
-def of(name: str, **parameters: Any) -> list[Surface]:
+def surfaces_of(name: str, **parameters: Any) -> list[Surface]:
     """Return the surfaces of a figure."""
     return [x for x in recipes.load(name).scene(**parameters).panels[0].layers if isinstance(x, Surface)]
 
@@ -43,17 +43,17 @@ def hits(surface: Surface, eye: FloatArray, towards: FloatArray) -> list[FloatAr
     F = np.einsum("...i,ij,...j->...", eye, Q[:3, :3], eye) + 2.0 * eye @ Q[:3, 3] + Q[3, 3]
     with np.errstate(all="ignore"):
         half = -0.5 * (B + np.copysign(np.sqrt(B * B - 4.0 * A * F), B))
-        found = [half / A if abs(A) > 1e-9 else np.full_like(F, np.nan), F / half]
-        for k, t in enumerate(found):
+        roots = [half / A if abs(A) > 1e-9 else np.full_like(F, np.nan), F / half]
+        for k, t in enumerate(roots):
             x = eye + t[..., None] * d
             inside = np.isfinite(t)
             for *n, distance in surface.clip:
                 inside &= x @ np.array(n) <= distance + 1e-9
             for W in surface.within:
-                one = np.concatenate([x, np.ones((*x.shape[:-1], 1))], axis=-1)
-                inside &= np.einsum("...i,ij,...j->...", one, W, one) <= 0.0
-            found[k] = np.where(inside, t, np.nan)
-    return found
+                homogeneous = np.concatenate([x, np.ones((*x.shape[:-1], 1))], axis=-1)
+                inside &= np.einsum("...i,ij,...j->...", homogeneous, W, homogeneous) <= 0.0
+            roots[k] = np.where(inside, t, np.nan)
+    return roots
 
 
 def colours(
@@ -105,9 +105,9 @@ def traced(view: View, width: int, height: int, dpi: float) -> tuple[NDArray[np.
     inner = np.ones((height, width), dtype=bool)
     for k in order:
         pick = (k, *np.indices(k.shape))
-        seen = np.where(np.isfinite(np.array(times)[pick]), 2 * k + np.array(sides)[pick], -1)
+        labels = np.where(np.isfinite(np.array(times)[pick]), 2 * k + np.array(sides)[pick], -1)
         for shift in ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)):
-            inner &= seen == np.roll(seen, shift, axis=(0, 1))
+            inner &= labels == np.roll(labels, shift, axis=(0, 1))
         opacity = np.array(dense)[pick][..., None]
         picture = np.minimum(np.array(light)[pick], 1.0) * opacity + (1.0 - opacity) * picture
     return np.round(255.0 * picture).astype(int), inner
@@ -117,17 +117,21 @@ SHEETS = ("quadric", {"ratio": 0.5, "field": (1.0, 1.0)})
 GLASS: dict[str, tuple[Callable[[], list[Surface]], float, float]] = {
     "a ball along its axis": (lambda: [solids.sphere(O, 1.0, FINE)], 0.0, 90.0),
     "a ball from the side": (lambda: [solids.sphere(O, 1.0, FINE, role="ball")], 20.0, 15.0),
-    "a hyperboloid of one sheet from the side": (lambda: of("quadric", ratio=0.5, field=(1.0, 0.5)), 20.0, 15.0),
-    "a hyperboloid of one sheet from within": (lambda: of(SHEETS[0], **SHEETS[1]), 90.0, 63.0),
-    "both sheets of a hyperboloid": (lambda: of("quadric"), 20.0, 15.0),
-    "both sheets of a hyperboloid, the one before the other": (lambda: of("quadric"), 90.0, 58.0),
-    "a cone": (lambda: of("cone"), 25.0, 14.0),
-    "a cone along its asymptote": (lambda: of("cone", field=(1.0, 1.0)), 90.0, 45.0),
-    "two sheets of a loop": (lambda: of("quadric", ratio=2.0), 25.0, 14.0),
-    "the same from below": (lambda: of("quadric", ratio=2.0), -60.0, -35.0),
-    "two planes": (lambda: of("quadric", field=(1.0, 0.0)), 25.0, 14.0),
-    "a cone in a ball": (lambda: of("motion_sphere"), 25.0, 18.0),
-    "a cone in a ball, from behind": (lambda: of("motion_sphere"), 200.0, -30.0),
+    "a hyperboloid of one sheet from the side": (
+        lambda: surfaces_of("quadric", ratio=0.5, field=(1.0, 0.5)),
+        20.0,
+        15.0,
+    ),
+    "a hyperboloid of one sheet from within": (lambda: surfaces_of(SHEETS[0], **SHEETS[1]), 90.0, 63.0),
+    "both sheets of a hyperboloid": (lambda: surfaces_of("quadric"), 20.0, 15.0),
+    "both sheets of a hyperboloid, the one before the other": (lambda: surfaces_of("quadric"), 90.0, 58.0),
+    "a cone": (lambda: surfaces_of("cone"), 25.0, 14.0),
+    "a cone along its asymptote": (lambda: surfaces_of("cone", field=(1.0, 1.0)), 90.0, 45.0),
+    "two sheets of a loop": (lambda: surfaces_of("quadric", ratio=2.0), 25.0, 14.0),
+    "the same from below": (lambda: surfaces_of("quadric", ratio=2.0), -60.0, -35.0),
+    "two planes": (lambda: surfaces_of("quadric", field=(1.0, 0.0)), 25.0, 14.0),
+    "a cone in a ball": (lambda: surfaces_of("motion_sphere"), 25.0, 18.0),
+    "a cone in a ball, from behind": (lambda: surfaces_of("motion_sphere"), 200.0, -30.0),
     "two balls that meet": (
         lambda: [solids.sphere(O, 1.0, FINE), solids.sphere(np.array([0.3, 0.9, 0.4]), 0.8, FINE, role="ball")],
         35.0,
@@ -167,10 +171,10 @@ def test_glass_agrees_with_sorted_rays(case: str, tmp_path: Path, monkeypatch: p
     draw(Scene("t", "c", "a", (panel,), size=(60.0, 60.0)), tmp_path / "a.png", renderer="shaded", dpi=150.0)
     from matplotlib.image import imread
 
-    drawn = np.round(255.0 * imread(tmp_path / "a.png")[..., :3]).astype(int)
-    exact, inner = traced(views[0], drawn.shape[1], drawn.shape[0], 150.0)
+    pixels = np.round(255.0 * imread(tmp_path / "a.png")[..., :3]).astype(int)
+    exact, inner = traced(views[0], pixels.shape[1], pixels.shape[0], 150.0)
     inner &= (exact < 255).any(axis=2)
-    away = np.abs(drawn - exact).max(axis=2)[inner]
+    away = np.abs(pixels - exact).max(axis=2)[inner]
     assert inner.mean() > 0.04
     assert (away > 3).mean() < 1.0 / 5000.0
     assert away.mean() < 1.0
@@ -197,11 +201,11 @@ def test_a_wire_covers_as_much_as_its_style_says(dpi: float, slope: float, tmp_p
     middle = pictures[0].shape[1] // 2
     look = style("wire")
     pale = pictures[0][middle, middle]
-    full = pale - [int(look.colour[i : i + 2], 16) for i in (1, 3, 5)]
+    ink_full = pale - [int(look.colour[i : i + 2], 16) for i in (1, 3, 5)]
     columns = slice(middle - middle // 3, middle + middle // 3)
     ink = (pictures[0] - pictures[1])[:, columns].sum(axis=0).mean(axis=0)
     width = look.tube * dpi / 72.0 * np.hypot(1.0, slope)
-    assert ink == pytest.approx(width * full, rel=0.125)
+    assert ink == pytest.approx(width * ink_full, rel=0.125)
 
 
 def random_quadrics(rng: np.random.Generator, count: int) -> list[FloatArray]:
@@ -230,20 +234,20 @@ def test_places_go_up_from_hit_to_hit_of_every_ray(seed: int) -> None:
         towards = axes @ np.where(values > 0.7, np.sqrt(0.4), np.where(values < 0.0, 1.0, 0.0))
         towards /= np.linalg.norm(towards)
     eye = rng.uniform(-1.0, 1.0, size=(400, 3))
-    when, where, rank = [], [], []
-    for own, form in enumerate(forms):
+    when, rays, rank = [], [], []
+    for index, form in enumerate(forms):
         for t in hits(Surface(form, np.empty((0, 4)), ()), eye, towards):
-            found = np.abs(t) < 50.0
-            x = eye[found] + t[found, None] * towards
-            rank.append(places(np.repeat(x[:, None], 3, axis=1), forms, own, towards))
-            when.append(t[found])
-            where.append(np.flatnonzero(found))
-    ray, t, place = (np.concatenate(part) for part in (where, when, rank))
+            is_hit = np.abs(t) < 50.0
+            x = eye[is_hit] + t[is_hit, None] * towards
+            rank.append(places(np.repeat(x[:, None], 3, axis=1), forms, index, towards))
+            when.append(t[is_hit])
+            rays.append(np.flatnonzero(is_hit))
+    ray, t, place = (np.concatenate(column) for column in (rays, when, rank))
     assert len(ray) > 800
     order = np.lexsort((t, ray))
     same = np.diff(ray[order]) == 0
-    apart = np.diff(t[order]) > 1e-7
-    assert (np.diff(place[order])[same & apart] > 0.0).all()
+    is_apart = np.diff(t[order]) > 1e-7
+    assert (np.diff(place[order])[same & is_apart] > 0.0).all()
 
 
 def area(corners: FloatArray) -> float:
@@ -269,5 +273,5 @@ def test_a_cut_keeps_the_area_and_leaves_no_triangle_across() -> None:
 
 def test_equal_quadrics_count_once() -> None:
     """Both sheets of a hyperboloid are one quadric."""
-    forms, numbers = distinct_forms(of("quadric"))
+    forms, numbers = distinct_forms(surfaces_of("quadric"))
     assert (len(forms), numbers) == (1, [0, 0])

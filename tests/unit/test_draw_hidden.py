@@ -61,9 +61,9 @@ def test_pieces_of_a_line_are_visible_throughout_or_hidden_throughout(seed: int)
         for a, b in itertools.pairwise(piece):
             between = a + rng.uniform(0.01, 0.99, size=(5, 1)) * (b - a)
             assert (hidden(between, surfaces, d) != visible).all()
-    for (a, first), (b, second) in itertools.pairwise(pieces):
+    for (a, is_visible), (b, second) in itertools.pairwise(pieces):
         assert np.abs(a[-1] - b[0]).max() < 1e-12
-        assert first != second
+        assert is_visible != second
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -77,10 +77,10 @@ def test_a_surface_hides_the_same_with_its_mesh_and_without(seed: int) -> None:
         solids.cone(centre, axis, 0.6, 1.2, 1e-2),
         solids.disk(centre, axis, 0.9, 1e-2),
     ]
-    across = np.linalg.svd(d[None])[2][1:]
+    plane = np.linalg.svd(d[None])[2][1:]
     for surface in pieces:
         mesh = np.concatenate([grid.reshape(-1, 3) for grid in surface.grids])
-        flat = mesh @ across.T
+        flat = mesh @ plane.T
         rim = mesh[np.ravel([np.argsort(sign * flat[:, k])[:20] for k in range(2) for sign in (1.0, -1.0)])]
         points = centre + rng.uniform(0.98, 1.0, (len(rim), 1)) * (rim - centre) - 3.0 * d
         bare = hidden(points, [replace(surface, grids=())], d)
@@ -163,10 +163,10 @@ def test_near_and_far_half_of_a_ball_cover_its_disk() -> None:
     """Both halves of a unit ball have the shadow pi, on the mesh to the sag of its chords."""
     ball = solids.sphere(np.array([0.3, -0.2, 0.1]), 1.0, 1e-2)
     frame = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0].T
-    parts = areas(ball, frame[2])
-    assert [near for near, _, _ in parts] == [False, True]
-    assert [outer for _, outer, _ in parts] == [False, True]
-    for _, _, edge in parts:
+    areas_drawn = areas(ball, frame[2])
+    assert [is_near for is_near, _, _ in areas_drawn] == [False, True]
+    assert [outer for _, outer, _ in areas_drawn] == [False, True]
+    for _, _, edge in areas_drawn:
         assert area(edge, frame) == pytest.approx(np.pi, rel=3e-3)
 
 

@@ -24,7 +24,7 @@ def picture(path: Path) -> NDArray[np.int64]:
     return np.round(255.0 * imread(path)[..., :3]).astype(int)
 
 
-def shown(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArray[np.int64]:
+def pixels(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArray[np.int64]:
     """Draw layers shaded and return the picture (H, W, 3)."""
     scene = Scene("t", "c", "a", (Space(tuple(layers), azimuth=0.0, elevation=0.0, **options),), size=(40.0, 40.0))
     return picture(draw(scene, path, renderer="shaded", dpi=dpi))
@@ -33,24 +33,24 @@ def shown(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArra
 def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
     """Nothing is kept of what was drawn before: other things between two equal scenes change no byte."""
     ball = [solids.sphere(np.zeros(3), 1.0, 1e-2)]
-    first = shown(ball, tmp_path / "a.png")
-    shown([Curve(np.eye(3), "main"), solids.rectangle(np.zeros(3), *np.eye(3)[:2])], tmp_path / "b.png", dpi=130.0)
-    assert (shown(ball, tmp_path / "c.png") == first).all()
+    picture = pixels(ball, tmp_path / "a.png")
+    pixels([Curve(np.eye(3), "main"), solids.rectangle(np.zeros(3), *np.eye(3)[:2])], tmp_path / "b.png", dpi=130.0)
+    assert (pixels(ball, tmp_path / "c.png") == picture).all()
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "c.png").read_bytes()
-    assert (first < 250).any()
+    assert (picture < 250).any()
 
 
 def test_curves_inside_a_translucent_ball_shine_through(tmp_path: Path) -> None:
     """Behind glass a red line is still redder than the glass, but not as red as before it."""
     ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
 
-    def redness(at: float) -> int:
-        line = Curve(np.array([[at, -0.4, 0.0], [at, 0.4, 0.0]]), "field")
-        image = shown([ball, line], tmp_path / "ball.png")
+    def redness(height: float) -> int:
+        line = Curve(np.array([[height, -0.4, 0.0], [height, 0.4, 0.0]]), "field")
+        image = pixels([ball, line], tmp_path / "ball.png")
         patch = image[image.shape[0] // 2 - 3 : image.shape[0] // 2 + 4, image.shape[1] // 2]
         return int((patch[:, 0] - patch[:, 2]).max())
 
-    glass = shown([ball], tmp_path / "glass.png")
+    glass = pixels([ball], tmp_path / "glass.png")
     plain = int(glass[glass.shape[0] // 2, glass.shape[1] // 2, 0] - glass[glass.shape[0] // 2, glass.shape[1] // 2, 2])
     behind, before = redness(0.0), redness(1.5)
     assert plain + 20 < behind < before
@@ -69,7 +69,7 @@ def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:
     """The centre of a marked point in the picture is where the parallel projection of the page puts it."""
     corners = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, 1.0]])
     spot = np.array([[0.3, 0.4, -0.25]])
-    image = shown([Curve(corners, "guide"), Points(spot, "special")], tmp_path / "spot.png", dpi=254.0)
+    image = pixels([Curve(corners, "guide"), Points(spot, "special")], tmp_path / "spot.png", dpi=254.0)
     red = image[..., 0] - image[..., 1] > 30
     rows, columns = np.nonzero(red)
     height, width = red.shape
@@ -80,7 +80,7 @@ def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:
 
 def test_light_falls_from_the_upper_left(tmp_path: Path) -> None:
     """The upper left of a ball is lighter than its lower right."""
-    image = shown([solids.sphere(np.zeros(3), 1.0, 1e-2, role="ball")], tmp_path / "ball.png")
+    image = pixels([solids.sphere(np.zeros(3), 1.0, 1e-2, role="ball")], tmp_path / "ball.png")
     height, width = image.shape[:2]
     upper = image[int(0.3 * height) : int(0.4 * height), int(0.3 * width) : int(0.4 * width)].mean()
     lower = image[int(0.6 * height) : int(0.7 * height), int(0.6 * width) : int(0.7 * width)].mean()
@@ -101,7 +101,7 @@ def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
 def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Path) -> None:
     """A right angle of the heaviest line: its two sides are 5 points thick, and so is the corner across."""
     sides = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0]])
-    image = shown([Curve(sides, "loop")], tmp_path / "angle.png", dpi=288.0)
+    image = pixels([Curve(sides, "loop")], tmp_path / "angle.png", dpi=288.0)
     ink = 1.0 - image.min(axis=2) / 255.0 > 0.05
     height, width = ink.shape
     thick = 5.0 * 288.0 / 72.0
@@ -118,7 +118,7 @@ def test_a_circle_of_chords_is_as_round_as_its_points(tmp_path: Path) -> None:
     """Of 64 chords those that no pixel shows are left out: in all directions the ink is as far from the middle."""
     angle = np.linspace(0.0, 2.0 * np.pi, 65)
     circle = np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
-    ink = 255.0 - shown([Curve(circle, "field")], tmp_path / "circle.png").mean(axis=-1)
+    ink = 255.0 - pixels([Curve(circle, "field")], tmp_path / "circle.png").mean(axis=-1)
     y, x = np.indices(ink.shape) - 0.5 * (np.array(ink.shape) - 1.0)[:, None, None]
     sector = np.floor((np.arctan2(y, x) / (2.0 * np.pi) % 1.0) * 32).astype(int)
     sums = [np.bincount(sector.ravel(), (ink * weight).ravel()) for weight in (np.hypot(x, y), np.ones_like(ink))]

@@ -37,19 +37,19 @@ def test_a_figure_by_name_is_an_ordinary_figure() -> None:
     (panel,) = recipes.load("hyperbola").scene(ratio=0.5, field=(1.0, 0.2)).panels
     assert isinstance(panel, Plane)
     assert axes.get_xlim() == panel.x_limits
-    drawn = [line.get_xydata() for line in axes.lines]
+    points_drawn = [line.get_xydata() for line in axes.lines]
     for layer in panel.layers:
         if isinstance(layer, Curve):
-            assert any(np.array_equal(layer.points, points) for points in drawn)
+            assert any(np.array_equal(layer.points, points) for points in points_drawn)
 
 
 @pytest.mark.parametrize(("name", "words"), [("hyperbola", "rest"), ("stability", "unstable"), ("flight", "in space")])
 def test_the_text_of_a_pdf_can_be_searched(tmp_path: Path, name: str, words: str) -> None:
     """Titles, names and the letters of formulas are text, in embedded fonts."""
     (page,) = PdfReader(draw(recipes.load(name).scene(), tmp_path / "a.pdf")).pages
-    found = page.extract_text()
-    assert words in found
-    assert any(letter in found for letter in "ωτE")
+    text = page.extract_text()
+    assert words in text
+    assert any(letter in text for letter in "ωτE")
     fonts = page["/Resources"]["/Font"]
     assert fonts
     for font in fonts.values():
@@ -63,9 +63,9 @@ def test_the_look_of_plotted_lines_is_the_cycle_of_the_sheet() -> None:
     with context():
         cycle = list(mpl.rcParams["axes.prop_cycle"])
     (axes,) = to_figure(lines(len(LINES))).axes
-    for line, wanted in zip(axes.lines, cycle, strict=True):
-        assert mpl.colors.same_color(line.get_color(), wanted["color"])
-        assert line.get_linewidth() == wanted["linewidth"]
+    for line, style in zip(axes.lines, cycle, strict=True):
+        assert mpl.colors.same_color(line.get_color(), style["color"])
+        assert line.get_linewidth() == style["linewidth"]
     (axes,) = to_figure(lines(len(LINES)), {"lines.linewidth": 3.25}).axes
     assert {line.get_linewidth() for line in axes.lines} == {3.25}
 
@@ -126,9 +126,9 @@ def test_a_style_is_never_fetched(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     (tmp_path / "mine.mplstyle").write_text("lines.linewidth: 7")
     monkeypatch.setattr("urllib.request.urlopen", lambda *_: pytest.fail("it is fetched"))
     for style in ("http://127.0.0.1:9/a.mplstyle", "https://x", "ftp://x", (tmp_path / "mine.mplstyle").as_uri()):
-        for given in (style, ["ggplot", style]):
+        for style_list in (style, ["ggplot", style]):
             with pytest.raises(AtlasError, match="it is an address, and nothing is fetched"):
-                to_figure(lines(), given)
+                to_figure(lines(), style_list)
 
 
 @pytest.mark.parametrize(
@@ -149,10 +149,10 @@ def test_a_style_sheet_that_is_none_says_why(tmp_path: Path, content: bytes, wor
 def test_pgf_needs_no_latex_to_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Texts are written as TeX, primes too, and twice the same."""
     monkeypatch.setenv("PATH", str(tmp_path))
-    first, second = (draw(recipes.load("cone").scene(), tmp_path / f"{n}.pgf").read_text("utf-8") for n in "ab")
-    assert first == second
-    assert r"\mathbf{B}'" in first
-    assert "′" not in first
+    pgf, second = (draw(recipes.load("cone").scene(), tmp_path / f"{n}.pgf").read_text("utf-8") for n in "ab")
+    assert pgf == second
+    assert r"\mathbf{B}'" in pgf
+    assert "′" not in pgf
 
 
 @pytest.mark.slow
@@ -195,7 +195,7 @@ def test_a_plotter_that_may_be_turned_peels() -> None:
     plotter = atlas.plotter("quadric")
     assert plotter.shape == (1, len(recipes.load("quadric").scene().panels))  # side by side
     try:
-        first = plotter.screenshot(return_img=True)
+        picture = plotter.screenshot(return_img=True)
         assert plotter.renderer.GetLastRenderingUsedDepthPeeling()
         assert plotter.render_window.GetMultiSamples() == 0
         low, high = np.array(plotter.bounds).reshape(3, 2).T
@@ -207,7 +207,7 @@ def test_a_plotter_that_may_be_turned_peels() -> None:
         assert any(name.endswith("labels") for name in plotter.actors)
         plotter.camera.azimuth += 60.0
         plotter.render()
-        assert (plotter.screenshot(return_img=True) != first).any()
+        assert (plotter.screenshot(return_img=True) != picture).any()
     finally:
         plotter.close()
 
@@ -261,11 +261,11 @@ def test_on_a_dark_style_halos_are_dark_and_marks_are_light() -> None:
 @pytest.mark.parametrize("cones", CONES)
 def test_vectors_of_the_physics_keep_apart_for_every_eye(cones: str) -> None:
     """Their colours stay 9 apart at least in CIELAB, of which 2 can just be seen, also without one kind of cones."""
-    seen = [
+    colours_seen = [
         lab(CONES[cones] @ (((np.array(mpl.colors.to_rgb(STYLES[role].colour)) + 0.055) / 1.055) ** 2.4))
         for role in VECTORS
     ]
-    assert min(np.linalg.norm(a - b) for a, b in combinations(seen, 2)) > 9.0
+    assert min(np.linalg.norm(a - b) for a, b in combinations(colours_seen, 2)) > 9.0
 
 
 def test_the_field_keeps_apart_from_other_vectors_in_grey() -> None:
@@ -274,7 +274,7 @@ def test_the_field_keeps_apart_from_other_vectors_in_grey() -> None:
         role: lab(((np.array(mpl.colors.to_rgb(STYLES[role].colour)) + 0.055) / 1.055) ** 2.4)[0] for role in VECTORS
     }
     field = light.pop("field")
-    assert all(abs(field - one) > 10.0 for one in light.values()), light
+    assert all(abs(field - lightness) > 10.0 for lightness in light.values()), light
 
 
 def test_lines_that_are_components_keep_apart_in_grey() -> None:
@@ -282,8 +282,8 @@ def test_lines_that_are_components_keep_apart_in_grey() -> None:
     with context():
         looks = [style_of(role) for role in LINES[:3]]
     light = [lab(((np.array(mpl.colors.to_rgb(look.colour)) + 0.055) / 1.055) ** 2.4)[0] for look in looks]
-    for (a, one), (b, other) in combinations(zip(light, looks, strict=True), 2):
-        assert abs(a - b) > 15.0 or one.dash != other.dash
+    for (a, one), (b, look_other) in combinations(zip(light, looks, strict=True), 2):
+        assert abs(a - b) > 15.0 or one.dash != look_other.dash
 
 
 def test_the_key_to_the_colours_holds_in_grey_print() -> None:
@@ -298,8 +298,12 @@ def test_the_key_to_the_colours_holds_in_grey_print() -> None:
                 columns.setdefault(round(float(layer.points[0, 1]), 6), []).append((light, look.width, look.dash))
     assert sorted(map(len, columns.values())) == [3, 4, 6]
     for column in columns.values():
-        for one, other in combinations(column, 2):
-            assert abs(one[0] - other[0]) > 8.0 or abs(one[1] - other[1]) > 0.25 or one[2] != other[2], (one, other)
+        for entry, entry_other in combinations(column, 2):
+            assert (
+                abs(entry[0] - entry_other[0]) > 8.0
+                or abs(entry[1] - entry_other[1]) > 0.25
+                or entry[2] != entry_other[2]
+            ), (entry, entry_other)
     marks = [STYLES[layer.role] for layer in panel.layers if isinstance(layer, Points)]
     assert len({(look.marker, look.colour == "#ffffff") for look in marks}) == len(marks) == 4
 
@@ -311,10 +315,10 @@ def test_the_key_of_a_tinted_surface_holds_on_both_sides() -> None:
         (axes,) = to_figure(recipes.load("ribbon").scene()).axes
         for k in range(5):
             colour = mpl.colors.to_rgb(STYLES[f"rate_{k}"].colour)
-            areas = [one for one in axes.patches if one.get_facecolor()[:3] == colour]
-            drawn = [one.get_alpha() for one in areas]
-            assert len(drawn) > 4
-            assert min(drawn) > max(drawn) - 0.06
+            areas = [patch for patch in axes.patches if patch.get_facecolor()[:3] == colour]
+            opacities = [area.get_alpha() for area in areas]
+            assert len(opacities) > 4
+            assert min(opacities) > max(opacities) - 0.06
 
 
 def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:

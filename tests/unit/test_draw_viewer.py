@@ -25,8 +25,8 @@ HTML = folder("templates") / "html"
 def handed(name: str) -> dict[str, Any]:
     """Return what the script of a recipe's scene hands over."""
     text = script(recipes.load(name).scene())
-    found: dict[str, Any] = json.loads(text.removeprefix("atlasScene(").removesuffix(");\n"))
-    return found
+    scene_data: dict[str, Any] = json.loads(text.removeprefix("atlasScene(").removesuffix(");\n"))
+    return scene_data
 
 
 def line(packed: str) -> FloatArray:
@@ -40,8 +40,8 @@ def test_the_program_counts_as_we_do() -> None:
     text = {name: " ".join(file.read_text(encoding="utf-8").split()) for name, file in files.items()}
 
     def numbers(pattern: str, name: str = "scene.js") -> list[float]:
-        (found,) = re.findall(pattern, text[name], re.DOTALL)
-        return [float(number) for number in re.findall(r"-?\d[\d.]*", found)]
+        (list_text,) = re.findall(pattern, text[name], re.DOTALL)
+        return [float(number) for number in re.findall(r"-?\d[\d.]*", list_text)]
 
     assert numbers(r"STEPS = (\d+, GRID = \d+)") == [STEPS, GRID]
     assert numbers(r"FINE = (\d+)", "motion.js") == [moves.TABLE_STEPS]
@@ -50,7 +50,7 @@ def test_the_program_counts_as_we_do() -> None:
     assert steps == [*labels._STEPS, labels._TURN, labels._STEP]
 
 
-def full(form: list[float]) -> FloatArray:
+def matrix_of(form: list[float]) -> FloatArray:
     """Return a quadric from its upper triangle."""
     found = np.zeros((4, 4))
     found[np.triu_indices(4)] = form
@@ -63,13 +63,13 @@ def test_points_of_surfaces_lie_on_the_given_quadric() -> None:
     (panel,) = scene.panels
     assert isinstance(panel, Space)
     (surface,) = (layer for layer in panel.layers if isinstance(layer, Surface))
-    (given,) = data(scene)["wide"]["panels"][0]["surfaces"]
-    form, planes, within, front, back, dense, low, high = given
-    seen = np.concatenate([np.reshape(part, (-1, 3)) for part in (*surface.grids, *surface.rims)])
-    size = np.ptp(seen, axis=0)
-    y = np.array(low) + 1e-3 + (seen - seen.min(axis=0)) * ((np.array(high) - low - 2e-3) / size)
-    one = np.concatenate([y, np.ones((len(y), 1))], axis=1)
-    assert np.abs(np.einsum("ni,ij,nj->n", one, full(form), one)).max() < 2e-6
+    (surface_data,) = data(scene)["wide"]["panels"][0]["surfaces"]
+    form, planes, within, front, back, dense, low, high = surface_data
+    vertices = np.concatenate([np.reshape(block, (-1, 3)) for block in (*surface.grids, *surface.rims)])
+    size = np.ptp(vertices, axis=0)
+    y = np.array(low) + 1e-3 + (vertices - vertices.min(axis=0)) * ((np.array(high) - low - 2e-3) / size)
+    homogeneous = np.concatenate([y, np.ones((len(y), 1))], axis=1)
+    assert np.abs(np.einsum("ni,ij,nj->n", homogeneous, matrix_of(form), homogeneous)).max() < 2e-6
     for *normal, reach in np.reshape(planes, (-1, 4)):
         assert (y @ normal).max() < reach + 1e-6
     look = style_of(surface.role)
@@ -80,18 +80,20 @@ def test_lines_and_marks_are_all_there() -> None:
     """A line has no point twice, less than the curve, and is nowhere half a point away from it; marks are there."""
     scene = recipes.load("nutation_traces").scene()
     wide = data(scene)["wide"]
-    for panel, given, (*_, right, top, scale, _, _) in zip(scene.panels, wide["panels"], wide["places"], strict=True):
+    for panel, panel_data, (*_, width, top, scale, _, _) in zip(
+        scene.panels, wide["panels"], wide["places"], strict=True
+    ):
         assert isinstance(panel, Space)
-        view = fit(panel, (right, top))
-        assert np.allclose(np.reshape(given["frame"], (3, 3)), frame(panel), atol=1e-6)
+        view = fit(panel, (width, top))
+        assert np.allclose(np.reshape(panel_data["frame"], (3, 3)), frame(panel), atol=1e-6)
         (curve,) = (x.points for x in view.panel.layers if isinstance(x, Curve) and not style_of(x.role).dash)
-        same = max((line(packed) for _, _, packed in given["lines"]), key=len)
+        same = max((line(packed) for _, _, packed in panel_data["lines"]), key=len)
         assert distance(same, curve) < 1.0 / STEPS
         assert distance(curve, same) < 0.5 / scale
         assert len(same) <= 0.7 * len(curve)
         assert np.any(np.diff(same, axis=0), axis=1).all()
         marks = [layer for layer in panel.layers if isinstance(layer, Points)]
-        assert len(given["dots"]) == sum(len(np.atleast_2d(one.points)) for one in marks)
+        assert len(panel_data["dots"]) == sum(len(np.atleast_2d(layer.points)) for layer in marks)
 
 
 def test_a_note_is_written_smaller_than_a_name() -> None:
@@ -99,25 +101,25 @@ def test_a_note_is_written_smaller_than_a_name() -> None:
     roles = ("note", "label")
     words = tuple(Label(np.array([float(k), 0.0, 0.0]), "word", role) for k, role in enumerate(roles))
     body = solids.sphere(np.zeros(3), 1.0, 0.05)
-    found = data(Scene("Words", "A caption.", "Words.", (Space((body, *words), azimuth=10.0, elevation=20.0),)))
-    (names,) = (panel["names"] for panel in found["wide"]["panels"])
-    note, name = (found["texts"][number][:2] for number, *_ in names)
+    scene_data = data(Scene("Words", "A caption.", "Words.", (Space((body, *words), azimuth=10.0, elevation=20.0),)))
+    (names,) = (panel["names"] for panel in scene_data["wide"]["panels"])
+    note, name = (scene_data["texts"][number][:2] for number, *_ in names)
     assert note == pytest.approx(0.9 * np.array(name), rel=1e-2)
 
 
 def test_panels_know_their_places_on_both_screens() -> None:
     """Panels in space beside curves lie within the figure, and anew where they stand below one another."""
     for name, panels in (("motion", 0), ("two_turns", 3)):
-        found = handed(name)
-        assert len(found["narrow"].get("panels", ())) == panels
+        scene_data = handed(name)
+        assert len(scene_data["narrow"].get("panels", ())) == panels
         for screen in ("wide", "narrow"):
-            for left, top, width, height, *rest in found[screen]["places"]:
-                assert min(left, top, 1.0 - left - width, 1.0 - top - height) > -1e-6
-                assert min(rest) > 0.0
+            for x_left, top, width, height, *sizes in scene_data[screen]["places"]:
+                assert min(x_left, top, 1.0 - x_left - width, 1.0 - top - height) > -1e-6
+                assert min(sizes) > 0.0
         size = np.array(recipes.load(name).scene().size) * 72.0 / 25.4
-        for _, _, width, height, *window in found["wide"]["places"]:
+        for _, _, width, height, *window in scene_data["wide"]["places"]:
             assert window[:2] == pytest.approx([width, height] * size, rel=1e-3)
-        assert found["wide"]["places"] != found["narrow"]["places"]
+        assert scene_data["wide"]["places"] != scene_data["narrow"]["places"]
 
 
 PROGRAM = """
@@ -147,11 +149,11 @@ def test_moving_names_stay_legible() -> None:
     done = subprocess.run(
         [str(node), "-e", PROGRAM, str(HTML / "scene.js")], capture_output=True, text=True, check=True, timeout=60
     )
-    slow, fast, between, again, rest = json.loads(done.stdout)
+    slow, fast, between, again, frame_rest = json.loads(done.stdout)
     assert slow[0] == again[0] == 300
     assert fast[0] == between[0] == 1200
     assert min(slow[1], fast[1]) > 600
-    assert rest == slow[1]  # not the coarse frame that was asked for before
+    assert frame_rest == slow[1]  # not the coarse frame that was asked for before
 
 
 @pytest.mark.parametrize("name", ["hyperbola", "colours"])

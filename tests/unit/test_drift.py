@@ -42,8 +42,8 @@ def followed(t: Any, field: float = 0.0, drag: Any = 0.0, turning: Any = (0.0, 0
         slow = cross(turning, field_now) + field / (1 + field * t) * field_now
         K_rate = cross(K, Omega) + slow @ rows
         M_rate = cross(I * (Omega + K), Omega + K) + cross(K, I * K) - drag * I * Omega
-        turned = np.array([cross(row, Omega) for row in rows])
-        return np.concatenate([turned.ravel(), M_rate / I - K_rate, slow])
+        rates = np.array([cross(row, Omega) for row in rows])
+        return np.concatenate([rates.ravel(), M_rate / I - K_rate, slow])
 
     start = [*np.eye(3).ravel(), *omega, *B]
     y = solve_ivp(slope, (0, t[-1]), start, "DOP853", rtol=1e-12, atol=1e-12, t_eval=t).y
@@ -58,9 +58,9 @@ def test_errors_fall_in_proportion_to_the_slowness(change: Any) -> None:
     for e in (4e-3, 2e-3):
         slow = {name: np.multiply(x, e).tolist() for name, x in change.items()}
         times = 0.1 / e * (1 - np.cos(np.linspace(0, np.pi, 7))) / 2
-        found, t = atlas.drift(motion(), times, **slow), np.linspace(0, 0.1 / e, 401)
-        b = np.linalg.norm(found.field_in_body, axis=1)
-        smooth = [np.polynomial.Polynomial.fit(times, x, 6)(t) for x in (found.H, found.F, found.p * b)]
+        drift, t = atlas.drift(motion(), times, **slow), np.linspace(0, 0.1 / e, 401)
+        b = np.linalg.norm(drift.field_in_body, axis=1)
+        smooth = [np.polynomial.Polynomial.fit(times, x, 6)(t) for x in (drift.H, drift.F, drift.p * b)]
         errors.append(abs(followed(t, **slow) - smooth).max())
         assert errors[-1] < 4 * e
     assert 2 / 1.3 < errors[0] / errors[1] < 2 * 1.3
@@ -78,31 +78,31 @@ def test_a_field_that_turns_slowly_changes_no_integral_to_first_order() -> None:
 @pytest.mark.slow
 def test_a_field_that_grows_keeps_the_actions_of_the_torus() -> None:
     """Three actions, those of the motion, while the field grows by a quarter; the motion of a later time has them."""
-    found: Any = atlas.drift(motion(), [0.0, 2.5e7], field=1e-8)
-    assert found.frequencies[0] == pytest.approx(motion().frequencies, rel=1e-6)
-    assert found.energy[0] == pytest.approx(motion().energy, rel=1e-12)
-    assert found.action == pytest.approx(np.array([motion().actions.values] * 2), rel=1e-6)
-    later = found.motion(1)
-    assert pytest.approx((found.H[1], found.F[1]), rel=1e-9) == (later.H, later.F)
+    drift: Any = atlas.drift(motion(), [0.0, 2.5e7], field=1e-8)
+    assert drift.frequencies[0] == pytest.approx(motion().frequencies, rel=1e-6)
+    assert drift.energy[0] == pytest.approx(motion().energy, rel=1e-12)
+    assert drift.action == pytest.approx(np.array([motion().actions.values] * 2), rel=1e-6)
+    later = drift.motion(1)
+    assert pytest.approx((drift.H[1], drift.F[1]), rel=1e-9) == (later.H, later.F)
     assert np.linalg.norm(later.field) == pytest.approx(1.25 * np.linalg.norm(B), rel=1e-6)
-    assert abs(found.energy[1] - found.energy[0]) > 0.05 * found.energy[0]
+    assert abs(drift.energy[1] - drift.energy[0]) > 0.05 * drift.energy[0]
 
 
 @pytest.mark.parametrize("unit", [1.0, 2.0**300])
 def test_equal_drag_slows_a_free_body(unit: float) -> None:
     """Energy as exp(-2 d t), momentum and rates as exp(-d t), in any unit of time."""
-    free = atlas.AsymmetricMotion(I, (0, 0, 0), np.multiply(FREE, unit))
-    found: Any = atlas.drift(free, np.array([0.0, 1e5]) / unit, drag=1e-5 * unit)
-    assert found.frequencies[0] == pytest.approx(free.frequencies, rel=1e-9)
-    assert found.action[0, [0, 2]] == pytest.approx(free.actions.values, rel=1e-9)
-    for values, power in ((found.energy, 2), (found.p, 1), (found.frequencies[:, 2], 1), (found.action[:, 0], 1)):
+    motion_free = atlas.AsymmetricMotion(I, (0, 0, 0), np.multiply(FREE, unit))
+    drift: Any = atlas.drift(motion_free, np.array([0.0, 1e5]) / unit, drag=1e-5 * unit)
+    assert drift.frequencies[0] == pytest.approx(motion_free.frequencies, rel=1e-9)
+    assert drift.action[0, [0, 2]] == pytest.approx(motion_free.actions.values, rel=1e-9)
+    for values, power in ((drift.energy, 2), (drift.p, 1), (drift.frequencies[:, 2], 1), (drift.action[:, 0], 1)):
         assert values[1] == pytest.approx(values[0] * np.exp(-power), rel=1e-6)
 
 
 @pytest.mark.slow
 def test_a_separatrix_is_said_with_its_time() -> None:
     """Dzhanibekov's top that loses energy faster than momentum: when 2 H I2 falls to m^2, as by an integrator."""
-    free, drag = atlas.AsymmetricMotion(I, (0, 0, 0), (1.2, 0.7, 0.3)), np.array([5e-4, 1e-4, 1e-4])
+    motion_free, drag = atlas.AsymmetricMotion(I, (0, 0, 0), (1.2, 0.7, 0.3)), np.array([5e-4, 1e-4, 1e-4])
 
     def slope(_: float, M: Any) -> Any:
         return np.cross(M, M / I) - drag * M
@@ -111,9 +111,9 @@ def test_a_separatrix_is_said_with_its_time() -> None:
         return float((M * M / I).sum() * I[1] - M @ M)
 
     crossing = solve_ivp(slope, (0, 1e4), I * (1.2, 0.7, 0.3), "DOP853", rtol=1e-9, events=margin).t_events[0][0]
-    with pytest.raises(atlas.DomainError, match=r"separatrix.* at t = ") as said:
-        atlas.drift(free, [0.0, 2 * crossing], drag=drag)
-    assert float(str(said.value).split("t = ")[1].split(",")[0]) == pytest.approx(crossing, rel=0.02)
+    with pytest.raises(atlas.DomainError, match=r"separatrix.* at t = ") as refused:
+        atlas.drift(motion_free, [0.0, 2 * crossing], drag=drag)
+    assert float(str(refused.value).split("t = ")[1].split(",")[0]) == pytest.approx(crossing, rel=0.02)
 
 
 def test_two_equal_moments_drift_as_the_symmetric_body() -> None:
@@ -121,9 +121,12 @@ def test_two_equal_moments_drift_as_the_symmetric_body() -> None:
     b, unit = np.linalg.norm(B), np.array([0.6, 0.8])
     top = atlas.TopMotion((1.0, 1.3), (b, 1.3 * b), unit, (0.3, 0.7, 0.2))
     same = atlas.AsymmetricMotion((1.3, 1.0, 1.0), (b * 0.8, 0.0, b * 0.6), (0.2, 0.3, 0.7))
-    one, other = atlas.drift(top, [0.0, 1e4], drag=(1e-5, 2e-5)), atlas.drift(same, [0.0, 1e4], drag=(2e-5, 1e-5, 1e-5))
+    drift_top, drift_same = (
+        atlas.drift(top, [0.0, 1e4], drag=(1e-5, 2e-5)),
+        atlas.drift(same, [0.0, 1e4], drag=(2e-5, 1e-5, 1e-5)),
+    )
     for name in ("energy", "M3", "p", "action"):
-        assert getattr(other, name) == pytest.approx(getattr(one, name), rel=1e-9)
+        assert getattr(drift_same, name) == pytest.approx(getattr(drift_top, name), rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -124,22 +124,22 @@ extreme_numbers = st.floats(-1e300, 1e300) | st.sampled_from([0.5, -0.5 + 2.0**-
 @given(st.floats(1e-300, 2) | st.just(0.75), *[extreme_numbers] * 4)
 def test_the_constants_are_the_nearest_doubles(I: float, B2: float, B3: float, omega2: float, omega3: float) -> None:
     """E', K^2, c3, c5, (m, B') are those of the rational inputs, rounded once, however their terms cancel."""
-    free = B2 == 0 or omega2 == -B2
-    given = (I, (B2, B3), omega2 if B2 else 0.0, omega3 if free else None)
+    is_free = B2 == 0 or omega2 == -B2
+    inputs = (I, (B2, B3), omega2 if B2 else 0.0, omega3 if is_free else None)
     if B2 and omega2 == -B2 and B3 and I != 1:
         return
-    true = exact.ElementaryMotion(*given).invariants
-    found = ElementaryMotion(*given).invariants()
-    assert list(found) == list(true)
-    assert {name: approximate(value) for name, value in true.items()} == found
+    true = exact.ElementaryMotion(*inputs).invariants
+    constants = ElementaryMotion(*inputs).invariants()
+    assert list(constants) == list(true)
+    assert {name: approximate(value) for name, value in true.items()} == constants
 
 
-@pytest.mark.parametrize("beside", [0.0, 2.0**-53])
-def test_constants_that_cancel_keep_their_digits(beside: float) -> None:
+@pytest.mark.parametrize("offset", [0.0, 2.0**-53])
+def test_constants_that_cancel_keep_their_digits(offset: float) -> None:
     """On the line X = omega2 + B2 = sqrt(1-I) B2 c3 = B3 (X^2 - (1-I) B2^2)/(I B2 X) is zero; beside it all digits."""
-    found = ElementaryMotion(0.75, (1.0, 2.0), -0.5 + beside).invariants()["c3"]
-    X = Fraction(1, 2) + Fraction(beside)
-    assert found == float(Fraction(8, 3) * (X * X - Fraction(1, 4)) / X)
+    c3 = ElementaryMotion(0.75, (1.0, 2.0), -0.5 + offset).invariants()["c3"]
+    X = Fraction(1, 2) + Fraction(offset)
+    assert c3 == float(Fraction(8, 3) * (X * X - Fraction(1, 4)) / X)
 
 
 def test_constants_of_arrays_have_their_shape() -> None:
@@ -192,10 +192,10 @@ def test_shapes_that_do_not_meet_are_one_sentence() -> None:
 def test_the_free_body_with_the_same_k_precesses_alike() -> None:
     """The free body of (87) has the same k and axis, and phi = (I2 - I3) B3hat k/I3."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
-    free = motion.beside
-    assert free.k == pytest.approx(motion.k, rel=4 * ULP1)
-    assert free.phi == pytest.approx(-0.5 / 1.5 * 2 / np.sqrt(5) * motion.k, rel=4 * ULP1)
-    assert np.abs(free.third_axis(3.0) - motion.third_axis(3.0)).max() <= 8 * ULP1
+    motion_free = motion.beside
+    assert motion_free.k == pytest.approx(motion.k, rel=4 * ULP1)
+    assert motion_free.phi == pytest.approx(-0.5 / 1.5 * 2 / np.sqrt(5) * motion.k, rel=4 * ULP1)
+    assert np.abs(motion_free.third_axis(3.0) - motion.third_axis(3.0)).max() <= 8 * ULP1
     spins = ElementaryMotion(1.5, (np.array([1.0, 0.0]), 2.0), 0.0, np.array([0.0, 0.3]))
     with pytest.raises(DomainError, match="B2 = 0"):
         _ = spins.beside
@@ -204,10 +204,10 @@ def test_the_free_body_with_the_same_k_precesses_alike() -> None:
 def test_a_free_body_turns_as_the_equations_say() -> None:
     """FreeMotion with any initial omega agrees with the Taylor integration, and omega1 = 0 with the elementary one."""
     omega = (0.3, -0.7, 0.2)
-    free = FreeMotion(0.4, omega)
+    motion_free = FreeMotion(0.4, omega)
     (state,) = taylor((1.0, 1.0, 0.4), (0.0, 0.0, 0.0), omega, [2.5], digits=30)
-    assert np.abs(free.rotation(2.5) - np.array(state.R.tolist(), float)).max() <= 4 * ULP1
-    assert np.abs(free.angular_velocity(2.5) - np.array(state.Omega, float)).max() <= 8 * ULP1
+    assert np.abs(motion_free.rotation(2.5) - np.array(state.R.tolist(), float)).max() <= 4 * ULP1
+    assert np.abs(motion_free.angular_velocity(2.5) - np.array(state.Omega, float)).max() <= 8 * ULP1
     same = ElementaryMotion(0.4, (0.0, 0.0), -0.7, 0.2)
     assert np.array_equal(FreeMotion(0.4, (0.0, -0.7, 0.2)).rotation(7.0), same.rotation(7.0))
     assert np.array_equal(FreeMotion(0.4, (0.0, 0.0, 0.0)).rotation(7.0), np.eye(3))
@@ -227,8 +227,8 @@ def test_reversing_the_field_and_the_motion_turns_it_about_e3(I: float, B3: floa
     if omega2 == -1.0:
         return
     D = np.array([-1.0, -1.0, 1.0])
-    plain, turned = ElementaryMotion(I, (1.0, B3), omega2), ElementaryMotion(I, (-1.0, B3), -omega2)
-    assert np.array_equal(turned.rotation(t), D[:, None] * plain.rotation(t) * D)
+    plain, motion_turned = ElementaryMotion(I, (1.0, B3), omega2), ElementaryMotion(I, (-1.0, B3), -omega2)
+    assert np.array_equal(motion_turned.rotation(t), D[:, None] * plain.rotation(t) * D)
 
 
 def test_omega3_may_be_given_back() -> None:

@@ -75,8 +75,8 @@ def test_balls_hold_the_taylor_integration(name: str) -> None:
 def test_floats_are_within_16_ulp_of_balls_at_any_time(case: tuple[object, ...]) -> None:
     """Entries of R to 16 ulp of 1, K of |B'|, Omega of |E - 1| |B'|, up to t = 1e12, backwards too."""
     times = [0.0, 0.3, -7.5, 1e3, -1e9, 1e12]
-    found, exact = atlas.EllipticMotion(*case), Balls(*case)
-    R, K, Omega = (x(np.array(times)) for x in (found.rotation, found.field_in_body, found.angular_velocity))
+    kernel, exact = atlas.EllipticMotion(*case), Balls(*case)
+    R, K, Omega = (x(np.array(times)) for x in (kernel.rotation, kernel.field_in_body, kernel.angular_velocity))
     b = float(np.linalg.norm(case[1]))
     rates = b * np.array([float(abs(arb(E) - 1).mid()) for E in exact.E])
     for i, t in enumerate(times):
@@ -88,14 +88,14 @@ def test_floats_are_within_16_ulp_of_balls_at_any_time(case: tuple[object, ...])
         assert (np.abs(Omega[i] - middle(vectors)[1]) <= 16 * EPS * rates).all()
 
 
-part = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
+component = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
 
 
 @pytest.mark.slow
 @settings(max_examples=60)
 @given(
     st.tuples(*[st.floats(0.0, 1.0)] * 3),
-    st.tuples(part, part, part),
+    st.tuples(component, component, component),
     st.floats(0.001, 0.999),
     st.booleans(),
     st.sampled_from([1, -1]),
@@ -113,14 +113,14 @@ def test_any_motion_of_any_body_in_any_unit_is_within_16_ulp(
     assume(ends[0] < z < ends[1] if bounded else z > ends[2])
     case = I, tuple(x * 2.0**e for x in field), z, branch
     try:
-        found = atlas.EllipticMotion(*case).rotation(t / 2.0**e)
+        rotation = atlas.EllipticMotion(*case).rotation(t / 2.0**e)
     except atlas.DomainError as error:
         assert "There is no elliptic motion" in str(error)  # noqa: PT017  an oval no longer than a rounding
         return
     with ctx.workprec(500):
         true = Balls(*case).rotation(t / 2.0**e)
         assert max(arb(x).rad() for row in true for x in row) < 1e-20
-    assert np.abs(found - middle(true)).max() <= 16 * EPS
+    assert np.abs(rotation - middle(true)).max() <= 16 * EPS
 
 
 @pytest.mark.parametrize(
@@ -137,16 +137,18 @@ def test_two_equal_moments_give_the_hyperbola_exactly(ratio: float, z: float, br
     times = np.array([0.3, -2.0, 1e6, 1e12])
     assert np.abs(motion.rotation(times) - paper.rotation(times)).max() <= 8 * EPS
     with ctx.workprec(256):
-        first = Balls(inertia, field, z, sign).rotation(1e12)
-        other = ElementaryBalls(ratio, (1.0, 2.0), omega2).rotation(1e12)
-        assert all(arb(first[i][j]).overlaps(arb(other[i][j])) for i in range(3) for j in range(3))
-        assert max(arb(x).rad() for row in first for x in row) < 1e-50
+        rotation = Balls(inertia, field, z, sign).rotation(1e12)
+        rotation_elementary = ElementaryBalls(ratio, (1.0, 2.0), omega2).rotation(1e12)
+        assert all(arb(rotation[i][j]).overlaps(arb(rotation_elementary[i][j])) for i in range(3) for j in range(3))
+        assert max(arb(x).rad() for row in rotation for x in row) < 1e-50
 
 
 def test_the_symmetric_body_is_the_limit_of_others() -> None:
     """R(50) for I2 = 1 + 2^-n tends to that for I2 = 1 as 2^-n does."""
-    at = [atlas.EllipticMotion((1.0, 1.0 + d, 1.5), FIELD, 0.3).rotation(50.0) for d in (0, 2.0**-30, -(2.0**-30))]
-    above, below = (R - at[0] for R in at[1:])
+    rotations = [
+        atlas.EllipticMotion((1.0, 1.0 + d, 1.5), FIELD, 0.3).rotation(50.0) for d in (0, 2.0**-30, -(2.0**-30))
+    ]
+    above, below = (R - rotations[0] for R in rotations[1:])
     assert 0 < np.abs(above).max() < 1e-5
     assert np.abs(above + below).max() < 1e-4 * np.abs(above).max()
 
@@ -155,13 +157,13 @@ def test_the_symmetric_body_is_the_limit_of_others() -> None:
 def test_the_other_branch_is_the_motion_back_in_time(name: str) -> None:
     """R(t) of -v is R_B(-2bt) R(-t) of v, theorem-pair, and Omega(0) is -2B' - Omega(0)."""
     inertia, field, z, branch = CASES[name]
-    one, other = (atlas.EllipticMotion(inertia, field, z, sign) for sign in (branch, -branch))
+    motion_up, motion_down = (atlas.EllipticMotion(inertia, field, z, sign) for sign in (branch, -branch))
     B = np.array(field)
-    size = np.abs(one.omega).max() + np.abs(other.omega).max()
-    assert np.abs(np.add(one.omega, other.omega) + 2 * B).max() <= 4 * EPS * size
+    size = np.abs(motion_up.omega).max() + np.abs(motion_down.omega).max()
+    assert np.abs(np.add(motion_up.omega, motion_down.omega) + 2 * B).max() <= 4 * EPS * size
     for t in (0.25, 11.0):
-        expected = turn(B, -2 * float(np.linalg.norm(B)) * t) @ one.rotation(-t)
-        assert np.abs(other.rotation(t) - expected).max() <= 64 * EPS
+        expected = turn(B, -2 * float(np.linalg.norm(B)) * t) @ motion_up.rotation(-t)
+        assert np.abs(motion_down.rotation(t) - expected).max() <= 64 * EPS
 
 
 @pytest.mark.parametrize("order", list(permutations(range(3))))
@@ -170,18 +172,18 @@ def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
     P = np.eye(3)[list(order)]
     motion = atlas.EllipticMotion(BODY, FIELD, -0.7)
     field = np.linalg.det(P).round() * P @ np.array(FIELD)
-    other = atlas.EllipticMotion(tuple(P @ np.array(BODY)), tuple(field), -0.7)
+    motion_permuted = atlas.EllipticMotion(tuple(P @ np.array(BODY)), tuple(field), -0.7)
     times = np.array([0.5, 40.0])
-    assert np.abs(other.rotation(times) - P @ motion.rotation(times) @ P.T).max() <= 1024 * EPS
-    assert other.period == pytest.approx(motion.period, rel=64 * EPS)
+    assert np.abs(motion_permuted.rotation(times) - P @ motion.rotation(times) @ P.T).max() <= 1024 * EPS
+    assert motion_permuted.period == pytest.approx(motion.period, rel=64 * EPS)
 
 
 def test_a_motion_restarted_from_its_state_continues() -> None:
     """R(t + s) = R(s) R(t), the latter of the same z in the field K(s)."""
     motion = atlas.EllipticMotion(BODY, FIELD, 1.7)
     for s in (0.7, -13.0):
-        rest = atlas.EllipticMotion(BODY, tuple(motion.field_in_body(s)), 1.7)
-        expected = motion.rotation(s) @ rest.rotation(2.5)
+        restarted = atlas.EllipticMotion(BODY, tuple(motion.field_in_body(s)), 1.7)
+        expected = motion.rotation(s) @ restarted.rotation(2.5)
         assert np.abs(motion.rotation(2.5 + s) - expected).max() <= 256 * EPS
 
 
@@ -200,9 +202,9 @@ def test_conserved_quantities_are_constant() -> None:
     motion = atlas.EllipticMotion(*CASES["bounded oval"])
     for name, values in motion.invariants([0.0, 1.0, 1e6]).items():
         assert np.ptp(values) <= 64 * EPS, name
-    known = atlas.clebsch(BODY, motion.omega, FIELD)
+    integrals = atlas.clebsch(BODY, motion.omega, FIELD)
     assert list(motion.invariants().values()) == pytest.approx(
-        [known.H, known.F, known.MK, known.K2, known.energy], abs=8 * EPS
+        [integrals.H, integrals.F, integrals.MK, integrals.K2, integrals.energy], abs=8 * EPS
     )
     m = motion.angular_momentum(0.7)
     assert np.abs(motion.rotation(0.7).T @ m - np.array(BODY) * motion.angular_velocity(0.7)).max() <= 8 * EPS
@@ -241,9 +243,9 @@ def test_each_kind_has_its_name(case: tuple[object, ...], kind: str) -> None:
 
 def test_the_period_about_an_axis_is_that_of_a_small_change() -> None:
     """Near the field along an axis; about the middle one there is none."""
-    still = atlas.EllipticMotion(BODY, (0.0, 0.0, 1.0), 1.7)
-    moved = atlas.EllipticMotion(BODY, (0.0, 1e-7, 1.0), 1.7)
-    assert still.period == pytest.approx(moved.period, rel=1e-12, abs=0.0)
+    motion_still = atlas.EllipticMotion(BODY, (0.0, 0.0, 1.0), 1.7)
+    motion_moved = atlas.EllipticMotion(BODY, (0.0, 1e-7, 1.0), 1.7)
+    assert motion_still.period == pytest.approx(motion_moved.period, rel=1e-12, abs=0.0)
     assert atlas.EllipticMotion(*CASES["field along an axis"]).period == np.inf
 
 
@@ -269,17 +271,17 @@ def test_arrays_are_the_motions_one_by_one(regime: str) -> None:
     motions = atlas.EllipticMotion(tuple(np.transpose(inertia)), tuple(np.transpose(field)), z, branch)
     rates = np.array([rates_of(draw) for draw in draws])
     times = np.array([random.uniform(-1, 1) * 10 ** random.uniform(-2, 12) for _ in draws]) / rates[:, 1]
-    found = [x(times) for x in (motions.rotation, motions.quaternion, motions.field_in_body, motions.angular_velocity)]
+    values = [x(times) for x in (motions.rotation, motions.quaternion, motions.field_in_body, motions.angular_velocity)]
     for i, (draw, t) in enumerate(zip(draws, times, strict=True)):
-        one, sizes = atlas.EllipticMotion(*draw), (1.0, 1.0, *rates[i])
-        expected = one.rotation(t), one.quaternion(t), one.field_in_body(t), one.angular_velocity(t)
-        for x, y, size in zip(found, expected, sizes, strict=True):
+        motion, sizes = atlas.EllipticMotion(*draw), (1.0, 1.0, *rates[i])
+        expected = motion.rotation(t), motion.quaternion(t), motion.field_in_body(t), motion.angular_velocity(t)
+        for x, y, size in zip(values, expected, sizes, strict=True):
             assert np.abs(x[i] - y).max() <= 16 * EPS * size
-        assert motions.kind[i] == one.kind
-        assert [omega[i] for omega in motions.omega] == list(one.omega)
+        assert motions.kind[i] == motion.kind
+        assert [omega[i] for omega in motions.omega] == list(motion.omega)
         for name in scalars:
             try:
-                assert getattr(motions, name)[i] == getattr(one, name)
+                assert getattr(motions, name)[i] == getattr(motion, name)
             except atlas.DomainError:  # a separatrix has no angle in a period
                 assert np.isnan(getattr(motions, name)[i])
 
@@ -297,11 +299,11 @@ def test_parameters_broadcast_and_a_grid_is_its_times() -> None:
     times = np.array([0.0, 1.0, 2.5])
     assert motions.rotation(times).shape == (2, 3, 3, 3)
     assert motions.kind.shape == motions.period.shape == motions.omega[0].shape == (2, 3)
-    one = atlas.EllipticMotion(BODY, FIELD, -0.5, -1)
-    assert np.abs(motions.rotation(times)[1, 2] - one.rotation(2.5)).max() <= 16 * EPS
+    motion = atlas.EllipticMotion(BODY, FIELD, -0.5, -1)
+    assert np.abs(motions.rotation(times)[1, 2] - motion.rotation(2.5)).max() <= 16 * EPS
     for count, step in ((100, 0.25), (20_000, 2.0**-9), (120_000, 0.5)):
-        at = -3.0 + step * np.arange(count)
-        assert np.abs(one.rotation_grid(-3.0, step, count) - one.rotation(at)).max() <= 32 * EPS
+        times_of_grid = -3.0 + step * np.arange(count)
+        assert np.abs(motion.rotation_grid(-3.0, step, count) - motion.rotation(times_of_grid)).max() <= 32 * EPS
 
 
 def test_digits_are_proven_at_any_time() -> None:
@@ -311,7 +313,7 @@ def test_digits_are_proven_at_any_time() -> None:
     assert len(text.lstrip("-0.")) == 30
     assert float(text) == pytest.approx(atlas.EllipticMotion(*CASES["bounded oval"]).rotation(1e12)[2, 2], abs=16 * EPS)
     with ctx.workprec(200):
-        w, x, y, z = (float(part.mid()) for part in motion.quaternion(2.5))
+        w, x, y, z = (float(component.mid()) for component in motion.quaternion(2.5))
     R = middle(motion.rotation(2.5))
     assert np.array([z * w, x * w, y * w]) * 4 == pytest.approx(np.array([R - R.T]).ravel()[[3, 7, 2]], abs=1e-14)
 
@@ -390,9 +392,9 @@ def test_stability_is_decided_exactly_or_left_open() -> None:
     body = (0.5, 0.5, 0.25)  # with this field the triple root of (47): I = 1/2, x = 1/2
     for unit in (2.0**-20, 1.0, 2.0**20):
         field = (0.0, 3.0 * unit, unit)
-        found = [atlas.EllipticMotion(body, field, -0.1875 + d, -1).stability for d in (-(2.0**-40), 0.0, 2.0**-40)]
-        assert found[1] == "undecided"
-        assert set(found) == {"stable", "unstable", "undecided"}
+        kinds = [atlas.EllipticMotion(body, field, -0.1875 + d, -1).stability for d in (-(2.0**-40), 0.0, 2.0**-40)]
+        assert kinds[1] == "undecided"
+        assert set(kinds) == {"stable", "unstable", "undecided"}
     assert atlas.EllipticMotion(*CASES["separatrix"]).stability == "unstable"
     assert atlas.EllipticMotion(BODY, (0, 0, 0), 1.7).stability == "stable"
 
@@ -425,6 +427,6 @@ def test_one_time_near_a_separatrix_is_that_of_many(offset: float) -> None:
     """R(0) is 1 to 8 units of 2^-53, and R at one time that of an array to twice as much."""
     motion = atlas.EllipticMotion((1.0, 2.0, 3.0), (2.0 + offset, 1.0, 3.0), 10.0)
     times = np.array([0.0, 0.3, 2.0, 17.0, 333.0])
-    alone = np.array([motion.rotation(t) for t in times])
-    assert abs(alone[0] - np.eye(3)).max() <= 8 * 2.0**-53
-    assert abs(alone - motion.rotation(times)).max() <= 16 * 2.0**-53
+    rotations_alone = np.array([motion.rotation(t) for t in times])
+    assert abs(rotations_alone[0] - np.eye(3)).max() <= 8 * 2.0**-53
+    assert abs(rotations_alone - motion.rotation(times)).max() <= 16 * 2.0**-53

@@ -34,23 +34,26 @@ OBJECTS: dict[str, Any] = {
 @pytest.mark.parametrize("name", OBJECTS)
 def test_copies_pickles_and_repr_are_equal(name: str) -> None:
     """With a hash, so that a set holds one of them; another number makes another object."""
-    made = OBJECTS[name]()
-    same = [OBJECTS[name](), copy.copy(made), copy.deepcopy(made), pickle.loads(pickle.dumps(made))]  # noqa: S301
-    names = {name: getattr(atlas, name) for name in atlas.__all__} | {type(made).__name__: type(made), "array": array}
-    same.append(eval(repr(made), names))  # noqa: S307
-    for other in same:
-        assert other == made
-        assert hash(other) == hash(made)
-    assert len({made, *same}) == 1
-    assert all(made != OBJECTS[other]() for other in OBJECTS if other != name)
+    original = OBJECTS[name]()
+    same = [OBJECTS[name](), copy.copy(original), copy.deepcopy(original), pickle.loads(pickle.dumps(original))]  # noqa: S301
+    names = {name: getattr(atlas, name) for name in atlas.__all__} | {
+        type(original).__name__: type(original),
+        "array": array,
+    }
+    same.append(eval(repr(original), names))  # noqa: S307
+    for twin in same:
+        assert twin == original
+        assert hash(twin) == hash(original)
+    assert len({original, *same}) == 1
+    assert all(original != OBJECTS[key]() for key in OBJECTS if key != name)
 
 
 def test_numbers_are_compared_by_value() -> None:
     """Tuples, lists and arrays of the same numbers are the same; one last bit is not."""
     lists = [(0.4, -0.9, 1.2), [0.4, -0.9, 1.2], np.array([0.4, -0.9, 1.2])]
     assert len({atlas.motion(1.4, B, (0.5, 0.3, -1.1)) for B in lists}) == 1
-    near = (np.nextafter(0.4, 1), -0.9, 1.2)
-    assert atlas.motion(1.4, near, (0.5, 0.3, -1.1)) != atlas.motion(1.4, lists[0], (0.5, 0.3, -1.1))
+    field_next = (np.nextafter(0.4, 1), -0.9, 1.2)
+    assert atlas.motion(1.4, field_next, (0.5, 0.3, -1.1)) != atlas.motion(1.4, lists[0], (0.5, 0.3, -1.1))
     assert atlas.GeneralMotion(1.4, (0.0, 1.0), (1.0, 2.0, 3.0)) != "GeneralMotion"
 
 

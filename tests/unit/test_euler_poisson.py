@@ -125,7 +125,7 @@ def test_arrays_broadcast() -> None:
         equations.momentum_along_field(I, K, Omega),
     )
     for n in range(4):
-        alone = (
+        matrices_alone = (
             equations.angular_acceleration(I[n], K[n], Omega[n]),
             equations.body_momentum_rate(I[n], K[n], Omega[n]),
             equations.momentum_rate(I[n], B[n], R[n], m[n]),
@@ -133,6 +133,6 @@ def test_arrays_broadcast() -> None:
             equations.energy(I[n], Omega[n]),
             equations.momentum_along_field(I[n], K[n], Omega[n]),
         )
-        for many, one in zip(together, alone, strict=True):
-            assert np.abs(many[n] - one).max() < clouds[n].tolerance
+        for many, matrix_alone in zip(together, matrices_alone, strict=True):
+            assert np.abs(many[n] - matrix_alone).max() < clouds[n].tolerance
     assert equations.angular_acceleration(I[0], K[0], Omega).shape == (4, 3)

@@ -18,9 +18,9 @@ def test_the_moments_in_floats_agree_with_the_shape(name: str) -> None:
     assert set(SHAPES) == set(CORE_SHAPES)
     sizes = dict(zip(SHAPES[name][0], (1.7, 0.3, 1.1), strict=False))
     body = from_shape(name, **sizes)
-    for found, moment in zip((body.I2, body.I3), shape_moments(name, **sizes), strict=True):
+    for decimal, moment in zip((body.I2, body.I3), shape_moments(name, **sizes), strict=True):
         exact = Fraction(int(moment.p), int(moment.q))
-        assert abs(Fraction(found) - exact) <= 2 * Fraction(2) ** -52 * exact
+        assert abs(Fraction(decimal) - exact) <= 2 * Fraction(2) ** -52 * exact
 
 
 def test_the_shell_of_height_root_six_is_a_ball_in_disguise() -> None:

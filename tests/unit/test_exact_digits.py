@@ -98,8 +98,8 @@ def test_a_hidden_zero_ends_with_a_proven_bound() -> None:
         sine, cosine = arb(1).sin_cos()
         return sine**2 + cosine**2 - 1
 
-    near, far = (certified(hidden, 10, spare=spare) for spare in (1000, 8000))
-    assert -300 > power_of(near) > -2400 > power_of(far)
+    bound_near, bound_far = (certified(hidden, 10, spare=spare) for spare in (1000, 8000))
+    assert -300 > power_of(bound_near) > -2400 > power_of(bound_far)
     with ctx.workprec(200):
         value = arb(fmpq(1, 10**40), fmpq(2, 10**40))
     assert (proven(value, 39), proven(value, 40)) == (f"{ZERO_WITHIN}1e-39", NOT_CERTIFIED)

@@ -108,9 +108,9 @@ def test_two_enclosures_overlap(kind: str) -> None:
 def test_a_motion_to_a_triple_root_starts_anywhere(sign: int) -> None:
     """A state in the middle of the separatrix of a triple root, in exact fractions, agrees with the integration."""
     K1, K2, K3, u = fmpq(8, 3), fmpq(5, 3), fmpq(-1, 3), fmpq(-2, 3)
-    along, rate = u * u + fmpq(3, 2) * u - fmpq(11, 2), sign * fmpq(16, 9)
-    across = K1 * K1 + K2 * K2
-    Omega = ((along * K1 + rate * K2) / across, (along * K2 - rate * K1) / across, u)
+    radial, rate = u * u + fmpq(3, 2) * u - fmpq(11, 2), sign * fmpq(16, 9)
+    transverse = K1 * K1 + K2 * K2
+    Omega = ((radial * K1 + rate * K2) / transverse, (radial * K2 - rate * K1) / transverse, u)
     motion = GeneralMotion.at_state(fmpq(1, 2), Omega, (K1, K2, K3))
     assert motion.kind == "separatrix, triple root"
     fractions = [[Fraction(int(x.p), int(x.q)) for x in v] for v in (Omega, (K1, K2, K3))]
@@ -162,10 +162,10 @@ def test_the_free_body_is_its_own_motion() -> None:
 def test_after_one_period_the_body_has_turned_by_the_two_angles(inputs: Any) -> None:
     """R(T + t) = R_B(psi) R(t) R_z(chi) for the angles by which the body precesses and spins in a period."""
     motion, t = GeneralMotion(*inputs), arb(1) / 3
-    T, psi, chi, found = motion.period, motion.precession_per_period, motion.spin_per_period, motion.solution
-    for parameter, sign in ((found.alpha, 1), (found.beta, -1)):
-        first, later = (parameter.at(x, motion.solution.in_cell(x + found.origin))[0] for x in (t, t + T))
-        square, (sine, cosine) = (later / first) ** 2, (psi + sign * chi).sin_cos()
+    T, psi, chi, solution = motion.period, motion.precession_per_period, motion.spin_per_period, motion.solution
+    for parameter, sign in ((solution.alpha, 1), (solution.beta, -1)):
+        value_first, later = (parameter.at(x, motion.solution.in_cell(x + solution.origin))[0] for x in (t, t + T))
+        square, (sine, cosine) = (later / value_first) ** 2, (psi + sign * chi).sin_cos()
         assert largest([square.real - cosine, square.imag - sine]) < 1e-25
 
 
@@ -222,8 +222,11 @@ def test_the_attitude_is_exactly_one_at_the_start(motion: GeneralMotion | TopMot
 def test_two_turns_are_the_matrix_of_the_parameters(inputs: Any) -> None:
     """Both roads to R(t) enclose the same entries, narrowly."""
     motion = GeneralMotion(*inputs)
-    two, one = motion.rotation(2.7), matrix(motion.from_frame(*motion.solution.parameters(2.7)[:2]))
-    assert largest(arb(x) - arb(y) for a, b in zip(two, one, strict=True) for x, y in zip(a, b, strict=True)) < 1e-90
+    two, turn_single = motion.rotation(2.7), matrix(motion.from_frame(*motion.solution.parameters(2.7)[:2]))
+    assert (
+        largest(arb(x) - arb(y) for a, b in zip(two, turn_single, strict=True) for x, y in zip(a, b, strict=True))
+        < 1e-90
+    )
 
 
 @pytest.mark.parametrize(("omega3", "turns"), [(0.25, 0), (16, 1), (-16, -1)])

@@ -38,17 +38,17 @@ SIZES = {"mass": 0.3, "radius": 0.7, "height": 1.1}
 
 def json_of(words: str) -> dict[str, Any]:
     """Return the JSON that a command prints."""
-    found: dict[str, Any] = json.loads(CliRunner().invoke(command, words.split(), catch_exceptions=False).stdout)
-    return found
+    answer: dict[str, Any] = json.loads(CliRunner().invoke(command, words.split(), catch_exceptions=False).stdout)
+    return answer
 
 
 def entries(words: str) -> tuple[FloatArray, FloatArray]:
     """Return R at a late time in doubles and by proven digits."""
-    found = []
+    matrices = []
     for digits in ("", " --digits 17"):
         (sample,) = json_of(f"{words} --times {LONG:g} --json{digits}")["samples"]
-        found.append(np.array(sample["R"], dtype=float))
-    return found[0], found[1]
+        matrices.append(np.array(sample["R"], dtype=float))
+    return matrices[0], matrices[1]
 
 
 @pytest.mark.parametrize("shape", [SIZES, {**SIZES, "radius": 0.3, "height": 0.7}])
@@ -57,29 +57,29 @@ def test_a_shape_moves_as_its_dimensions_say(shape: dict[str, float]) -> None:
     I2, I3 = shape_moments("solid_cylinder", **shape)
     exact = Certified(I3 / I2, FIELD, OMEGA)
     motion = atlas.GeneralMotion(SymmetricBody.solid_cylinder(**shape), FIELD, OMEGA)
-    several = atlas.GeneralMotion(
+    motion_array = atlas.GeneralMotion(
         SymmetricBody.solid_cylinder(np.full(3, shape["mass"]), shape["radius"], shape["height"]), FIELD, OMEGA
     )
     with workprec():
-        wanted = [[nearest(x) for x in row] for row in exact.rotation(LONG)]
-    assert np.abs(motion.rotation(LONG) - wanted).max() < 1e-14
-    assert np.abs(several.rotation(LONG) - wanted).max() < 1e-14
+        expected = [[nearest(x) for x in row] for row in exact.rotation(LONG)]
+    assert np.abs(motion.rotation(LONG) - expected).max() < 1e-14
+    assert np.abs(motion_array.rotation(LONG) - expected).max() < 1e-14
     placed = atlas.motion(SymmetricBody.solid_cylinder(**shape), (0.0, *FIELD), OMEGA)
-    assert np.abs(placed.rotation(LONG) - wanted).max() < 1e-14
+    assert np.abs(placed.rotation(LONG) - expected).max() < 1e-14
 
 
 def test_a_ratio_that_no_double_holds_is_kept() -> None:
     """I = 1/3 as a Fraction is not the nearest double, in any class of a symmetric body."""
     body, third = SymmetricBody(3.0, 1.0), Fraction(1, 3)
-    for one, other in (
+    for motion_a, motion_b in (
         (atlas.GeneralMotion(third, FIELD, OMEGA), atlas.GeneralMotion(body, FIELD, OMEGA)),
         (atlas.ElementaryMotion(third, FIELD, 0.7), atlas.ElementaryMotion(body, FIELD, 0.7)),
         (atlas.FreeMotion(third, OMEGA), atlas.FreeMotion(body, OMEGA)),
         (atlas.motion(third, (0.0, *FIELD), OMEGA), atlas.motion(body, (0.0, *FIELD), OMEGA)),
     ):
-        assert np.abs(one.rotation(LONG) - other.rotation(LONG)).max() < 1e-14
-        assert copy.deepcopy(one) == one
-        assert eval(repr(one), {"Fraction": Fraction, "SymmetricBody": SymmetricBody, **NAMES}) == one  # noqa: S307
+        assert np.abs(motion_a.rotation(LONG) - motion_b.rotation(LONG)).max() < 1e-14
+        assert copy.deepcopy(motion_a) == motion_a
+        assert eval(repr(motion_a), {"Fraction": Fraction, "SymmetricBody": SymmetricBody, **NAMES}) == motion_a  # noqa: S307
 
 
 NAMES = {name: getattr(atlas, name) for name in ("GeneralMotion", "ElementaryMotion", "FreeMotion", "motion")}
@@ -99,8 +99,8 @@ def test_both_floors_take_the_same_body_and_field(body: str, tmp_path: Path) -> 
     points = tmp_path / "points.csv"
     rows = ["0.3,0,0.1", "-0.3,0,0.1", "0,0.3,0.1", "0,-0.3,0.1"]
     points.write_text("x,y,z,mass,charge\n" + "".join(f"{x},0.7,0.13\n" for x in rows) + "0,0,0.7,1.4,0.26\n")
-    found, wanted = entries(f"motion {body.format(points=points)} --omega 0.3 0.7 0.2")
-    assert np.abs(found - wanted).max() < 4e-15
+    computed, expected = entries(f"motion {body.format(points=points)} --omega 0.3 0.7 0.2")
+    assert np.abs(computed - expected).max() < 4e-15
 
 
 def test_moments_are_joined_only_where_they_are_equal() -> None:
@@ -153,9 +153,9 @@ def test_curve_and_surface_have_the_ratio_and_the_field_that_were_given(
     omega2 = [0.7, -1.3, 0.01]
     with workprec():
         for name in ("omega3", "stability"):
-            wanted = [nearest(getattr(curve, name)(x)) for x in omega2]
-            assert getattr(kernel, name)(np.array(omega2)).tolist() == wanted
-            assert [getattr(kernel, name)(x) for x in omega2] == wanted
+            expected = [nearest(getattr(curve, name)(x)) for x in omega2]
+            assert getattr(kernel, name)(np.array(omega2)).tolist() == expected
+            assert [getattr(kernel, name)(x) for x in omega2] == expected
         assert kernel.least_stability == nearest(curve.least_stability)
         assert kernel.closed(3, 2).k == nearest(closing(*curve._constants, fmpq(3, 2)))
         assert (quadric.a2, quadric.a3) == (nearest(surface.a2), nearest(surface.a3))
@@ -209,22 +209,22 @@ def test_a_page_of_three_components_takes_the_product_without_rounding() -> None
     """The tables of a page evaluate mu B/2 of three moments exactly: the report file has the product as a fraction."""
     words = "--inertia .8 1 1.3 --magnetic .2 .7 -.3 --mu 1.3 --omega .3 .7 .2"
     with COMMANDS["asymmetric"].make_context("asymmetric", words.split()) as context:
-        asked = page_request(FAMILIES["asymmetric"], context.params)
-    parameters = table_of(asked, "properties", "asymmetric", asked.exact_values)["parameters"]
-    thing = Thing.of(Request([body_records.body_and_field(None, None)], parameters, 10))
+        request = page_request(FAMILIES["asymmetric"], context.params)
+    parameters = table_of(request, "properties", "asymmetric", request.exact_values)["parameters"]
+    report_thing = Thing.of(Request([body_records.body_and_field(None, None)], parameters, 10))
     product = [Fraction(1.3) * Fraction(B) / 2 for B in (0.2, 0.7, -0.3)]
-    assert [Fraction(int(x.p), int(x.q)) for x in thing.balls().field] == product
-    assert [Fraction(*x.as_integer_ratio()) for x in thing.kernels().arguments["field"]] == product
-    assert thing.given["field"] == [*map(float, product)]
+    assert [Fraction(int(x.p), int(x.q)) for x in report_thing.balls().field] == product
+    assert [Fraction(*x.as_integer_ratio()) for x in report_thing.kernels().arguments["field"]] == product
+    assert report_thing.given["field"] == [*map(float, product)]
 
 
 def test_a_page_in_natural_units_takes_the_product_without_rounding() -> None:
     """Two components mu B/2 in natural units are fractions in the report file, which its tables evaluate exactly."""
     words = "--ratio 0.873 --magnetic -1.429 1.091 --mu 1.5 --omega -0.1972 -0.7 1"
     with COMMANDS["general"].make_context("general", words.split()) as context:
-        asked = page_request(FAMILIES["general"], context.params)
-    assert case_of(asked).exact_components == tuple(Fraction(1.5) * Fraction(B) / 2 for B in (-1.429, 1.091))
-    assert "/" not in asked.field["title"]
+        request = page_request(FAMILIES["general"], context.params)
+    assert case_of(request).exact_components == tuple(Fraction(1.5) * Fraction(B) / 2 for B in (-1.429, 1.091))
+    assert "/" not in request.field["title"]
 
 
 def test_a_page_of_points_takes_their_ratio_without_rounding(tmp_path: Path) -> None:
@@ -235,6 +235,6 @@ def test_a_page_of_points_takes_their_ratio_without_rounding(tmp_path: Path) -> 
     )
     words = ["--points", str(file), "--magnetic", "0.2", "0.7", "--omega", "0.3", "0.7", "0.2"]
     with COMMANDS["general"].make_context("general", words) as context:
-        asked = page_request(FAMILIES["general"], context.params)
+        request = page_request(FAMILIES["general"], context.params)
     factor = Fraction(0.3) / Fraction(0.7) / 2
-    assert case_of(asked).exact_components == (Fraction(0.2) * factor, Fraction(0.7) * factor)
+    assert case_of(request).exact_components == (Fraction(0.2) * factor, Fraction(0.7) * factor)

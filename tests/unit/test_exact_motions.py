@@ -42,11 +42,11 @@ def assert_same(function: Callable[[], Any], expected: Iterable[mpmath.mpf]) -> 
 
     An exact zero stands where mpmath, at 1500 digits, is left with the rounding errors of larger numbers.
     """
-    found = list(numbers(enclosed(function, 250)))
+    enclosures = list(numbers(enclosed(function, 250)))
     expected = list(expected)
-    assert len(found) == len(expected)
+    assert len(enclosures) == len(expected)
     size = max(abs(as_fraction(value)) for value in expected)
-    for ball, value in zip(found, expected, strict=True):
+    for ball, value in zip(enclosures, expected, strict=True):
         middle = as_fraction(ball.mid() if isinstance(ball, arb) else ball)
         radius = as_fraction(ball.rad()) if isinstance(ball, arb) else 0
         true = as_fraction(value)
@@ -116,9 +116,9 @@ def test_named_cases_solve_the_equations_of_motion(
     assert motion.case == case
     start = (0, omega2, as_fraction(motion.omega3))
     (state,) = taylor.taylor((1, 1, ratio), (0, *field), start, [3.25], digits=45)
-    found = enclosed(lambda: [*motion.rotation(3.25), motion.angular_velocity(3.25)], 200)
+    balls = enclosed(lambda: [*motion.rotation(3.25), motion.angular_velocity(3.25)], 200)
     expected = [*flat(state.R), *state.Omega]
-    for ball, value in zip(numbers(found), expected, strict=True):
+    for ball, value in zip(numbers(balls), expected, strict=True):
         middle = as_fraction(ball.mid() if isinstance(ball, arb) else ball)
         assert abs(middle - as_fraction(value)) < Fraction(1, 10**40)
 
@@ -144,9 +144,9 @@ def test_inputs_without_an_answer_are_refused_with_a_reason(arguments: tuple[Any
 
 def test_decimal_strings_are_taken_as_typed() -> None:
     """A motion typed in decimals is that of the decimals, not of the doubles nearest to them."""
-    typed, doubles = ElementaryMotion("1.3", ("0.1", "0.2"), "0.3"), ElementaryMotion(1.3, (0.1, 0.2), 0.3)
-    assert typed.phi == fmpq(2, 10) * fmpq(3, 10) * fmpq(-3, 10) * fmpq(5, 10) / (fmpq(13, 10) * fmpq(4, 100))
-    assert typed.phi != doubles.phi
+    motion_typed, doubles = ElementaryMotion("1.3", ("0.1", "0.2"), "0.3"), ElementaryMotion(1.3, (0.1, 0.2), 0.3)
+    assert motion_typed.phi == fmpq(2, 10) * fmpq(3, 10) * fmpq(-3, 10) * fmpq(5, 10) / (fmpq(13, 10) * fmpq(4, 100))
+    assert motion_typed.phi != doubles.phi
 
 
 @pytest.mark.slow
@@ -201,10 +201,10 @@ def test_points_of_the_hyperbola_lie_on_the_quadric_and_rest_on_the_cubic(
     h = Hyperbola(I, (B2, B3))
     w3 = h.omega3(w2)
     assert Quadric(I, (B2, B3)).residual((0, w2, w3)) == 0
-    known = integrals.integrals(h.I, (fmpq(0), rational(w2, "omega2"), w3), (fmpq(0), h.B2, h.B3))
-    a0, a1, a2, a3 = integrals.cubic(h.I, *known)
+    integrals_exact = integrals.integrals(h.I, (fmpq(0), rational(w2, "omega2"), w3), (fmpq(0), h.B2, h.B3))
+    a0, a1, a2, a3 = integrals.cubic(h.I, *integrals_exact)
     assert a0 + w3 * (a1 + w3 * (a2 + w3 * a3)) == 0
-    assert fmpq_poly([*integrals.quartic(h.I, *known)])(w3) == 0
+    assert fmpq_poly([*integrals.quartic(h.I, *integrals_exact)])(w3) == 0
     assert h.stability(w2) == -(a1 + 2 * a2 * w3 + 3 * a3 * w3**2)
     k, phi = enclosed(lambda: h.frequencies(w2), 250)
     assert phi == ElementaryMotion(I, (B2, B3), w2).phi
@@ -276,27 +276,27 @@ def test_the_ball_obeys_the_equations_of_motion() -> None:
     """Matrix and angular velocity of (28) are those of the Taylor series, in the frame with B along e3."""
     b = BallMotion(0.5, 0.75, (0.3, -0.8))
     (state,) = taylor.taylor((1, 1, 1), (0, 0, 0.75), (0, Fraction(0.3) * 2, Fraction(-0.8) * 2), [2.5], digits=45)
-    found = enclosed(lambda: [*b.rotation(2.5), b.angular_velocity(2.5)], 200)
-    for ball, value in zip(numbers(found), [*flat(state.R), *state.Omega], strict=True):
+    balls = enclosed(lambda: [*b.rotation(2.5), b.angular_velocity(2.5)], 200)
+    for ball, value in zip(numbers(balls), [*flat(state.R), *state.Omega], strict=True):
         assert abs(as_fraction(ball.mid()) - as_fraction(value)) < Fraction(1, 10**40)
-    still = BallMotion(0.5, 3.0, (0.0, -1.5))
-    assert still.angular_velocity(7.0) == [0, 0, -3]
+    ball_still = BallMotion(0.5, 3.0, (0.0, -1.5))
+    assert ball_still.angular_velocity(7.0) == [0, 0, -3]
 
 
 @pytest.mark.parametrize("omega", [(0.3, 0.7, -0.2), (0.0, 0.0, 0.5), (1.5, 0.0, 0.0), (0.0, 0.0, 0.0)])
 @pytest.mark.parametrize("I", [0.25, 1.0, 2.0])
 def test_the_free_body_obeys_the_equations_of_motion(omega: Triple, I: float) -> None:
     """Precession about any angular momentum and proper rotation, (87), are the Taylor series without a field."""
-    free = FreeMotion(I, omega)
+    motion_free = FreeMotion(I, omega)
     (state,) = taylor.taylor((1, 1, I), (0, 0, 0), omega, [4.5], digits=45)
-    found = enclosed(lambda: [*free.rotation(4.5), free.angular_velocity(4.5)], 200)
-    for ball, value in zip(numbers(found), [*flat(state.R), *state.Omega], strict=True):
+    balls = enclosed(lambda: [*motion_free.rotation(4.5), motion_free.angular_velocity(4.5)], 200)
+    for ball, value in zip(numbers(balls), [*flat(state.R), *state.Omega], strict=True):
         middle = as_fraction(ball.mid() if isinstance(ball, arb) else ball)
         assert abs(middle - as_fraction(value)) < Fraction(1, 10**40)
     if omega[0] == 0:
         same = ElementaryMotion(I, (0, 0), *omega[1:])
-        assert same.phi == free.phi
-        assert arb(same.k).overlaps(arb(free.k))
+        assert same.phi == motion_free.phi
+        assert arb(same.k).overlaps(arb(motion_free.k))
 
 
 vectors = st.tuples(*[st.floats(-4, 4) | st.just(0.0)] * 3)
@@ -311,9 +311,9 @@ def test_particle_contains_the_matrix_exponential(
     """Position and velocity agree with the exponential of the linear system, for any fields and either sign of mu."""
     p = ParticleMotion(mu, E, B, y, v, c)
     expected = closed_form.particle(mu, E, B, y, v, t, c, digits=80)
-    found = enclosed(lambda: [*p.position(t), *p.velocity(t)], 300)
+    balls = enclosed(lambda: [*p.position(t), *p.velocity(t)], 300)
     size = max(1, *(abs(as_fraction(x)) for x in (*expected.y, *expected.v)))
-    for ball, value in zip(found, (*expected.y, *expected.v), strict=True):
+    for ball, value in zip(balls, (*expected.y, *expected.v), strict=True):
         middle = as_fraction(ball.mid() if isinstance(ball, arb) else ball)
         assert abs(middle - as_fraction(value)) <= size * Fraction(1, 10**60)
 

@@ -61,36 +61,36 @@ Of R and Omega at t = 3.7 and at 1e9; and of those SCALARS that are finite and n
 
 def radii(motion: Any) -> list[arb]:
     """Return the radii that the table speaks of."""
-    found = list[arb]()
+    radii_found = list[arb]()
     for t in (fmpq(37, 10), fmpq(10**9)):
         for values in ([x for row in motion.rotation(t) for x in row], motion.angular_velocity(t)):
-            found.append(max((arb(x).rad() for x in values), key=float))
+            radii_found.append(max((arb(x).rad() for x in values), key=float))
     for name in SCALARS:
         try:
             x = arb(getattr(motion, name))
         except DomainError:  # it has none
             continue
         if x.is_finite() and x != 0:
-            found.append(x.rad() / abs(x).mid())
-    return found
+            radii_found.append(x.rad() / abs(x).mid())
+    return radii_found
 
 
-@pytest.mark.parametrize(("family", "inputs", "lost"), LOST)
-def test_no_more_digits_are_lost_than_is_stated(family: Any, inputs: tuple[Any, ...], lost: list[int]) -> None:
+@pytest.mark.parametrize(("family", "inputs", "bits_lost"), LOST)
+def test_no_more_digits_are_lost_than_is_stated(family: Any, inputs: tuple[Any, ...], bits_lost: list[int]) -> None:
     """But for two bits, that other releases of the library may take."""
     with ctx.workprec(BITS):
-        found = [float(x * arb(2) ** BITS) for x in radii(family(*inputs))]
-    assert len(found) == len(lost)
-    assert all(x < 2.0 ** (bits + 2) for x, bits in zip(found, lost, strict=True))
+        bits_found = [float(x * arb(2) ** BITS) for x in radii(family(*inputs))]
+    assert len(bits_found) == len(bits_lost)
+    assert all(x < 2.0 ** (bits + 2) for x, bits in zip(bits_found, bits_lost, strict=True))
 
 
-@pytest.mark.parametrize(("family", "inputs", "lost"), LOST)
-def test_the_pair_has_the_period_of_the_motion(family: Any, inputs: tuple[Any, ...], lost: list[int]) -> None:
+@pytest.mark.parametrize(("family", "inputs", "bits_lost"), LOST)
+def test_the_pair_has_the_period_of_the_motion(family: Any, inputs: tuple[Any, ...], bits_lost: list[int]) -> None:
     """With alpha and beta, whose theta nutates or would, comes half of it; infinite where the motion's is."""
-    del lost
+    del bits_lost
     motion = family(*inputs)
-    pair, whole = arb(motion.solution.period), arb(motion.period)
-    assert pair.overlaps(whole) or (infinite(pair) and infinite(whole))
+    pair, period_whole = arb(motion.solution.period), arb(motion.period)
+    assert pair.overlaps(period_whole) or (infinite(pair) and infinite(period_whole))
 
 
 floats = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e140, max_value=1e140)
@@ -138,25 +138,25 @@ def test_the_length_of_huge_and_tiny_components_neither_overflows_nor_vanishes()
 
 def test_precision_is_one_threads_at_a_time_and_comes_back() -> None:
     """A thread that wants other digits waits; errors too leave the precision as it was."""
-    seen, inside = [], threading.Event()
+    precisions, inside = [], threading.Event()
 
-    def other() -> None:
+    def other_thread() -> None:
         inside.wait()
         with workprec(100):
-            seen.append(ctx.prec)
+            precisions.append(ctx.prec)
 
     def broken() -> None:
         with workprec(300):
             inside.set()
             time.sleep(0.05)
-            assert seen == []
+            assert precisions == []
             assert ctx.prec == 300
             fmpq(1) / fmpq(0)
 
-    before, thread = ctx.prec, threading.Thread(target=other)
+    before, thread = ctx.prec, threading.Thread(target=other_thread)
     thread.start()
     with pytest.raises(ZeroDivisionError):
         broken()
     thread.join()
-    assert seen == [100]
+    assert precisions == [100]
     assert ctx.prec == before

@@ -31,10 +31,10 @@ OMEGA = (0.8801646474639836, -1.1735528632853114, 0.2745993411764893)
 
 def taylor(ratio: float, field: Any, omega: Any, t: float, bits: int = 220, order: int = 50) -> np.ndarray:
     """Return the third row of R(t) by Taylor series of (12), (21) and (27) in integers over 2^bits."""
-    I, one = Fraction(ratio), 1 << bits
-    rows = [[int(Fraction(x) * one) for x in v] for v in (field, omega, (0, 0, 1))]
+    I, unity = Fraction(ratio), 1 << bits
+    rows = [[int(Fraction(x) * unity) for x in v] for v in (field, omega, (0, 0, 1))]
     steps = int(np.ceil(abs(t) * 5 * max(map(abs, (*field, *omega)))))
-    h = int(Fraction(t) / steps * one)
+    h = int(Fraction(t) / steps * unity)
 
     def times(x: list[int], factor: Fraction) -> list[int]:
         return [y * factor.numerator // factor.denominator for y in x]
@@ -44,8 +44,8 @@ def taylor(ratio: float, field: Any, omega: Any, t: float, bits: int = 220, orde
         momentum = [[], [], []]  # type: list[list[int]]
         for n in range(order):
             K, w, e = series
-            for i, (own, pull) in enumerate(((Fraction(1), I), (Fraction(1), I), (I, 2 - I))):
-                momentum[i] += [*times(w[i][n:], own)]
+            for i, (moment, pull) in enumerate(((Fraction(1), I), (Fraction(1), I), (I, 2 - I))):
+                momentum[i] += [*times(w[i][n:], moment)]
                 momentum[i][n] -= times(K[i][n:], pull)[0]
 
             def crossed(a: Any, b: Any) -> list[int]:
@@ -61,7 +61,7 @@ def taylor(ratio: float, field: Any, omega: Any, t: float, bits: int = 220, orde
                 for x, y in zip(row, rate, strict=True):
                     x.append(y // (n + 1))
         rows = [[reduce(lambda value, c: c + (value * h >> bits), x[::-1]) for x in row] for row in series]
-    return np.array([x / one for x in rows[2]])
+    return np.array([x / unity for x in rows[2]])
 
 
 def balls(ratio: float, field: Any, omega: Any, t: float) -> np.ndarray:
@@ -117,17 +117,17 @@ def test_fields_of_three_components_move_a_body_as_taylor_series_do() -> None:
     rng = np.random.default_rng(7)
     ratio, B, w = rng.uniform(0.3, 1.9, 2), rng.normal(size=(2, 3)), rng.normal(size=(2, 3))
     A = Rotation.random(2, random_state=2).as_matrix()
-    several, placed = atlas.motion(ratio, B, w), atlas.motion(ratio, B, w, A)
+    motion_array, placed = atlas.motion(ratio, B, w), atlas.motion(ratio, B, w, A)
     for i in range(2):
-        alone = atlas.GeneralMotion(ratio[i], B[i], w[i])
-        assert np.abs(alone.rotation(30.0)[2] - taylor(ratio[i], B[i], w[i], 30.0)).max() <= 16 * EPS
+        motion_alone = atlas.GeneralMotion(ratio[i], B[i], w[i])
+        assert np.abs(motion_alone.rotation(30.0)[2] - taylor(ratio[i], B[i], w[i], 30.0)).max() <= 16 * EPS
         for t in (30.0, 1e9):
-            assert np.abs(several.rotation(t)[i] - alone.rotation(t)).max() <= 64 * EPS
-            one = atlas.motion(ratio[i], B[i], w[i], A[i])
-            assert np.abs(placed.rotation(t)[i] - one.rotation(t)).max() <= 64 * EPS
-            assert np.abs(placed.quaternion(t)[i] - one.quaternion(t)).max() <= 64 * EPS
-            assert np.abs(placed.angular_velocity(t)[i] - one.angular_velocity(t)).max() <= 128 * EPS
-        assert several.period[i] == alone.period
+            assert np.abs(motion_array.rotation(t)[i] - motion_alone.rotation(t)).max() <= 64 * EPS
+            motion = atlas.motion(ratio[i], B[i], w[i], A[i])
+            assert np.abs(placed.rotation(t)[i] - motion.rotation(t)).max() <= 64 * EPS
+            assert np.abs(placed.quaternion(t)[i] - motion.quaternion(t)).max() <= 64 * EPS
+            assert np.abs(placed.angular_velocity(t)[i] - motion.angular_velocity(t)).max() <= 128 * EPS
+        assert motion_array.period[i] == motion_alone.period
 
 
 @pytest.mark.slow
@@ -150,13 +150,13 @@ def test_no_class_is_chosen_within_a_tolerance() -> None:
     K, w = np.array([3.0, 4.0, 5.0]), np.array([3.0, 4.0, 12.5])
     assert atlas.motion(0.5, K, w).family == "elementary"
     for j in range(3):
-        beside = w.copy()
-        beside[j] = np.nextafter(w[j], 99)
-        assert atlas.motion(0.5, K, beside).family == "general"
+        w_next = w.copy()
+        w_next[j] = np.nextafter(w[j], 99)
+        assert atlas.motion(0.5, K, w_next).family == "general"
     t = np.array([1.0, 1e6])
-    one, other = atlas.motion(0.5, K, w), atlas.GeneralMotion(0.5, K, w)
-    assert other.kind == "precession"
-    assert np.abs(one.rotation(t) - other.rotation(t)).max() <= 16 * EPS
+    motion, motion_general = atlas.motion(0.5, K, w), atlas.GeneralMotion(0.5, K, w)
+    assert motion_general.kind == "precession"
+    assert np.abs(motion.rotation(t) - motion_general.rotation(t)).max() <= 16 * EPS
 
 
 def test_a_ball_in_any_field_is_that_of_its_general_motion() -> None:
@@ -184,17 +184,17 @@ def test_a_product_of_inputs_is_not_rounded() -> None:
     rows = atlas.GeneralMotion(0.873, field, (w[0], w[1], np.array([w[2], 0.5])))
     assert np.abs(rows.rotation(t)[0] - true).max() <= 64 * EPS
     words = f"motion --ratio 0.873 --magnetic {B[0]} {B[1]} --mu {mu} --omega {w[0]} {w[1]} {w[2]} --times {t} --json"
-    found = json.loads(CliRunner().invoke(command, words.split()).stdout)["samples"][0]["R"]
-    assert np.abs(np.array(found) - true).max() <= 16 * EPS
+    matrix = json.loads(CliRunner().invoke(command, words.split()).stdout)["samples"][0]["R"]
+    assert np.abs(np.array(matrix) - true).max() <= 16 * EPS
 
 
 def test_the_moments_of_a_heavy_top_are_not_rounded() -> None:
     """I2 + m l^2 and m g l as fractions are those of `TopMotion.heavy`, at t = 1e9."""
     body, g, l, m = atlas.SymmetricBody(0.3, 0.2), 9.81, 0.7, 1.3
     top = atlas.TopMotion.heavy(body, g, l, (0.6, 0.8), (0.1, 0.2, 5.0), mass=m)
-    across, linear = Fraction(0.3) + Fraction(m) * Fraction(l) ** 2, Fraction(m) * Fraction(g) * Fraction(l)
-    same = atlas.TopMotion((across, 0.2), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=linear)
-    rounded = atlas.TopMotion((float(across), 0.2), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=float(linear))
+    I_pivot, linear = Fraction(0.3) + Fraction(m) * Fraction(l) ** 2, Fraction(m) * Fraction(g) * Fraction(l)
+    same = atlas.TopMotion((I_pivot, 0.2), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=linear)
+    rounded = atlas.TopMotion((float(I_pivot), 0.2), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=float(linear))
     assert np.abs(top.rotation(1e9) - same.rotation(1e9)).max() <= 8 * EPS
     assert np.abs(top.rotation(1e9) - rounded.rotation(1e9)).max() > 1e-9
 
@@ -204,38 +204,38 @@ def test_the_error_of_rounded_inputs_bounds_the_effect_of_an_ulp() -> None:
     """On the unstable start each input moved by half an ulp, in twice the digits, turns the body by no more."""
     m = atlas.motion(RATIO, FIELD, OMEGA)
     t = 30.0
-    bound, R, moved = float(m.input_error(t)), m.rotation(t), 0.0
+    bound, R, turn_sum = float(m.input_error(t)), m.rotation(t), 0.0
     for j in range(3):
-        for which in (0, 1):
+        for input_index in (0, 1):
             state = [[Fraction(x) for x in v] for v in (FIELD, OMEGA)]
-            state[which][j] += Fraction(float(np.spacing(abs((FIELD, OMEGA)[which][j])))) / 2
-            other = atlas.motion(RATIO, *state).rotation(t)
-            moved += Rotation.from_matrix(other @ R.T).magnitude()
-    assert 1e-12 < moved <= 1.01 * bound <= 4 * moved
+            state[input_index][j] += Fraction(float(np.spacing(abs((FIELD, OMEGA)[input_index][j])))) / 2
+            rotation_moved = atlas.motion(RATIO, *state).rotation(t)
+            turn_sum += Rotation.from_matrix(rotation_moved @ R.T).magnitude()
+    assert 1e-12 < turn_sum <= 1.01 * bound <= 4 * turn_sum
     words = [
         "motion", "--ratio", repr(RATIO), "--field", *map(repr, FIELD), "--omega", *map(repr, OMEGA),
         "--times", "30", "145",
     ]  # fmt: skip
     assert m.input_error(145.0) < 1e-12  # far from the start, where neighbours meet again
-    said = [CliRunner().invoke(command, [*words, *more]).stdout for more in ([], ["--json"])]
-    assert said[0].count("Rounding the inputs to floats turns the body by up to 2e-09 rad at t = 30;") == 1
-    assert json.loads(said[1])["input_error"] == bound
+    outputs = [CliRunner().invoke(command, [*words, *options]).stdout for options in ([], ["--json"])]
+    assert outputs[0].count("Rounding the inputs to floats turns the body by up to 2e-09 rad at t = 30;") == 1
+    assert json.loads(outputs[1])["input_error"] == bound
 
 
 def test_a_sweep_says_what_the_rounding_of_its_inputs_does(tmp_path: Path) -> None:
     """Of the first of the latest rows, where functions of time are asked for and the turn can be felt."""
     start = [*"sweep general --ratio 1.5 --field 1 2 --set omega1=0.3 omega2=0.7 omega3=0.2".split(), "--out"]
     clause = "Rounding the inputs to floats turns the body by up to 1e-10 rad at t = 1e+06, in the first row"
-    for quantity, end, told in (("R33", "1e6", True), ("period", "1e6", False), ("R33", "10", False)):
+    for quantity, end, is_reported in (("R33", "1e6", True), ("period", "1e6", False), ("R33", "10", False)):
         words = [*start, str(tmp_path / "table.csv"), "--set", f"t=0:{end}:3", "--quantity", quantity]
-        assert (clause in CliRunner().invoke(command, words).stderr) is told
+        assert (clause in CliRunner().invoke(command, words).stderr) is is_reported
 
 
 def test_the_series_give_a_ball_its_two_turns() -> None:
     """The oracle of the laws above, where the answer is two rotations by hand."""
     B, w, t = (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), 3.0
-    both = Rotation.from_rotvec(-t * np.array(B)) * Rotation.from_rotvec(t * (np.array(B) + w))
-    assert np.abs(taylor(1.0, B, w, t) - both.as_matrix()[2]).max() <= 16 * EPS
+    rotations = Rotation.from_rotvec(-t * np.array(B)) * Rotation.from_rotvec(t * (np.array(B) + w))
+    assert np.abs(taylor(1.0, B, w, t) - rotations.as_matrix()[2]).max() <= 16 * EPS
 
 
 @pytest.mark.slow
@@ -243,9 +243,9 @@ def test_a_symmetric_tensor_turned_in_floats_has_its_three_moments_at_any_time()
     """Two of its moments differ by rounding: the warning names the symmetric body, near which it moves for long."""
     P = Rotation.random(random_state=2).as_matrix()
     tensor = P.T @ np.diag([1.0, 1.0, 1.5]) @ P
-    with pytest.warns(NearlySymmetricWarning, match=r"atlas\.SymmetricBody\(0\.99.*third axis") as told:
+    with pytest.warns(NearlySymmetricWarning, match=r"atlas\.SymmetricBody\(0\.99.*third axis") as warned:
         m = atlas.motion((tensor + tensor.T) / 2, (0.3, 0.1, 1.0), (0.2, 0.3, 1.0))
-    assert len(told) == 1
+    assert len(warned) == 1
     assert m.family == "asymmetric"
     same = atlas.motion(atlas.SymmetricBody(1.0, 1.5, P), (0.3, 0.1, 1.0), (0.2, 0.3, 1.0))
     assert np.abs(m.rotation(3.0) - same.rotation(3.0)).max() < 1e-14
@@ -257,10 +257,10 @@ def test_a_symmetric_tensor_turned_in_floats_has_its_three_moments_at_any_time()
 def test_an_error_of_rounding_that_is_not_known_is_called_so() -> None:
     """No derivatives are at hand of a motion with three moments, and none exist of one about a principal axis."""
     for words in ("--field 0.4 0.1 1.2 --omega 0.5 0.3 1.1", "--field 0 0 1.2 --omega 0 0 1.1"):
-        asked = ["motion", "--inertia", "0.8", "1", "1.2", *words.split(), "--times"]
-        said = CliRunner().invoke(command, [*asked, "1e9"], catch_exceptions=False).output
-        assert "turns the body by an angle that is not known at t = 1e+09;" in " ".join(said.split())
-        assert "not known" not in CliRunner().invoke(command, [*asked, "1"], catch_exceptions=False).output
+        words_motion = ["motion", "--inertia", "0.8", "1", "1.2", *words.split(), "--times"]
+        output = CliRunner().invoke(command, [*words_motion, "1e9"], catch_exceptions=False).output
+        assert "turns the body by an angle that is not known at t = 1e+09;" in " ".join(output.split())
+        assert "not known" not in CliRunner().invoke(command, [*words_motion, "1"], catch_exceptions=False).output
 
 
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
@@ -279,15 +279,15 @@ def test_a_sweep_evaluates_the_product_that_was_typed(tmp_path: Any) -> None:
     """B' of --magnetic and mu stays exact in doubles at t = 1e9; rows as a list, which a worker gets, have it too."""
     words = "--ratio 0.873 --magnetic -1.429 1.091 --mu 1.5 --omega -0.1972 -0.7 1.0000000000000002"
     table = tmp_path / "t.csv"
-    rest = ["--set", "t=1e9,5", "--quantity", "R33", "--out", str(table)]
-    assert CliRunner().invoke(command, ["sweep", "general", *words.split(), *rest]).exit_code == 0
-    found = float(table.read_text().splitlines()[-2].split(",")[-1])
+    options = ["--set", "t=1e9,5", "--quantity", "R33", "--out", str(table)]
+    assert CliRunner().invoke(command, ["sweep", "general", *words.split(), *options]).exit_code == 0
+    value = float(table.read_text().splitlines()[-2].split(",")[-1])
     m = atlas.GeneralMotion(0.873, (Fraction(-1.429) * 3 / 4, Fraction(1.091) * 3 / 4), (-0.1972, -0.7, 1 + EPS))
-    assert abs(found - m.rotation(1e9)[2, 2]) <= 16 * EPS
+    assert abs(value - m.rotation(1e9)[2, 2]) <= 16 * EPS
     parameters = {"ratio": 0.873, "B2": Fraction(-1.429) * 3 / 4, "B3": Fraction(1.091) * 3 / 4}
     parameters |= {"omega1": -0.1972, "omega2": -0.7, "omega3": 1 + EPS, "t": [5.0, 1e9]}
     plan = Plan.of("general", parameters, ["R33"])
-    assert plan.list_of(1, 2).rows()["R33"][0] == pytest.approx(found, abs=16 * EPS)
+    assert plan.list_of(1, 2).rows()["R33"][0] == pytest.approx(value, abs=16 * EPS)
 
 
 def test_fractions_of_a_diagonal_tensor_are_not_rounded() -> None:

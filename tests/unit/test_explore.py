@@ -38,11 +38,11 @@ from atlas.places import folder
 @pytest.fixture(scope="module")
 def server() -> Iterator[Explorer]:
     """Run a server on a free port."""
-    with Explorer("general") as made:
-        thread = Thread(target=made.serve_forever)
+    with Explorer("general") as explorer:
+        thread = Thread(target=explorer.serve_forever)
         thread.start()
-        yield made
-        made.shutdown()
+        yield explorer
+        explorer.shutdown()
         thread.join()
 
 
@@ -50,15 +50,15 @@ def ask(server: Explorer, place: str, method: str = "GET", **headers: str) -> tu
     """Ask for a place below the address, with headers of one's own."""
     port = server.server_address[1]
     connection = HTTPConnection("127.0.0.1", port, timeout=60)
-    own = {"Host": f"127.0.0.1:{port}", "Cookie": f"other=1; atlas={server.secret}"}
-    connection.request(method, place, headers=own | headers)
+    headers_own = {"Host": f"127.0.0.1:{port}", "Cookie": f"other=1; atlas={server.secret}"}
+    connection.request(method, place, headers=headers_own | headers)
     answer = connection.getresponse()
     content = answer.read()
     connection.close()
     return answer, content
 
 
-def own(server: Explorer, place: str, **query: Any) -> dict[str, Any]:
+def answer_of(server: Explorer, place: str, **query: Any) -> dict[str, Any]:
     """Ask as the page does, and read the answer."""
     answer, content = ask(server, f"/{server.folder}/{place}?{urlencode(query)}")
     assert answer.status == 200
@@ -68,8 +68,8 @@ def own(server: Explorer, place: str, **query: Any) -> dict[str, Any]:
 
 def shell_as_another_user(script: str, *words: str) -> str:
     """Return what a shell prints that runs as user and group 1001, without further groups."""
-    other = ["setpriv", "--reuid=1001", "--regid=1001", "--clear-groups"]
-    done = subprocess.run([*other, "sh", "-c", script, "sh", *words], capture_output=True, text=True, check=False)
+    words_user = ["setpriv", "--reuid=1001", "--regid=1001", "--clear-groups"]
+    done = subprocess.run([*words_user, "sh", "-c", script, "sh", *words], capture_output=True, text=True, check=False)
     return done.stdout
 
 
@@ -166,44 +166,44 @@ def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
 @pytest.mark.parametrize("name", [*FAMILIES])
 def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
     """The command that is shown, asked for as many digits, prints what the page shows as proven."""
-    found = own(server, "state", subject=name, proven=1)
-    words = shlex.split(found["command"])[1:]
+    answer = answer_of(server, "state", subject=name, proven=1)
+    words = shlex.split(answer["command"])[1:]
     done = CliRunner().invoke(command_line, [*words, "--digits", "10", "--json"])
     printed = json.loads(done.output)
-    shown = {q.name: entry for q, entry in zip(FAMILIES[name].quantities, found["numbers"], strict=True)}
-    same = [key for key in shown if isinstance(printed.get(key), str)]
+    entries = {q.name: entry for q, entry in zip(FAMILIES[name].quantities, answer["numbers"], strict=True)}
+    same = [key for key in entries if isinstance(printed.get(key), str)]
     assert same
     for key in same:
-        assert shown[key]["value"] == printed[key]
-        assert shown[key]["sure"] == ("10 digits proven" if re.search(r"\d", printed[key]) else "decided exactly")
+        assert entries[key]["value"] == printed[key]
+        assert entries[key]["sure"] == ("10 digits proven" if re.search(r"\d", printed[key]) else "decided exactly")
 
 
 def test_doubles_come_from_the_kernels_and_promise_no_digits(server: Explorer) -> None:
     """While a slider moves the numbers are doubles: the period is that of the class, and no digit is called proven."""
-    found = own(server, "state", subject="general", ratio=0.9, omega1=0.4)
-    numbers = {one["name"]: one for one in found["numbers"]}
+    answer = answer_of(server, "state", subject="general", ratio=0.9, omega1=0.4)
+    numbers = {entry["name"]: entry for entry in answer["numbers"]}
     period = GeneralMotion(0.9, (1.0, 2.0), (0.4, 0.7, 0.2)).period
     assert float(numbers["period"]["value"]) == pytest.approx(period, rel=1e-5)
-    assert {one["sure"] for one in found["numbers"]} <= {"decided exactly", "double, no promise"}
+    assert {entry["sure"] for entry in answer["numbers"]} <= {"decided exactly", "double, no promise"}
     assert numbers["kind"]["sure"] == "decided exactly"
-    assert own(server, "state", subject="ball")["numbers"][0]["sure"] == "double, within 4 ulp"
+    assert answer_of(server, "state", subject="ball")["numbers"][0]["sure"] == "double, within 4 ulp"
 
 
 def test_an_infinite_period_is_certain_and_a_free_body_turns_about_its_momentum(server: Explorer) -> None:
     """A sleeping top that may fall has no period: that is decided. Without a field there is no B to turn about."""
-    for name, given in (("top", {"n2": 0, "n3": 1, "omega3": 0.2}), ("free", {"omega3": 0})):
-        found = own(server, "state", subject=name, proven=1, **{"omega1": 0, "omega2": 0} | given)
-        numbers = {one["name"]: one for one in found["numbers"]}
+    for name, inputs in (("top", {"n2": 0, "n3": 1, "omega3": 0.2}), ("free", {"omega3": 0})):
+        answer = answer_of(server, "state", subject=name, proven=1, **{"omega1": 0, "omega2": 0} | inputs)
+        numbers = {entry["name"]: entry for entry in answer["numbers"]}
         assert (numbers["period"]["value"], numbers["period"]["sure"]) == ("infinite", "decided exactly")
-    found = own(server, "state", subject="general", B2=0, B3=0)
-    assert {one["says"] for one in found["numbers"]} >= {"mean rate about the momentum"}
+    answer = answer_of(server, "state", subject="general", B2=0, B3=0)
+    assert {entry["says"] for entry in answer["numbers"]} >= {"mean rate about the momentum"}
 
 
 def test_a_proof_waits_until_the_sliders_rest(server: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:
     """While a body of three moments is changed by a slider its closed form is neither made nor proved."""
     monkeypatch.setattr(asymmetric, "closed_form", lambda *_: pytest.fail("a closed form is made"))
-    found = own(server, "state", subject="asymmetric", I1=0.83)
-    numbers = {one["name"]: one for one in found["numbers"]}
+    answer = answer_of(server, "state", subject="asymmetric", I1=0.83)
+    numbers = {entry["name"]: entry for entry in answer["numbers"]}
     assert numbers["agreement"]["sure"] == "when the sliders rest"
     assert float(numbers["energy"]["value"]) > 0.0
 
@@ -211,11 +211,11 @@ def test_a_proof_waits_until_the_sliders_rest(server: Explorer, monkeypatch: pyt
 def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
     """The arrow of the axis is along R_3(t), and the view is the same at all times."""
     for t in (0.0, 3.7):
-        panel = own(server, "state", subject="general", t=t)["scene"]["wide"]["panels"][0]
+        panel = answer_of(server, "state", subject="general", t=t)["scene"]["wide"]["panels"][0]
         tail, tip = (panel["arrows"][0][i] for i in (4, 5))
         axis = GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).third_axis(t)
-        found = [(b - a) / 1.35 * 3.2 for a, b in zip(tail, tip, strict=True)]
-        assert found == pytest.approx(list(axis), abs=1e-5)
+        direction = [(b - a) / 1.35 * 3.2 for a, b in zip(tail, tip, strict=True)]
+        assert direction == pytest.approx(list(axis), abs=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -229,11 +229,11 @@ def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
 )
 def test_panels_that_turn_fill_the_picture(server: Explorer, name: str, places: list[list[float]]) -> None:
     """Panels with two axes, which do not turn, and titles take no room; the others have the shape of their cells."""
-    found, drawn = own(server, "state", subject=name, proven=0), subject(name)
-    scene = drawn.scene(answers.values_of(drawn, {}))
-    width, height = found["size"]
+    answer, subject_drawn = answer_of(server, "state", subject=name, proven=0), subject(name)
+    scene = subject_drawn.scene(answers.values_of(subject_drawn, {}))
+    width, height = answer["size"]
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
-    assert [place[:4] for place in found["scene"]["wide"]["places"]] == [pytest.approx(x, abs=1e-6) for x in places]
+    assert [place[:4] for place in answer["scene"]["wide"]["places"]] == [pytest.approx(x, abs=1e-6) for x in places]
     assert width == scene.size[0]
     assert width * places[0][2] / (height * places[0][3]) == pytest.approx(cell[0] / cell[1])
 
@@ -245,7 +245,7 @@ def test_figures_are_saved(server: Explorer) -> None:
         answer, content = ask(server, f"/{server.folder}/figure?subject=hyperbola&format={kind}")
         assert answer.getheader("Content-Type").startswith(answers.FILES[kind])
         assert content.startswith(head)
-    assert "no figure can be saved as 'exe'" in own(server, "figure", subject="hyperbola", format="exe")["error"]
+    assert "no figure can be saved as 'exe'" in answer_of(server, "figure", subject="hyperbola", format="exe")["error"]
 
 
 @pytest.mark.parametrize(
@@ -261,7 +261,7 @@ def test_figures_are_saved(server: Explorer) -> None:
 )
 def test_wrong_requests_are_answered_in_a_sentence(server: Explorer, query: dict[str, str], says: str) -> None:
     """In a sentence for the page, which goes on with the picture before."""
-    assert says in own(server, "state", **query)["error"]
+    assert says in answer_of(server, "state", **query)["error"]
 
 
 def test_a_full_disk_is_reported_and_the_server_continues(
@@ -269,23 +269,25 @@ def test_a_full_disk_is_reported_and_the_server_continues(
 ) -> None:
     """A figure that cannot be written on the way is a sentence, and the server goes on."""
     monkeypatch.setattr(answers, "TemporaryDirectory", lambda: nullcontext(str(tmp_path / "nosuch" / ("x" * 300))))
-    assert "nothing could be saved" in own(server, "figure", subject="hyperbola")["error"]
+    assert "nothing could be saved" in answer_of(server, "figure", subject="hyperbola")["error"]
     monkeypatch.undo()
     assert ask(server, f"/{server.folder}/figure?subject=hyperbola")[1].startswith(b"<?xml")
 
 
 def test_a_name_that_a_page_sends_is_never_a_file(server: Explorer, tmp_path: Path) -> None:
     """No recipe of a path is run or read, but for the one that was named at the start, in the same words."""
-    mark, mine = tmp_path / "mark", tmp_path / "mine.py"
-    mine.write_text(f'"Mine."\nopen({str(mark)!r}, "w").close()\ndef scene(*, a=1.0): ...\n')
-    for name in (str(mine), f"figure:{mine}", f"../figures/{mine.name}", "../../figures/ball.py"):
+    mark, recipe_mine = tmp_path / "mark", tmp_path / "mine.py"
+    recipe_mine.write_text(f'"Mine."\nopen({str(mark)!r}, "w").close()\ndef scene(*, a=1.0): ...\n')
+    for name in (str(recipe_mine), f"figure:{recipe_mine}", f"../figures/{recipe_mine.name}", "../../figures/ball.py"):
         for place in ("state", "sliders", "figure"):
-            assert "there is no family or figure" in own(server, place, subject=name)["error"]
+            assert "there is no family or figure" in answer_of(server, place, subject=name)["error"]
     assert not mark.exists()
-    with Explorer(str(mine)) as another:
+    with Explorer(str(recipe_mine)) as another:
         Thread(target=another.serve_forever, daemon=True).start()
-        assert [slider["name"] for slider in own(another, "sliders", subject=str(mine))["sliders"]] == ["a"]
-        assert "must return a Scene" in own(another, "state", subject=str(mine))["error"]
+        assert [slider["name"] for slider in answer_of(another, "sliders", subject=str(recipe_mine))["sliders"]] == [
+            "a"
+        ]
+        assert "must return a Scene" in answer_of(another, "state", subject=str(recipe_mine))["error"]
         another.shutdown()
     assert mark.exists()
 
@@ -311,18 +313,18 @@ def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
                 time.sleep(0.01)
             page = Path(url2pathname(urlsplit((tmp_path / "given").read_text()).path))
             ticket = re.search(r'url=([^"]+)', page.read_text())[1]
-            seen = shell_as_another_user(
+            output_listing = shell_as_another_user(
                 "cat /proc/[0-9]*/cmdline | tr '\\0' ' '; cat $1 $1/* $2; ls -R $1", page.parent, page
             )
-            assert str(page) in seen  # the arguments of the browser are seen
+            assert str(page) in output_listing  # the arguments of the browser are seen
             for secret in (address, ticket):
-                assert secret.rpartition("/")[2] not in seen
+                assert secret.rpartition("/")[2] not in output_listing
             assert (page.stat().st_mode & 0o777, page.parent.stat().st_mode & 0o777) == (0o600, 0o700)
             guessed = "import sys, urllib.request as r\ntry: r.urlopen(sys.argv[1])\nexcept OSError as e: print(e)"
-            asked = shell_as_another_user(
+            output_request = shell_as_another_user(
                 '"$@"', "python3", "-c", guessed, f"{address.rpartition('/')[0]}/state?subject=ball"
             )
-            assert "403" in asked
+            assert "403" in output_request
         finally:
             program.terminate()
             program.communicate(timeout=60)
@@ -331,12 +333,12 @@ def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
 
 def test_everything_has_sliders_that_start_within_their_ends() -> None:
     """All families but those without a start, with the ranges of the register; all figures, with theirs."""
-    known = everything()
-    assert [name for name, _ in known["families"]] == [*FAMILIES]
-    assert [name.removeprefix("figure:") for name, _ in known["figures"]] == recipes.names()
-    assert all(subject(name).title == title for entries in known.values() for name, title in entries)
-    for one in [*map(OfFamily, FAMILIES.values()), *(OfRecipe(recipes.load(name)) for name in recipes.names())]:
-        for slider in one.sliders:
+    catalogue = everything()
+    assert [name for name, _ in catalogue["families"]] == [*FAMILIES]
+    assert [name.removeprefix("figure:") for name, _ in catalogue["figures"]] == recipes.names()
+    assert all(subject(name).title == title for entries in catalogue.values() for name, title in entries)
+    for subject_any in [*map(OfFamily, FAMILIES.values()), *(OfRecipe(recipes.load(name)) for name in recipes.names())]:
+        for slider in subject_any.sliders:
             assert slider.low <= slider.start <= slider.high
             steps = (slider.high - slider.low) / slider.step
             counted = type(slider.start) is int or slider.name == "t"
@@ -345,7 +347,7 @@ def test_everything_has_sliders_that_start_within_their_ends() -> None:
     assert next((x.low, x.high) for x in OfFamily(FAMILIES["general"]).sliders if x.name == "t") == (0.0, 60.0)
     three = {(x.low, x.start, x.high) for name in ("flight_poster", "tipping_disk") for x in subject(name).sliders}
     assert three >= {(1, 15, 45), (-3.0, 1e-3, 3.0)}  # what has no range ends at three times its start, or at three
-    ranges = {one.name: (one.low, one.high) for one in subject("film_strip").sliders}
+    ranges = {slider.name: (slider.low, slider.high) for slider in subject("film_strip").sliders}
     assert ranges["field.2"] == next(p.range for p in FAMILIES["elementary"].parameters if p.name == "field")
     assert (
         type(OfRecipe(recipes.load("film_strip")).parameters(answers.values_of(subject("film_strip"), {}))["count"])
@@ -368,9 +370,9 @@ def test_names_are_written_as_in_the_atlas() -> None:
         "unstable_band",
         "C₁",
     ]
-    assert {one.name for one in subject("stability").sliders} >= {"field.1", "field.2"}
-    assert not any(one.name.startswith("levels") for one in subject("stability").sliders)
-    assert [one.symbol for one in subject("hyperbola").sliders][:3] == ["I", "B₂", "B₃"]
+    assert {slider.name for slider in subject("stability").sliders} >= {"field.1", "field.2"}
+    assert not any(slider.name.startswith("levels") for slider in subject("stability").sliders)
+    assert [slider.symbol for slider in subject("hyperbola").sliders][:3] == ["I", "B₂", "B₃"]
 
 
 def test_unknown_names_are_refused_before_a_server_starts() -> None:
@@ -400,8 +402,8 @@ def test_ctrl_c_ends_it() -> None:
         assert program.stdout.readline().startswith("http://127.0.0.1:")
         program.send_signal(signal.SIGINT)
         try:
-            _, said = program.communicate(timeout=60)
+            _, output = program.communicate(timeout=60)
         finally:
             program.kill()
     assert program.returncode in {0, 130}
-    assert said in {"ended\n", "atlas: interrupted\n"}
+    assert output in {"ended\n", "atlas: interrupted\n"}

@@ -24,9 +24,9 @@ def exact_frame(axis: np.ndarray, B: np.ndarray) -> tuple[list[mpmath.matrix], m
     n, b = mpmath.matrix([mp.mpf(float(x)) for x in axis]), mpmath.matrix([mp.mpf(float(x)) for x in B])
     e3 = n / mp.norm(n)
     B3 = (e3.T * b)[0]
-    across = b - B3 * e3
-    B2 = mp.norm(across)
-    e2 = across / B2
+    B_transverse = b - B3 * e3
+    B2 = mp.norm(B_transverse)
+    e2 = B_transverse / B2
     e1 = mpmath.matrix([e2[1] * e3[2] - e2[2] * e3[1], e2[2] * e3[0] - e2[0] * e3[2], e2[0] * e3[1] - e2[1] * e3[0]])
     return [e1, e2, e3], B2, B3
 
@@ -117,8 +117,8 @@ def test_vectors_and_rotations_come_back_in_the_users_frame() -> None:
     frame = LaboratoryFrame(rng.normal(size=3), rng.normal(size=3))
     v, R = rng.normal(size=(4, 2, 3)), Rotation.random(4, rng=rng).as_matrix()
     assert np.abs(frame.to_user(frame.to_laboratory(v)) - v).max() < 16 * EPS
-    turned = np.einsum("nij,nkj->nki", R, frame.to_laboratory(v))
-    assert np.abs(np.einsum("nij,nkj->nki", frame.rotation_to_user(R), v) - frame.to_user(turned)).max() < 32 * EPS
+    vectors = np.einsum("nij,nkj->nki", R, frame.to_laboratory(v))
+    assert np.abs(np.einsum("nij,nkj->nki", frame.rotation_to_user(R), v) - frame.to_user(vectors)).max() < 32 * EPS
 
 
 @given(axes, st.integers(-60, 60))

@@ -48,23 +48,23 @@ def points(panel: Plane | Space, role: str) -> np.ndarray:
 
 def coordinates(scene: Scene) -> list[np.ndarray]:
     """Return all coordinates of a scene."""
-    found: list[np.ndarray] = []
+    arrays: list[np.ndarray] = []
     for panel in scene.panels:
         if isinstance(panel, Plane):
-            found += [np.array(limits) for limits in (panel.x_limits, panel.y_limits) if limits is not None]
+            arrays += [np.array(limits) for limits in (panel.x_limits, panel.y_limits) if limits is not None]
         for layer in panel.layers:
             match layer:
                 case Curve() | Points() | Region():
-                    found.append(np.asarray(layer.points))
+                    arrays.append(np.asarray(layer.points))
                 case Arrow():
-                    found += [np.asarray(layer.tail), np.asarray(layer.tip)]
+                    arrays += [np.asarray(layer.tail), np.asarray(layer.tip)]
                 case Label():
-                    found.append(np.asarray(layer.at))
+                    arrays.append(np.asarray(layer.at))
                 case Surface():
-                    found += [layer.quadric, *layer.grids]
+                    arrays += [layer.quadric, *layer.grids]
                 case Image():
-                    found += [layer.x, layer.y, layer.values]
-    return found
+                    arrays += [layer.x, layer.y, layer.values]
+    return arrays
 
 
 def check(scene: Scene) -> None:
@@ -108,17 +108,17 @@ def test_every_recipe_draws_with_its_defaults(name: str) -> None:
 )
 def test_extreme_parameters_give_a_picture_or_one_sentence(name: str, field: tuple[float, float]) -> None:
     """For bodies in every field there is a whole scene, or a DomainError that says why not in one sentence."""
-    drawn, refused = 0, []
+    count, refused = 0, []
     for ratio in RATIOS[FIELDS.index(field) % 2 :: 2]:  # every body in half of the fields
         try:
             check(load(name).scene(ratio=ratio, field=field))
-            drawn += 1
+            count += 1
         except DomainError as error:
             refused.append(str(error))
     assert [sentence for sentence in refused if not re.fullmatch(r"\S.*\.", sentence)] == []
     assert [sentence for sentence in refused if re.search(r"\. [A-Z]", sentence)] == []
-    lost = name == "quadric_leak" and abs(field[0]) < 1e-9 * abs(field[1])  # the departure is rounding
-    assert drawn or field[0] == 0 or name == "flight" or lost
+    is_lost = name == "quadric_leak" and abs(field[0]) < 1e-9 * abs(field[1])  # the departure is rounding
+    assert count or field[0] == 0 or name == "flight" or is_lost
 
 
 @pytest.mark.parametrize("field", FIELDS)
@@ -143,8 +143,8 @@ def test_a_body_may_stand_for_its_ratio(name: str) -> None:
     recipe = load(name)
     number, body = recipe.scene(ratio=1.5), recipe.scene(ratio=SymmetricBody(2.0, 3.0))
     assert number.caption == body.caption
-    for one, other in zip(coordinates(number), coordinates(body), strict=True):
-        assert np.allclose(one, other, rtol=1e-12, atol=1e-12)
+    for array_number, array_body in zip(coordinates(number), coordinates(body), strict=True):
+        assert np.allclose(array_number, array_body, rtol=1e-12, atol=1e-12)
 
 
 def test_a_flight_ends_at_the_given_time() -> None:
@@ -152,8 +152,8 @@ def test_a_flight_ends_at_the_given_time() -> None:
     recipe = load("flight")
     by_turns = recipe.scene(turns=2.0)
     by_time = recipe.scene(stop=2.0 * np.pi / np.sqrt(5.0))
-    (one,), (other,) = (curves(scene.panels[0], "trajectory") for scene in (by_turns, by_time))
-    assert np.allclose(one[-1], other[-1], rtol=0, atol=1e-13)
+    (path_by_turns,), (path_by_time,) = (curves(scene.panels[0], "trajectory") for scene in (by_turns, by_time))
+    assert np.allclose(path_by_turns[-1], path_by_time[-1], rtol=0, atol=1e-13)
     with pytest.raises(DomainError, match="turns"):
         recipe.scene(stop=1e4)
 
@@ -183,9 +183,9 @@ def residual(ratio: float, field: tuple[float, float], point: np.ndarray) -> flo
 def test_drawn_points_satisfy_the_equation_of_the_hyperbola(ratio: float, field: tuple[float, float]) -> None:
     """Every point of the drawn branches satisfies (67) to 3 eps of its terms, lines at the pole included."""
     (panel,) = load("hyperbola").scene(ratio=ratio, field=field).panels
-    drawn = curves(panel, "hyperbola")
-    assert drawn
-    assert max(residual(ratio, field, point) for line in drawn for point in line) <= 3 * EPS
+    curves_drawn = curves(panel, "hyperbola")
+    assert curves_drawn
+    assert max(residual(ratio, field, point) for line in curves_drawn for point in line) <= 3 * EPS
 
 
 def test_branches_reach_the_edges_of_the_window_and_stop_there() -> None:
@@ -204,12 +204,12 @@ def test_branches_reach_the_edges_of_the_window_and_stop_there() -> None:
 def test_the_dashed_line_is_the_asymptote(ratio: float, field: tuple[float, float]) -> None:
     """It passes through -B', runs as Hyperbola says, and the curve comes near to it as 1/omega2."""
     ends = asymptote(ratio, field, window(field))
-    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    direction = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
     _, expected = Hyperbola(ratio, field).asymptotes
-    assert abs(along[0] * expected[1] - along[1] * expected[0]) <= 8 * EPS
+    assert abs(direction[0] * expected[1] - direction[1] * expected[0]) <= 8 * EPS
     assert np.allclose(ends.mean(axis=0), [-field[0], -field[1]], rtol=0, atol=8 * EPS * np.hypot(*field))
-    far = np.array([1e3, 2e3]) * field[0]
-    gap = Hyperbola(ratio, field).omega3(far) + field[1] - (far + field[0]) * expected[1] / expected[0]
+    x_far = np.array([1e3, 2e3]) * field[0]
+    gap = Hyperbola(ratio, field).omega3(x_far) + field[1] - (x_far + field[0]) * expected[1] / expected[0]
     assert gap[1] / gap[0] == pytest.approx(0.5, rel=1e-3)
 
 
@@ -298,23 +298,23 @@ def test_without_a_free_part_the_quotient_is_zero_on_one_line_and_free_on_the_ot
 def test_quotient_levels_out_at_the_free_body() -> None:
     """The dashed line is phi/k of the free body beside the motion, (87)."""
     _, lower = load("frequencies").scene(ratio=1.5, field=(1.0, 2.0)).panels
-    beside = ElementaryMotion(1.5, (1.0, 2.0), 0.7).beside
+    free_motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7).beside
     (line,) = curves(lower, "reference")
-    assert line[0, 1] == pytest.approx(beside.phi / beside.k, rel=8 * EPS)
+    assert line[0, 1] == pytest.approx(free_motion.phi / free_motion.k, rel=8 * EPS)
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_level_lines_of_the_map_have_their_level(ratio: float) -> None:
     """At every drawn point (tau, x) the nutation frequency squared is the level, in units of B2^2."""
-    found = 0
+    count = 0
     for value in (0.25, 0.5, 1.0, 2.0):
         _, panel = load("stability").scene(ratio=ratio, field=(1.0, 0.5), levels=(value,)).panels
         for line in curves(panel, "component"):
             for tau, x in line[(line[:, 1] > 1e-3) & (line[:, 0] < 1.2)]:
                 terms = x * x * (1 + tau * tau) + abs(1 - ratio) * (1 + 2 * tau * tau) + ((1 - ratio) * tau / x) ** 2
                 assert Hyperbola(ratio, (1.0, tau)).stability(x - 1.0) == pytest.approx(value, abs=64 * EPS * terms / x)
-                found += 1
-    assert found > 20
+                count += 1
+    assert count > 20
 
 
 def test_the_map_shows_instability_below_the_critical_field_only() -> None:
@@ -329,14 +329,14 @@ def test_the_map_shows_instability_below_the_critical_field_only() -> None:
         assert not curves(panel, "unstable")
 
 
-@pytest.mark.parametrize(("field", "shown", "words"), [((1.0, 2.0), 2.3, "dotted"), ((-0.05, 1.0), 1.0, r"\tau=20$")])
+@pytest.mark.parametrize(("field", "limit", "words"), [((1.0, 2.0), 2.3, "dotted"), ((-0.05, 1.0), 1.0, r"\tau=20$")])
 def test_the_map_of_levels_keeps_its_width_in_a_field_close_to_the_axis(
-    field: tuple[float, float], shown: float, words: str
+    field: tuple[float, float], limit: float, words: str
 ) -> None:
     """Up to tau = 2 the field of (a) is a line of the map; beyond, the caption has its tau and levels stay apart."""
     scene = load("stability").scene(field=field)
     map_ = scene.panels[1]
-    assert map_.x_limits == (0.0, pytest.approx(shown, abs=8 * EPS))
+    assert map_.x_limits == (0.0, pytest.approx(limit, abs=8 * EPS))
     assert len(curves(map_, "limit")) == (words == "dotted")
     assert words in scene.caption
 
@@ -357,8 +357,8 @@ def test_drawn_angular_velocity_is_that_of_the_paper() -> None:
     scene = load("motion").scene(ratio=0.5, field=(1.0, 2.0), omega2=-1.7)
     phi = 2.0 * -1.7 * 0.5 * 0.3 / (0.5 * -0.7)
     omega3 = 2.0 * -1.7 * (-1.7 + 1.5) / (0.5 * -0.7)
-    (one,), (two,), (three,) = (curves(scene.panels[1], role) for role in ("main", "second", "third"))
-    assert np.allclose(one[:, 1], -1.7 * np.sin(phi * one[:, 0]), rtol=0, atol=1e-13)
+    (line_one,), (two,), (three,) = (curves(scene.panels[1], role) for role in ("main", "second", "third"))
+    assert np.allclose(line_one[:, 1], -1.7 * np.sin(phi * line_one[:, 0]), rtol=0, atol=1e-13)
     assert np.allclose(two[:, 1], -1.7 * np.cos(phi * two[:, 0]), rtol=0, atol=1e-13)
     assert np.allclose(three[:, 1], omega3, rtol=16 * EPS, atol=0)
 
@@ -467,8 +467,8 @@ def test_the_course_is_the_motion_of_omega3(
 @pytest.mark.parametrize("ratio", [1e-7, 1e-12])
 def test_the_departure_from_the_quadric_of_a_needle_is_no_noise(ratio: float) -> None:
     """Its curves need as few points as those of any other body: were they noise, they would be cut without end."""
-    made = load("quadric_leak").scene(ratio=ratio)
-    sizes = [len(layer.points) for panel in made.panels for layer in panel.layers if isinstance(layer, Curve)]
+    scene = load("quadric_leak").scene(ratio=ratio)
+    sizes = [len(layer.points) for panel in scene.panels for layer in panel.layers if isinstance(layer, Curve)]
     assert max(sizes) < 2000
 
 

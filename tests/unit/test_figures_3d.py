@@ -65,9 +65,9 @@ def test_the_heavy_line_is_the_hyperbola(name: str, parameters: dict[str, Any]) 
     b = float(np.hypot(*field))
     for points in curves:
         assert np.abs(points[:, 0]).max() <= 8.0 * EPS * b
-        far = np.abs(points[:, 1] + field[0]) > 0.3 * abs(field[0])  # away from the pole, where omega_3 says little
+        is_far = np.abs(points[:, 1] + field[0]) > 0.3 * abs(field[0])  # away from the pole, where omega_3 says little
         if ratio != 1.0:
-            assert hyperbola.omega3(points[far, 1]) == pytest.approx(points[far, 2], abs=1e-12 * 10.0 * b)
+            assert hyperbola.omega3(points[is_far, 1]) == pytest.approx(points[is_far, 2], abs=1e-12 * 10.0 * b)
     gaps = [np.linalg.norm(points, axis=1).min() for points in curves]
     assert min(gaps) < 0.3 * b
 
@@ -95,14 +95,16 @@ def test_canonical_axes_and_vectors_agree_with_the_kernel(ratio: float, field: t
 def test_the_axis_of_a_single_sheet_ends_beyond_it_or_is_as_long_as_the_others(field: tuple[float, float]) -> None:
     """Toward the sheet it leaves it by less than a third of its length; away from it all three arrows are equal."""
     quadric = Quadric(1.5, field)
-    drawn = quadric_layers(1.5, field, "origin")
-    (sheet,) = [layer for layer in drawn if isinstance(layer, Surface)]
-    arrows = [layer for layer in drawn if isinstance(layer, Arrow) and layer.role == "canonical"]
+    layers_drawn = quadric_layers(1.5, field, "origin")
+    (sheet,) = [layer for layer in layers_drawn if isinstance(layer, Surface)]
+    arrows = [layer for layer in layers_drawn if isinstance(layer, Arrow) and layer.role == "canonical"]
     lengths = [np.linalg.norm(arrow.tip - quadric.centre) for arrow in arrows]
-    which = sheet_axis(quadric)
-    heights = (np.concatenate([grid.reshape(-1, 3) for grid in sheet.grids]) - quadric.centre) @ quadric.axes[which]
+    axis_index = sheet_axis(quadric)
+    heights = (np.concatenate([grid.reshape(-1, 3) for grid in sheet.grids]) - quadric.centre) @ quadric.axes[
+        axis_index
+    ]
     if heights.max() > 0.0:
-        assert heights.max() < lengths[which] < 1.5 * heights.max()
+        assert heights.max() < lengths[axis_index] < 1.5 * heights.max()
     else:
         assert lengths == pytest.approx([lengths[0]] * 3, rel=1e-14, abs=0.0)
 
@@ -141,8 +143,8 @@ def test_the_laboratory_system_shows_the_field_and_its_components(field: tuple[f
     tip = np.asarray(arrow.tip)
     assert tip / np.linalg.norm(tip) == pytest.approx([0.0, *field] / np.hypot(*field), abs=4 * EPS)
     names = {label.text: np.squeeze(label.at).tolist() for label in layers("lssc", Label, field=field)}
-    at = {"$B'_2$": [0.0, tip[1], 0.0], "$B'_3$": [0.0, 0.0, tip[2]]}
-    assert names == {name: at[name] for name, B in zip(at, field, strict=True) if B}
+    tips = {"$B'_2$": [0.0, tip[1], 0.0], "$B'_3$": [0.0, 0.0, tip[2]]}
+    assert names == {name: tips[name] for name, B in zip(tips, field, strict=True) if B}
     assert not layers("lssc", Arrow, "field", field=(0.0, 0.0))
 
 
@@ -150,13 +152,13 @@ def test_the_laboratory_system_shows_the_field_and_its_components(field: tuple[f
 def test_the_electric_field_of_a_plate_leans_as_it_does(E: tuple[float, float]) -> None:
     """Where it is steep the arrow has its direction; else it is drawn steeper, in the same quadrant."""
     (arrow,) = layers("magn", Arrow, "electric", E=E)
-    drawn = np.asarray(arrow.tip)[1:] / np.linalg.norm(arrow.tip)
+    direction = np.asarray(arrow.tip)[1:] / np.linalg.norm(arrow.tip)
     true = np.array(E) / np.hypot(*E)
     if abs(E[0]) < 2 * abs(E[1]):
-        assert np.abs(drawn - true).max() <= 4 * EPS
+        assert np.abs(direction - true).max() <= 4 * EPS
     else:
         sides = np.sign(E)
-        assert drawn == pytest.approx([sides[0] * np.cos(0.55), sides[1] * np.sin(0.55)], abs=4 * EPS)
+        assert direction == pytest.approx([sides[0] * np.cos(0.55), sides[1] * np.sin(0.55)], abs=4 * EPS)
 
 
 @pytest.mark.parametrize(("E", "name"), [((0.0, -2.0), "parallel"), ((0.3, 0.0), "perp")])
@@ -166,7 +168,7 @@ def test_a_field_along_an_axis_has_no_other_component(E: tuple[float, float], na
     assert np.array_equal(np.sign(arrow.tip), np.sign([0.0, *E]))
     assert name in arrow.label
     assert not layers("magn", Arrow, "component", E=E)
-    assert not [one for one in layers("magn", Label, "label", E=E) if "mathbf{E}" in one.text]
+    assert not [label for label in layers("magn", Label, "label", E=E) if "mathbf{E}" in label.text]
     assert ("drifts" in recipes.load("magn").scene(E=E).caption) == bool(E[0])
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from drawing import made
+from drawing import scene_of
 
 from atlas.errors import AtlasError
 from atlas.pictures import recipes
@@ -171,11 +171,11 @@ def test_every_refusal_of_a_recipe_is_reached_and_named() -> None:
     """One sentence of the recipe's own names what was wrong, and each statement that raises in figures/ is reached."""
     reached = set()
     for name, parameters, tells in BAD:
-        with pytest.raises(AtlasError) as told:
+        with pytest.raises(AtlasError) as refused:
             recipes.load(name).scene(**parameters)
-        assert tells in str(told.value), (name, parameters)
-        assert "Error" not in str(told.value)
-        reached |= {(Path(entry.path).stem, entry.lineno + 1) for entry in told.traceback}
+        assert tells in str(refused.value), (name, parameters)
+        assert "Error" not in str(refused.value)
+        reached |= {(Path(entry.path).stem, entry.lineno + 1) for entry in refused.traceback}
     for name in recipes.names():
         source = recipes.load(name).source
         for node in ast.walk(ast.parse(source.read_text(encoding="utf-8"))):
@@ -201,7 +201,7 @@ def test_the_last_parameters_that_are_drawn(name: str, parameters: dict[str, Any
 )
 def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple[float, float], says: str) -> None:
     """Along and across the field it is straight lines, and only there the caption says so."""
-    caption = made("hyperbola", ratio=ratio, field=field).caption
+    caption = scene_of("hyperbola", ratio=ratio, field=field).caption
     assert says in caption
     assert bool(says) == ("With $B'" in caption)
 
@@ -230,4 +230,4 @@ def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple
 )
 def test_captions_agree_with_the_drawing(name: str, parameters: dict[str, Any], says: str) -> None:
     """On which side a path drifts; that nothing turns; which lines, planes and axes there are."""
-    assert says in made(name, **parameters).caption
+    assert says in scene_of(name, **parameters).caption

@@ -35,12 +35,12 @@ def test_a_rosette_closes_and_the_last_one_does_not() -> None:
 def test_levels_of_the_stability_map_are_least_frequencies() -> None:
     """On a drawn line the least of the nutation frequency squared along the hyperbola is the level, to 1e-4 B2^2."""
     (panel,) = panels("stability_map", rates=(0.5,))
-    names = [one.text for one in layers(panel, Label) if one.text.startswith("$")]
+    names = [label.text for label in layers(panel, Label) if label.text.startswith("$")]
     for line, name in zip(layers(panel, Curve, "map_curve"), names, strict=True):
         I, tau = line.points[len(line.points) // 3]
         x = np.sqrt(tau * abs(1 - I) / np.sqrt(1 + tau * tau)) * np.linspace(0.5, 2.0, 2001)
-        found = Hyperbola(I, (1.0, tau)).stability(np.concatenate([x, -x]) - 1.0).min()
-        assert abs(np.copysign(np.sqrt(abs(found)), found) - float(name.strip("$"))) <= 1e-4
+        stability = Hyperbola(I, (1.0, tau)).stability(np.concatenate([x, -x]) - 1.0).min()
+        assert abs(np.copysign(np.sqrt(abs(stability)), stability) - float(name.strip("$"))) <= 1e-4
     assert sorted(names) == ["$-0.5$", "$0.5$", "$0.5$"]
 
 
@@ -68,10 +68,10 @@ def test_the_pair_is_one_line_in_larmors_frame_and_two_in_the_laboratory() -> No
 def test_rolling_cones_touch_along_the_angular_velocity(omega2: float) -> None:
     """The drawn angular velocity lies on both cones, within 16 eps of their size, and is that of the motion."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), omega2)
-    for panel, one in zip(panels("rolling_cones", omega2=omega2), (motion, motion.beside), strict=True):
+    for panel, motion_rolling in zip(panels("rolling_cones", omega2=omega2), (motion, motion.beside), strict=True):
         (arrow,) = layers(panel, Arrow, "velocity")
         omega = np.asarray(arrow.tip) / np.linalg.norm(arrow.tip)
-        assert np.abs(np.cross(omega, one.angular_velocity(0.0))).max() <= 8 * EPS * 4
+        assert np.abs(np.cross(omega, motion_rolling.angular_velocity(0.0))).max() <= 8 * EPS * 4
         cones = layers(panel, Surface)
         assert len(cones) == 2
         for cone in cones:
@@ -82,8 +82,8 @@ def test_rolling_cones_touch_along_the_angular_velocity(omega2: float) -> None:
 @pytest.mark.parametrize("omega2", [-1.4, 0.7, 2.0])
 def test_a_free_body_has_a_positive_energy(omega2: float) -> None:
     """(m, omega) > 0, twice the energy, for the drawn arrows, and m lies along I omega of the free body."""
-    _, free = panels("rolling_cones", omega2=omega2)
-    ((m,), (omega,)) = (layers(free, Arrow, role) for role in ("momentum", "velocity"))
+    _, panel_free = panels("rolling_cones", omega2=omega2)
+    ((m,), (omega,)) = (layers(panel_free, Arrow, role) for role in ("momentum", "velocity"))
     assert np.asarray(m.tip) @ np.asarray(omega.tip) > 0
     momentum = np.asarray(omega.tip) * [1.0, 1.0, 1.5]
     assert np.abs(np.cross(m.tip, momentum)).max() <= 16 * EPS * np.linalg.norm(momentum)
@@ -101,8 +101,8 @@ def test_the_caption_says_how_the_cones_lie(ratio: float, omega2: float, words: 
     """Where a cone encloses another, its half-angle is the sum of the other's and that between the axes."""
     motion, axis = ElementaryMotion(ratio, (1.0, 2.0), omega2), np.array([0.0, 1.0, 2.0]) / np.sqrt(5.0)
     caption = recipes.load("rolling_cones").scene(ratio=ratio, omega2=omega2).caption
-    for one, word, name in zip((motion, motion.beside), words, "ab", strict=True):
-        omega = np.asarray(one.angular_velocity(0.0))
+    for motion_rolling, word, name in zip((motion, motion.beside), words, "ab", strict=True):
+        omega = np.asarray(motion_rolling.angular_velocity(0.0))
         spin, turn = (np.arccos(abs(n @ omega) / np.linalg.norm(omega)) for n in (np.array([0.0, 0.0, 1.0]), axis))
         between = np.arccos(axis[2])
         sums = {
@@ -129,13 +129,13 @@ def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
 
 def test_a_precession_is_followed_where_nothing_else_is_seen() -> None:
     """Of a spin at 2 MHz the axis goes once round the field; the circle has its places after whole nutations."""
-    given = (0.5, (0.0064, 0.011), (0.0, 0.0, 4 * np.pi * 1e6))
-    names = dict(zip(("ratio", "field", "omega"), given, strict=True))
-    scene, motion = recipes.load("general_motion").scene(**names, unit="s"), GeneralMotion(*given)
+    inputs = (0.5, (0.0064, 0.011), (0.0, 0.0, 4 * np.pi * 1e6))
+    names = dict(zip(("ratio", "field", "omega"), inputs, strict=True))
+    scene, motion = recipes.load("general_motion").scene(**names, unit="s"), GeneralMotion(*inputs)
     assert "without the nutation" in scene.caption
     trace = layers(scene.panels[0], Curve, "trace")[0].points
     assert np.abs(trace[0] - trace[-1]).max() <= 1e-9
-    axis = precessing(motion, (0.0, *given[1]))
+    axis = precessing(motion, (0.0, *inputs[1]))
     late = motion.period * np.array([1.0, 1e3, 1e8])
     assert np.abs(axis(late) - motion.third_axis(late)).max() <= 1e-6
     assert "without the nutation" not in recipes.load("general_motion").scene().caption
@@ -156,8 +156,8 @@ def test_two_turns_make_the_rotation() -> None:
     """The axis of the third attitude is R_3(t) of the motion, that of the others e3, within 16 eps."""
     (panel,) = panels("two_turns")
     motion = ElementaryMotion(0.5, (1.0, 1.2), 1.5)
-    first, second, third = ((np.asarray(a.tip) - np.asarray(a.tail)) / 1.55 for a in layers(panel, Arrow, "body_axis"))
-    assert np.abs(first - [0, 0, 1]).max() <= 16 * EPS
+    axis1, second, third = ((np.asarray(a.tip) - np.asarray(a.tail)) / 1.55 for a in layers(panel, Arrow, "body_axis"))
+    assert np.abs(axis1 - [0, 0, 1]).max() <= 16 * EPS
     assert np.abs(second - [0, 0, 1]).max() <= 16 * EPS
     assert np.abs(third - motion.third_axis(0.16 * 2 * np.pi / motion.k)).max() <= 16 * EPS
 
@@ -195,14 +195,14 @@ def test_the_three_traces_wave_have_cusps_and_loop() -> None:
 @pytest.mark.slow
 def test_the_axes_of_four_tops_follow_the_equations_of_a_top() -> None:
     """The heavy top's trace ends where Taylor series of its equations take it, n upright; all lie on the sphere."""
-    drawn = [layers(panel, Curve, "trace")[0].points for panel in panels("tops")]
-    assert all(np.abs((x * x).sum(axis=1) - 1).max() <= 16 * EPS for x in drawn)
+    traces = [layers(panel, Curve, "trace")[0].points for panel in panels("tops")]
+    assert all(np.abs((x * x).sum(axis=1) - 1).max() <= 16 * EPS for x in traces)
     case = (1.0, 0.75), (0.0, 0.0), (1.0, 0.5), (0.0, 0.4, 4.0), 1.5**2, 0.0
     ((R, _),) = taylor(case, [6 * TopMotion(*case).period], digits=12)
     end = np.array([float(R[i, 2]) for i in range(3)])
-    across, along = np.array([1.0, 0.5]) / np.hypot(1.0, 0.5)
-    upright = np.array([end[0], along * end[1] - across * end[2], across * end[1] + along * end[2]])
-    assert np.abs(drawn[2][-1] - upright).max() < 1e-9
+    sine, cosine = np.array([1.0, 0.5]) / np.hypot(1.0, 0.5)
+    upright = np.array([end[0], cosine * end[1] - sine * end[2], sine * end[1] + cosine * end[2]])
+    assert np.abs(traces[2][-1] - upright).max() < 1e-9
 
 
 @pytest.mark.parametrize("push", [1e-2, 1e-4])
@@ -220,10 +220,10 @@ def test_an_escape_follows_the_equations_of_motion(push: float) -> None:
 def test_the_period_of_an_escape_grows_by_its_logarithmic_law() -> None:
     """Per decade of the push the period grows by (4/gamma) ln 10, within 1e-6 of itself where the push is small."""
     *_, periods = panels("escape")
-    (law,), (found,) = layers(periods, Curve, "reference"), layers(periods, Curve, "main")
+    (law,), (curve,) = layers(periods, Curve, "reference"), layers(periods, Curve, "main")
     growth = np.sqrt(-Hyperbola(*LONG[:2]).stability(LONG[2]))
     assert np.abs(np.diff(law.points[:, 1]) + 4 / growth * np.log(10)).max() <= 1e-9
-    assert np.abs(np.diff(found.points[:5, 1]) + 4 / growth * np.log(10)).max() <= 1e-6 * 20
+    assert np.abs(np.diff(curve.points[:5, 1]) + 4 / growth * np.log(10)).max() <= 1e-6 * 20
 
 
 def test_a_stable_motion_does_not_escape() -> None:
@@ -235,8 +235,8 @@ def test_a_stable_motion_does_not_escape() -> None:
 def test_a_disk_without_momentum_along_its_axis_never_turns_back() -> None:
     """The rate of theta squared is s^2 + A sin(theta)^2, never zero: a whole round takes 8/sqrt(-D) ln(4/s), M3 = 0."""
     for push in (1e-3, 1e-5):
-        whole = GeneralMotion(2.0, (0.0, 1.0), (push, 0.0, -1.0)).period
-        assert abs(whole - 4.0 * np.log(4.0 / push)) <= push
+        period = GeneralMotion(2.0, (0.0, 1.0), (push, 0.0, -1.0)).period
+        assert abs(period - 4.0 * np.log(4.0 / push)) <= push
     assert "goes round in one sense" in recipes.load("tipping_disk").scene().caption
     assert "comes back" in recipes.load("tipping_disk").scene(omega3=-0.75).caption
 
@@ -247,17 +247,17 @@ def test_the_tipping_disk_follows_the_equations_of_motion() -> None:
     (line,) = layers(course, Curve, "main")
     t, angle = line.points.T
     R = simulate(2.0, (0.0, 1.0), (1e-3, 0.0, -1.0), t, rtol=1e-13, atol=1e-14).R
-    found = np.degrees(np.arctan2(np.hypot(R[:, 0, 2], R[:, 1, 2]), R[:, 2, 2]))
-    assert np.abs(found - angle).max() <= 1e-3
+    tilt = np.degrees(np.arctan2(np.hypot(R[:, 0, 2], R[:, 1, 2]), R[:, 2, 2]))
+    assert np.abs(tilt - angle).max() <= 1e-3
 
 
 @pytest.mark.parametrize(("ratio", "B3", "omega3"), [(2.0, 2.0, -1.7), (1.5, -0.5, 0.4)])
 def test_a_push_of_the_disk_grows_with_the_rate_of_the_caption(ratio: float, B3: float, omega3: float) -> None:
     """While the angle is small an integration of the equations of motion has that rate, within 1e-3 of it."""
     caption = recipes.load("tipping_disk").scene(ratio=ratio, B3=B3, omega3=omega3).caption
-    found = re.search(r"\\sqrt\{-D\}/2=([\d.]+)", caption)
-    assert found
-    rate = float(found[1])
+    match = re.search(r"\\sqrt\{-D\}/2=([\d.]+)", caption)
+    assert match
+    rate = float(match[1])
     times = np.linspace(4.0, 8.0, 41) / rate
     R = simulate(ratio, (0.0, B3), (1e-7, 0.0, omega3), times, rtol=1e-12, atol=1e-16).R
     slope = np.polyfit(times, np.log(np.hypot(R[:, 0, 2], R[:, 1, 2])), 1)[0]
@@ -276,15 +276,15 @@ def test_one_moment_is_marked_in_all_panels_of_a_motion() -> None:
 def test_the_separatrix_follows_the_equations_of_motion() -> None:
     """The drawn Omega3 is that of an integration from its turning point, within 1e-7; the trace is on the sphere."""
     sphere, course = panels("separatrix")
-    (trace,), (other,) = layers(sphere, Curve, "main"), layers(sphere, Curve, "second")
-    for one in (trace, other):
-        assert np.abs(np.linalg.norm(one.points, axis=1) - 1).max() <= 8 * EPS
-    both = sys.modules["atlas_figures.separatrix"].excursions(*LONG)
-    for motion, role in zip(both, ("main", "second"), strict=True):
+    (trace,), (trace_second,) = layers(sphere, Curve, "main"), layers(sphere, Curve, "second")
+    for trace_any in (trace, trace_second):
+        assert np.abs(np.linalg.norm(trace_any.points, axis=1) - 1).max() <= 8 * EPS
+    motions = sys.modules["atlas_figures.separatrix"].excursions(*LONG)
+    for motion, role in zip(motions, ("main", "second"), strict=True):
         (line,) = layers(course, Curve, role)
         ahead = line.points[line.points[:, 0] >= 0]
-        found = simulate(0.5, motion.field, motion.omega, ahead[:, 0], rtol=1e-13, atol=1e-14).Omega[:, 2]
-        assert np.abs(found - ahead[:, 1]).max() <= 1e-7
+        omega3 = simulate(0.5, motion.field, motion.omega, ahead[:, 0], rtol=1e-13, atol=1e-14).Omega[:, 2]
+        assert np.abs(omega3 - ahead[:, 1]).max() <= 1e-7
 
 
 def test_critical_values_are_extrema_of_the_effective_potential() -> None:
@@ -314,11 +314,11 @@ def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_
     """With b, M3 and the root of a0 doubled p doubles and h is fourfold, bit for bit: points, and the axes."""
     weak = panels("energy_momentum", linear=(weight,))
     strong = panels("energy_momentum", b=(2.0,), M3=0.5, linear=(4.0 * weight,))
-    for one, two in zip(weak, strong, strict=True):
-        for before, after in zip(layers(one, (Curve, Points)), layers(two, (Curve, Points)), strict=True):
+    for panel_weak, two in zip(weak, strong, strict=True):
+        for before, after in zip(layers(panel_weak, (Curve, Points)), layers(two, (Curve, Points)), strict=True):
             assert np.array_equal(before.points * (2.0, 4.0), after.points)
-        assert np.array_equal(2.0 * np.array(one.x_limits), two.x_limits)
-        assert np.array_equal(4.0 * np.array(one.y_limits), two.y_limits)
+        assert np.array_equal(2.0 * np.array(panel_weak.x_limits), two.x_limits)
+        assert np.array_equal(4.0 * np.array(panel_weak.y_limits), two.y_limits)
 
 
 def test_the_motion_map_shows_the_amplitude_of_the_nutation() -> None:
@@ -346,14 +346,14 @@ def test_the_drawn_curves_of_three_moments_are_starts_of_elliptic_motions() -> N
     """Drawn points are on the curve that leaves z out, 1e-9; what is dashed is unstable, and what is not is stable."""
     count = 0
     for panel, I1 in zip(panels("elliptic_family"), (1.3, 1.03, 0.97), strict=True):
-        drawn = [layer for layer in panel.layers if isinstance(layer, Curve)]
-        for line in (line for line in drawn if line.role in {"main", "third", "unstable_line"}):
+        curves = [layer for layer in panel.layers if isinstance(layer, Curve)]
+        for line in (line for line in curves if line.role in {"main", "third", "unstable_line"}):
             inner = line.points[1:-1:4]
             x, y = -(inner + 1.0).T  # v/(z + D) and v/(z/2 + D), of I2 = 1, I3 = 1/2, B2 = B3 = 1
             z = 0.5 * I1 * (y - x) / (x - y / 2)
             assert np.abs(x * y - 2 * z - 1).max() <= 1e-9  # v^2 = prod(z + D/I_i)
-            for place, found in zip(z[::2], x[::2], strict=True):
-                sign = 1 if found * (place + I1 / 2) > 0 else -1
+            for place, ordinate in zip(z[::2], x[::2], strict=True):
+                sign = 1 if ordinate * (place + I1 / 2) > 0 else -1
                 motion = EllipticMotion((I1, 1.0, 0.5), (0.0, 1.0, 1.0), float(place), sign)
                 assert (motion.stability == "unstable") == (line.role == "unstable_line")
                 count += 1

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drawing import made
+from drawing import scene_of
 from numpy.typing import NDArray
 
 from atlas import Hyperbola
@@ -74,8 +74,8 @@ OTHERS: list[tuple[str, dict[str, Any]]] = [
 """Parameters at which recipes draw what they do not draw at their defaults."""
 EVERY = [*((name, {}) for name in NAMES), *OTHERS]
 UNITS = [
-    (name, {"pushes": (1e-1,)} if name == "turnover" else given, unit)  # a push takes seconds
-    for name, given in EVERY
+    (name, {"pushes": (1e-1,)} if name == "turnover" else parameters_any, unit)  # a push takes seconds
+    for name, parameters_any in EVERY
     for unit, weights in {"time": TIME, "length": LENGTH, "charge": CHARGE}.items()
     if set(weights) & set(recipes.load(name).parameters)
 ]
@@ -85,7 +85,7 @@ WEIGHTS = {"time": TIME, "length": LENGTH, "charge": CHARGE}
 def scaled(value: Any, factor: float) -> Any:
     """Return a parameter in another unit; none stays none."""
     if isinstance(value, tuple):
-        return tuple(scaled(part, factor) for part in value)
+        return tuple(scaled(entry, factor) for entry in value)
     return None if value is None else value * factor
 
 
@@ -119,64 +119,74 @@ def coordinates(panel: Panel) -> list[list[FloatArray]]:
 
 
 @pytest.mark.parametrize(
-    ("name", "given", "unit"),
+    ("name", "parameters", "unit"),
     [pytest.param(*case, marks=[pytest.mark.slow] * (k % 2)) for k, case in enumerate(UNITS)],
     ids=str,
 )
-def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, given: dict[str, Any], unit: str) -> None:
+def test_another_unit_scales_each_axis_and_changes_nothing_else(
+    name: str, parameters: dict[str, Any], unit: str
+) -> None:
     """In a unit four times as small every coordinate of an axis is multiplied by one power of two, within 1e-9 of it.
 
     So each layer stands where it stood on paper: no number of a recipe has a unit that is not said.
     """
     recipe, weights = recipes.load(name), WEIGHTS[unit]
-    one, known = made(name, **given), {**recipe.parameters, **given}
-    other = recipe.scene(
-        **{key: scaled(x, 4.0 ** weights[key]) for key, x in known.items() if key in weights}
-        | {k: x for k, x in given.items() if k not in weights}
+    scene, values_given = scene_of(name, **parameters), {**recipe.parameters, **parameters}
+    scene_scaled = recipe.scene(
+        **{key: scaled(x, 4.0 ** weights[key]) for key, x in values_given.items() if key in weights}
+        | {k: x for k, x in parameters.items() if k not in weights}
     )
-    for panel, after in zip(one.panels, other.panels, strict=True):
-        for axis, turned in zip(coordinates(panel), coordinates(after), strict=True):
-            size, grown = (max(np.nanmax(np.abs(array), initial=0.0) for array in arrays) for arrays in (axis, turned))
-            power = 2.0 ** round(float(np.log2(grown / size))) if size else 1.0
-            for k, (x, y) in enumerate(zip(axis, turned, strict=True)):
+    for panel, after in zip(scene.panels, scene_scaled.panels, strict=True):
+        for axis, axis_scaled in zip(coordinates(panel), coordinates(after), strict=True):
+            size, size_scaled = (
+                max(np.nanmax(np.abs(array), initial=0.0) for array in arrays) for arrays in (axis, axis_scaled)
+            )
+            power = 2.0 ** round(float(np.log2(size_scaled / size))) if size else 1.0
+            for k, (x, y) in enumerate(zip(axis, axis_scaled, strict=True)):
                 assert x.shape == y.shape, (k, panel.title)
                 assert np.nanmax(np.abs(y - power * x), initial=0.0) <= 1e-9 * power * size, (k, panel.title)
 
 
-@pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
-def test_labels_stand_within_their_panel(name: str, given: dict[str, Any]) -> None:
+@pytest.mark.parametrize(("name", "parameters"), EVERY, ids=str)
+def test_labels_stand_within_their_panel(name: str, parameters: dict[str, Any]) -> None:
     """The place of every label lies in the limits of its panel, or among the drawn things, and says something."""
-    for panel in made(name, **given).panels:
-        drawn = [array for layer in panel.layers if not isinstance(layer, Label) for array in places(layer)]
-        low, high = np.nanmin(np.concatenate(drawn), axis=0), np.nanmax(np.concatenate(drawn), axis=0)
+    for panel in scene_of(name, **parameters).panels:
+        arrays = [array for layer in panel.layers if not isinstance(layer, Label) for array in places(layer)]
+        low, high = np.nanmin(np.concatenate(arrays), axis=0), np.nanmax(np.concatenate(arrays), axis=0)
         if isinstance(panel, Plane):
             for axis, limits in enumerate((panel.x_limits, panel.y_limits)):
                 low[axis], high[axis] = limits or (low[axis], high[axis])
         room = 0.15 * (high - low).max() if not isinstance(panel, Plane) else 0.0
         for label in (layer for layer in panel.layers if isinstance(layer, Label)):
-            first = np.atleast_2d(label.at)[0]
-            assert (first >= low - room).all(), label.text
-            assert (first <= high + room).all(), label.text
+            corner = np.atleast_2d(label.at)[0]
+            assert (corner >= low - room).all(), label.text
+            assert (corner <= high + room).all(), label.text
             assert re.search(r"\w", label.text)
 
 
-@pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
-def test_dots_and_maps_lie_inside_the_axes(name: str, given: dict[str, Any]) -> None:
+@pytest.mark.parametrize(("name", "parameters"), EVERY, ids=str)
+def test_dots_and_maps_lie_inside_the_axes(name: str, parameters: dict[str, Any]) -> None:
     """No point that a figure marks, and no edge of a map of colours, is beyond the limits of its panel."""
-    for panel in (panel for panel in made(name, **given).panels if isinstance(panel, Plane)):
+    for panel in (panel for panel in scene_of(name, **parameters).panels if isinstance(panel, Plane)):
         for axis, limits in enumerate((panel.x_limits, panel.y_limits)):
             low, high = limits or (-np.inf, np.inf)
             for layer in (layer for layer in panel.layers if isinstance(layer, Points | Image)):
-                there = layer.points[:, axis] if isinstance(layer, Points) else (layer.x, layer.y)[axis]
-                assert ((low <= there) & (there <= high)).all(), (panel.title, there, limits)
+                coordinates_of = layer.points[:, axis] if isinstance(layer, Points) else (layer.x, layer.y)[axis]
+                assert ((low <= coordinates_of) & (coordinates_of <= high)).all(), (panel.title, coordinates_of, limits)
 
 
 @pytest.mark.parametrize("E", [(0.5, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5)])
 def test_an_electric_field_along_an_axis_is_drawn_along_it(E: tuple[float, float]) -> None:
     """Figure `magn` draws one arrow then, to the side that E has."""
-    (arrow,) = (one for one in made("magn", E=E).panels[0].layers if isinstance(one, Arrow) and one.role == "electric")
-    along = quadric_panel.in_plane(*E)
-    assert np.allclose((arrow.tip - arrow.tail) / np.linalg.norm(arrow.tip - arrow.tail), along / np.linalg.norm(along))
+    (arrow,) = (
+        layer
+        for layer in scene_of("magn", E=E).panels[0].layers
+        if isinstance(layer, Arrow) and layer.role == "electric"
+    )
+    direction = quadric_panel.in_plane(*E)
+    assert np.allclose(
+        (arrow.tip - arrow.tail) / np.linalg.norm(arrow.tip - arrow.tail), direction / np.linalg.norm(direction)
+    )
 
 
 BESIDE = {"kinds_of_quadric": 0.06, "two_turns": 0.03}
@@ -185,25 +195,25 @@ INSIDE = ("stability", "unstable")
 """The name of a region stands in it."""
 
 
-def gap(at: FloatArray, drawn: list[FloatArray], size: FloatArray) -> float:
+def gap(places: FloatArray, lines: list[FloatArray], size: FloatArray) -> float:
     """Return the least distance of places (N, 2) or (N, 3) from drawn points or lines, in panels of this size."""
     least = np.inf
-    for line in drawn:
-        first, last = line[: max(1, len(line) - 1)] / size, line[min(1, len(line) - 1) :] / size
-        for place in at / size:
-            along, from_first = last - first, place - first
-            share = np.sum(from_first * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300)
-            away = from_first - np.clip(share, 0.0, 1.0)[:, None] * along
+    for line in lines:
+        starts, ends = line[: max(1, len(line) - 1)] / size, line[min(1, len(line) - 1) :] / size
+        for place in places / size:
+            steps, from_first = ends - starts, place - starts
+            share = np.sum(from_first * steps, axis=1) / np.maximum(np.sum(steps**2, axis=1), 1e-300)
+            away = from_first - np.clip(share, 0.0, 1.0)[:, None] * steps
             least = min(least, float(np.nanmin(np.linalg.norm(away, axis=1))))
     return least
 
 
-@pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
-def test_a_name_in_the_look_of_a_line_stands_on_it(name: str, given: dict[str, Any]) -> None:
+@pytest.mark.parametrize(("name", "parameters"), EVERY, ids=str)
+def test_a_name_in_the_look_of_a_line_stands_on_it(name: str, parameters: dict[str, Any]) -> None:
     """Within a five-hundredth of the panel, but for two figures that say so."""
-    for panel in made(name, **given).panels:
-        others = [layer for layer in panel.layers if not isinstance(layer, Label)]
-        extent = np.concatenate([array for layer in others for array in places(layer)])
+    for panel in scene_of(name, **parameters).panels:
+        layers_other = [layer for layer in panel.layers if not isinstance(layer, Label)]
+        extent = np.concatenate([array for layer in layers_other for array in places(layer)])
         size = np.nanmax(extent, axis=0) - np.nanmin(extent, axis=0)
         if isinstance(panel, Plane):
             limits = panel.x_limits, panel.y_limits
@@ -211,7 +221,9 @@ def test_a_name_in_the_look_of_a_line_stands_on_it(name: str, given: dict[str, A
         else:
             size = np.full(3, float(np.linalg.norm(size)))
         for label in (layer for layer in panel.layers if isinstance(layer, Label) and (name, layer.role) != INSIDE):
-            alike = [array for layer in others if getattr(layer, "role", "") == label.role for array in places(layer)]
+            alike = [
+                array for layer in layers_other if getattr(layer, "role", "") == label.role for array in places(layer)
+            ]
             assert not alike or gap(np.atleast_2d(label.at), alike, size) <= BESIDE.get(name, 0.002), label.text
 
 
@@ -221,19 +233,21 @@ def test_unstable_stands_where_the_nutation_frequency_squared_is_negative(
     ratio: float, field: tuple[float, float]
 ) -> None:
     """In both panels: on the axis at each band's unstable omega2, and at the tau and |x| of unstable motions."""
-    course, chart = made("stability", ratio=ratio, field=field).panels
-    found = [
+    course, chart = scene_of("stability", ratio=ratio, field=field).panels
+    levels = [
         [layer for layer in panel.layers if isinstance(layer, Label) and layer.role == "unstable"]
         for panel in (course, chart)
     ]
-    on_axis, (in_chart,) = found
+    on_axis, (in_chart,) = levels
     assert on_axis
     assert all(Hyperbola(ratio, field).stability(float(label.at[0])) < 0 for label in on_axis)
     tau, x = np.squeeze(in_chart.at)
     assert Hyperbola(ratio, (1.0, tau)).stability(x - 1.0) < 0
     (line,) = (layer for layer in chart.layers if isinstance(layer, Curve) and layer.role == "unstable")
     for tau, x in line.points[3:-3:5]:
-        sides = [Hyperbola(ratio, (1.0, tau + more)).stability(x - 1.0) for more in (-1e-3, 1e-3) if tau + more > 0]
+        sides = [
+            Hyperbola(ratio, (1.0, tau + change)).stability(x - 1.0) for change in (-1e-3, 1e-3) if tau + change > 0
+        ]
         assert min(sides) < 0 < max(sides) or len(sides) < 2
 
 
@@ -271,13 +285,13 @@ def test_the_name_of_a_level_stands_straight_above_it() -> None:
     assert [a, b, c] == pytest.approx([ta, 2.0 - tb, 0.0], abs=1e-12)
 
 
-@pytest.mark.parametrize("which", ["origin", "both"])
+@pytest.mark.parametrize("role", ["origin", "both"])
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, -2.0), (1.0, -2.0), (-1.0, 2.0)])
-def test_arrows_of_a_surface_grow_with_the_field(field: tuple[float, float], which: str) -> None:
+def test_arrows_of_a_surface_grow_with_the_field(field: tuple[float, float], role: str) -> None:
     """Four times the field is another unit of time, on whichever side of the centre the sheet lies."""
 
     def tips(unit: float) -> FloatArray:
-        layers = quadric_panel.surface_layers(1.5, (unit * field[0], unit * field[1]), which)
+        layers = quadric_panel.surface_layers(1.5, (unit * field[0], unit * field[1]), role)
         return np.array([layer.tip for layer in layers if isinstance(layer, Arrow)])
 
     assert tips(4.0) == pytest.approx(4.0 * tips(1.0), abs=1e-9)

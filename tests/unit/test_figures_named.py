@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drawing import made
+from drawing import scene_of
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
@@ -56,8 +56,8 @@ def test_a_recipe_describes_its_picture_in_one_sentence(name: str) -> None:
     assert re.fullmatch(r"[A-Z][^.]*\.", words), words
     assert SAYING.search(words), words
     assert recipe.row in recipes.ROWS
-    assert made(name).caption.startswith(f"{recipe.seen} ")
-    assert recipe.seen not in made(name).caption[len(recipe.seen) :]
+    assert scene_of(name).caption.startswith(f"{recipe.seen} ")
+    assert recipe.seen not in scene_of(name).caption[len(recipe.seen) :]
 
 
 def test_a_recipe_of_the_user_may_say_it(tmp_path: Path) -> None:
@@ -77,7 +77,7 @@ def test_a_recipe_of_the_user_may_say_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("name", "parameters"), CASES[: len(recipes.names())], ids=lambda value: str(value)[:40])
 def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str, Any]) -> None:
     """Fewer than 60 words, a formula being one; what the reader may type stands in the line of the files."""
-    caption = made(name, **parameters).caption
+    caption = scene_of(name, **parameters).caption
     assert len(re.sub(r"\$[^$]*\$", "F", caption).split()) < WORDS
     assert "`" not in caption
 
@@ -89,7 +89,7 @@ def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str
 )
 def test_looks_named_in_a_caption_can_be_seen(name: str, parameters: dict[str, Any]) -> None:
     """Each named look stands in the caption, has layers, and its picture changes where they are taken away."""
-    scene = made(name, **parameters)
+    scene = scene_of(name, **parameters)
     words = re.sub(r"\$[^$]*\$", "", scene.caption)
     looks = set(LOOKS.findall(words))
     if "that the surface hides are dashed" in words:
@@ -99,16 +99,16 @@ def test_looks_named_in_a_caption_can_be_seen(name: str, parameters: dict[str, A
     if not scene.named:
         return
     figure = to_figure(scene)
-    whole = pixels(figure)
+    pixels_whole = pixels(figure)
     for word, role in scene.named.items():
         assert word in words, f"{name}: {word!r} is not in the caption"
-        drawn = figure.findobj(lambda artist, role=role: re.match(rf"{role}-\d", artist.get_gid() or ""))
-        assert drawn, f"{name}: {word} ({role}) is not drawn"
-        for artist in drawn:
+        artists = figure.findobj(lambda artist, role=role: re.match(rf"{role}-\d", artist.get_gid() or ""))
+        assert artists, f"{name}: {word} ({role}) is not drawn"
+        for artist in artists:
             artist.set_visible(False)
-        changed = np.abs(whole - pixels(figure)).max(axis=2) > SEEN
+        changed = np.abs(pixels_whole - pixels(figure)).max(axis=2) > SEEN
         assert changed.sum() >= LEAST, f"{name}: {word} ({role}) cannot be seen"
-        for artist in drawn:
+        for artist in artists:
             artist.set_visible(True)
 
 
@@ -128,9 +128,9 @@ def scene(name: str, **parameters: Any) -> Any:
     return recipes.load(name).scene(**parameters)
 
 
-def roles(made: Any) -> set[str]:
+def roles(scene: Any) -> set[str]:
     """Return the roles of all curves."""
-    return {layer.role for panel in made.panels for layer in panel.layers if isinstance(layer, Curve)}
+    return {layer.role for panel in scene.panels for layer in panel.layers if isinstance(layer, Curve)}
 
 
 def test_a_flight_has_at_most_two_hundred_turns() -> None:
@@ -157,7 +157,7 @@ FIELD, REACH, CELLS = (1.0, 0.3), 2.5, 60
 
 def test_the_motion_map_marks_the_hyperbola_and_its_special_points() -> None:
     """Its views have reach |B'| to each side of -B'; lines are elementary motions, 1e-9; rest and -2B' are marked."""
-    scene = made("motion_map", field=FIELD, reach=REACH, cells=CELLS)
+    scene = scene_of("motion_map", field=FIELD, reach=REACH, cells=CELLS)
     half = REACH * np.hypot(*FIELD)
     bars = []
     for panel, I in zip(scene.panels, (2.0, 1.5, 1.0, 0.5), strict=True):
@@ -165,7 +165,7 @@ def test_the_motion_map_marks_the_hyperbola_and_its_special_points() -> None:
         (image,) = (layer for layer in panel.layers if isinstance(layer, Image))
         assert image.values.shape == (CELLS, CELLS)
         assert np.nanmin(image.values) >= 0.0
-        assert image.limits[1] - 10.0 < np.nanmax([one.layers[0].values for one in scene.panels]) <= image.limits[1]
+        assert image.limits[1] - 10.0 < np.nanmax([panel.layers[0].values for panel in scene.panels]) <= image.limits[1]
         bars.append(bool(image.label))
         lines = [layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "map_curve"]
         assert len(lines) >= 2 * (I != 1.0) + (I == 1.0)
@@ -191,7 +191,7 @@ def loops(I: float, omega2: float, omega3: float) -> bool:
 
 def test_the_dotted_edge_of_the_motion_map_is_between_loops_and_waves() -> None:
     """On one side of it, half a pixel away, the axis draws loops, on the other it does not."""
-    scene = made("motion_map", field=FIELD, reach=REACH, cells=CELLS, ratios=(1.5,))
+    scene = scene_of("motion_map", field=FIELD, reach=REACH, cells=CELLS, ratios=(1.5,))
     (panel,) = scene.panels
     borders = [layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "map_border"]
     step = 2 * REACH * np.hypot(*FIELD) / CELLS
@@ -199,6 +199,6 @@ def test_the_dotted_edge_of_the_motion_map_is_between_loops_and_waves() -> None:
     assert min(map(len, borders)) > 8
     for line in borders:
         for i in (len(line) // 4, len(line) // 2):
-            along = line[i + 2] - line[i - 2]
-            across = np.array([-along[1], along[0]]) / np.hypot(*along)
-            assert {loops(1.5, *(line[i] + side * step * across)) for side in (-0.6, 0.6)} == {True, False}
+            tangent = line[i + 2] - line[i - 2]
+            normal = np.array([-tangent[1], tangent[0]]) / np.hypot(*tangent)
+            assert {loops(1.5, *(line[i] + side * step * normal)) for side in (-0.6, 0.6)} == {True, False}

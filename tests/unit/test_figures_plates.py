@@ -21,16 +21,16 @@ def test_the_drawn_cylinders_have_the_moments_of_their_place_on_the_scale() -> N
     (panel,) = panels("body_ruler")
     sides = [s for s in layers(panel, Surface, "solid") if np.ndim(s.grids[0]) == 3 and len(s.clip)]
     makers = (SymmetricBody.solid_cylinder,) * 2 + (SymmetricBody.cylindrical_shell,) * 2
-    found = []
+    ratios = []
     for side, maker in zip(sides, makers, strict=True):
         grid = side.grids[0].reshape(-1, 3)
         height = float(np.ptp(grid[:, 2]))
         radius = float(np.linalg.norm(grid[:, :2] - (grid.min(0) + grid.max(0))[:2] / 2, axis=1).max())
-        found.append(maker(1.0, radius, height).ratio)
+        ratios.append(maker(1.0, radius, height).ratio)
     marks = np.array([layer.points[0] for layer in layers(panel, Points, "point")])
-    along = np.linalg.norm(marks - marks[-1], axis=1)
-    scale = 2.0 - along / (along[3] / 1.0)  # the sphere is the fourth
-    assert np.abs(scale[[0, 1, 2, 4]] - found).max() <= 1e-3  # the grid's corners are on the circle, its box is not
+    distances = np.linalg.norm(marks - marks[-1], axis=1)
+    scale = 2.0 - distances / (distances[3] / 1.0)  # the sphere is the fourth
+    assert np.abs(scale[[0, 1, 2, 4]] - ratios).max() <= 1e-3  # the grid's corners are on the circle, its box is not
     assert scale[5] == scale[6] == 2.0
 
 
@@ -52,11 +52,11 @@ def test_levels_are_semi_axes_by_the_eigenvalues_of_the_form() -> None:
             tau = I * np.tan(np.radians(beta))
             B2 = 1 / np.hypot(1.0, tau)
             Q = quadrics.quadric_matrix(I, (B2, tau * B2))
-            rest = quadrics.centre_value(Q, np.array([0.0, -B2, -tau * B2]))
+            value_centre = quadrics.centre_value(Q, np.array([0.0, -B2, -tau * B2]))
             values = np.linalg.eigvalsh(Q[1:3, 1:3])
             chosen = {"omega1": Q[0, 0], "least": values[0], "greatest": values[1]}[order]
-            found = np.sqrt(abs(rest / chosen))
-            assert min(abs(found / name - 1) for name in names) <= 3e-3, (k, I, beta, found)
+            axes_found = np.sqrt(abs(value_centre / chosen))
+            assert min(abs(axes_found / name - 1) for name in names) <= 3e-3, (k, I, beta, axes_found)
 
 
 @pytest.mark.parametrize("name", ["escape", "separatrix", "film_strip", "two_turns", "rolling_cones", "general_motion"])
@@ -89,13 +89,13 @@ def test_a_marked_motion_repeats_itself(ratio: float) -> None:
     for dot in layers(above, Points, "point"):
         ((omega2, phi),) = dot.points
         k, _ = Hyperbola(ratio, (1.0, 2.0)).frequencies(omega2)
-        assert min(abs(phi / k - quotient) for at, quotient in dots if at == omega2) <= 8 * EPS * 4
+        assert min(abs(phi / k - quotient) for omega2_dot, quotient in dots if omega2_dot == omega2) <= 8 * EPS * 4
 
 
 def test_the_colours_of_the_surface_are_rates_of_the_equations_of_motion() -> None:
     """In each band an integration departs at a rate of that band, 1e-6 of B2^2; its points are on (51), 1e-12."""
     (panel,) = panels("ribbon")
-    bands = [one for one in layers(panel, Surface) if not one.rims]  # those of the key have some
+    bands = [surface for surface in layers(panel, Surface) if not surface.rims]  # those of the key have some
     widest = max(np.abs(s.grids[0][..., 0]).max() for s in bands if s.role == "rate_4")
     t = np.array([0.0, 1e-4, 2e-4])
     assert len([s for s in bands if s.role.startswith("rate")]) == 5 * 4
@@ -113,14 +113,14 @@ def test_the_colours_of_the_surface_are_rates_of_the_equations_of_motion() -> No
 
 def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
     """On the torus the tube's angle grows gamma/alpha times as fast as the other; R_1 comes back after two turns."""
-    left, right, _, open_ = panels("ball_torus")
-    for layer in layers(left, Curve, "second_trace"):
+    panel_left, panel_right, _, open_ = panels("ball_torus")
+    for layer in layers(panel_left, Curve, "second_trace"):
         x, y, z = layer.points.T
-        first = np.unwrap(np.arctan2(y, x))
+        angle = np.unwrap(np.arctan2(y, x))
         second = np.unwrap(np.arctan2(z, np.hypot(x, y) - 1.0))
-        off = (second - 2.5 * first) - (second - 2.5 * first)[0]
+        off = (second - 2.5 * angle) - (second - 2.5 * angle)[0]
         assert np.abs(off).max() <= 256 * EPS * 10
-    (closed,), (dense,) = layers(right, Curve, "second_trace"), layers(open_, Curve, "fine_trace")
+    (closed,), (dense,) = layers(panel_right, Curve, "second_trace"), layers(open_, Curve, "fine_trace")
     assert np.abs(closed.points[0] - closed.points[-1]).max() <= 64 * EPS
     assert np.abs(dense.points[0] - dense.points[-1]).max() > 0.01
     assert np.abs(np.linalg.norm(dense.points, axis=1) - 1).max() <= 8 * EPS
@@ -134,22 +134,22 @@ def depth(points: FloatArray, azimuth: float, elevation: float) -> FloatArray:
     return np.asarray((0.42**2 - (np.hypot(ray[..., 0], ray[..., 1]) - 1.0) ** 2 - ray[..., 2] ** 2).max(axis=1))
 
 
-def on_torus(first: FloatArray, second: FloatArray) -> FloatArray:
+def on_torus(angle: FloatArray, second: FloatArray) -> FloatArray:
     """Return points of the torus by their angles round its axis and round its tube."""
-    far = 1.0 + 0.42 * np.cos(second)
-    return np.stack([far * np.cos(first), far * np.sin(first), 0.42 * np.sin(second)], axis=1)
+    radius = 1.0 + 0.42 * np.cos(second)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.42 * np.sin(second)], axis=1)
 
 
 def test_only_visible_parts_of_a_line_on_the_torus_are_drawn() -> None:
     """By steps along the rays to the eye: drawn points are seen, and their share is that of the points seen, 1 %."""
     panel = panels("ball_torus")[0]
-    first = np.linspace(0.0, 4.0 * np.pi, 3000)
-    whole = on_torus(first, 2.5 * first)
-    drawn = [layer.points for layer in layers(panel, Curve, "second_trace")]
-    assert all(depth(line[1:-1], 25.0, 52.0).max() <= 2e-3 for line in drawn)
-    length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in drawn)
-    steps = np.linalg.norm(np.diff(whole, axis=0), axis=1)
-    assert abs(length / steps[depth(whole[1:], 25.0, 52.0) <= 0.0].sum() - 1.0) <= 0.01
+    angle = np.linspace(0.0, 4.0 * np.pi, 3000)
+    path = on_torus(angle, 2.5 * angle)
+    pieces = [layer.points for layer in layers(panel, Curve, "second_trace")]
+    assert all(depth(line[1:-1], 25.0, 52.0).max() <= 2e-3 for line in pieces)
+    length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in pieces)
+    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    assert abs(length / steps[depth(path[1:], 25.0, 52.0) <= 0.0].sum() - 1.0) <= 0.01
 
 
 @pytest.mark.parametrize("elevation", [52.0, 12.0, -30.0])
@@ -171,8 +171,8 @@ def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> N
     (path,) = layers(panel, Curve, "flight_path")
     size = np.linalg.norm(B)
     t, n = 4 * np.pi / size, B / size
-    moved = t * np.cross(E, B) / size**2 + (n @ v * t + n @ E * t * t / 2) * n
-    assert np.abs(path.points[-1] - path.points[0] - moved).max() <= 64 * EPS * np.abs(moved).max()
+    drift = t * np.cross(E, B) / size**2 + (n @ v * t + n @ E * t * t / 2) * n
+    assert np.abs(path.points[-1] - path.points[0] - drift).max() <= 64 * EPS * np.abs(drift).max()
     axes = np.array([np.asarray(arrow.tip) - np.asarray(arrow.tail) for arrow in layers(panel, Arrow, "body_axis")])
     slope = axes @ n / np.linalg.norm(axes, axis=1)
     assert np.abs(slope - B[2] / size).max() <= 64 * EPS
@@ -205,6 +205,6 @@ def test_values_of_levels_do_not_stand_upon_each_other(C1: tuple[float, ...]) ->
     """However near to each other the levels are, and where one is given twice, two values are a letter apart."""
     figure, *_ = panels("kinds_of_quadric", C1=C1)
     places = np.array([label.at for label in layers(figure, Label, "main")]) / [2.0, 90.0]
-    apart = np.abs(places[:, None] - places) >= [0.14, 0.07]
-    assert (apart.any(axis=2) | np.eye(len(places), dtype=bool)).all()
+    is_apart = np.abs(places[:, None] - places) >= [0.14, 0.07]
+    assert (is_apart.any(axis=2) | np.eye(len(places), dtype=bool)).all()
     assert len(places) >= 2

@@ -13,7 +13,7 @@ from atlas.pictures.arrange import narrowed
 from atlas.surfaces.kernel import TopQuadric
 
 
-def made(name: str, **parameters: Any) -> Scene:
+def scene_of(name: str, **parameters: Any) -> Scene:
     """Return a figure as data."""
     return recipes.load(name).scene(**parameters)
 
@@ -25,7 +25,7 @@ def test_shaded_tops_have_two_wells_and_the_others_one(M3: tuple[float, ...]) ->
     Points closer to the border than 0.1 are left out; on |M3| = p a well may lie on the pole itself.
     """
     nu = np.sin(np.linspace(-0.4999, 0.4999, 4001) * np.pi)
-    for panel, momentum in zip(made("wells", momenta=M3).panels, M3, strict=True):
+    for panel, momentum in zip(scene_of("wells", momenta=M3).panels, M3, strict=True):
         (shaded,) = layers(panel, Region)
         (edge,) = layers(panel, Curve, "main")
         for a, A in np.random.default_rng(3).uniform(-4, 4, size=(60, 2)):
@@ -46,11 +46,11 @@ def dense(line: np.ndarray) -> np.ndarray:
 
 def inside(polygon: np.ndarray, x: float, y: float) -> bool:
     """Return whether a point lies in a polygon, by the crossings of a ray."""
-    one, other = polygon, np.roll(polygon, -1, axis=0)
-    crossed = (one[:, 1] > y) != (other[:, 1] > y)
+    start, end = polygon, np.roll(polygon, -1, axis=0)
+    crossed = (start[:, 1] > y) != (end[:, 1] > y)
     with np.errstate(divide="ignore", invalid="ignore"):
-        at = one[:, 0] + (y - one[:, 1]) / (other[:, 1] - one[:, 1]) * (other[:, 0] - one[:, 0])
-    return bool(np.sum(crossed & (at > x)) % 2)
+        crossing = start[:, 0] + (y - start[:, 1]) / (end[:, 1] - start[:, 1]) * (end[:, 0] - start[:, 0])
+    return bool(np.sum(crossed & (crossing > x)) % 2)
 
 
 def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
@@ -58,8 +58,8 @@ def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
 
     So are its energy and the least of its rates of precession.
     """
-    scene = made("cusps")
-    *spheres, near, rates, plane = scene.panels
+    scene = scene_of("cusps")
+    *spheres, panel_near, rates, plane = scene.panels
     (cusps,), (places,) = layers(plane, Curve, "reference"), layers(plane, Points, "start")
     slope = np.ptp(cusps.points[:, 1]) / np.ptp(cusps.points[:, 0])
     for panel, omega2, (p, g) in zip(spheres, (-0.5, 0.0, 0.25), places.points, strict=True):
@@ -78,7 +78,7 @@ def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
         assert trace[:, 2].min() == pytest.approx(top.turning_points[0], abs=1e-3)
     for rate, omega2 in zip(layers(rates, Curve, "main"), (-0.5, 0.0, 0.25), strict=True):
         assert rate.points[:, 1].min() == pytest.approx(omega2 / 0.8, abs=1e-9)
-    for trace, name in zip(layers(near, Curve, "trace"), ("loops", "cusps", "waves"), strict=True):
+    for trace, name in zip(layers(panel_near, Curve, "trace"), ("loops", "cusps", "waves"), strict=True):
         later = trace.points[len(trace.points) // 2 + 1 :]
         assert (later[0, 0] < 0) == (name == "loops")
         assert (abs(later[0, 0]) < 0.1 * abs(later[0, 1])) == (name == "cusps")
@@ -89,7 +89,7 @@ def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_doe
 
     The arrows g1 and g2 lead from one such point by one turn about the field and one about the axis.
     """
-    maps, lattices = (made("monodromy", points=32).panels[k : k + 3] for k in (0, 3))
+    maps, lattices = (scene_of("monodromy", points=32).panels[k : k + 3] for k in (0, 3))
     for panel, step in zip(lattices, ((-1, 1), (-1, 1), (-2, 0)), strict=True):
         (arrow,), (track,) = layers(panel, Arrow, "component"), layers(panel, Curve, "trajectory")
         assert arrow.tip - arrow.tail == pytest.approx(step, abs=1e-12)
@@ -97,8 +97,8 @@ def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_doe
         grid = layers(panel, Points, "sample")[0].points
         assert min(np.hypot(*(grid - arrow.tip).T)) <= 1e-12
         basis = layers(panel, Arrow, "basis")
-        assert [one.tip - one.tail for one in basis] == [pytest.approx(row, abs=1e-12) for row in np.eye(2)]
-        assert max(min(np.hypot(*(grid - end).T)) for one in basis for end in (one.tail, one.tip)) <= 1e-12
+        assert [arrow.tip - arrow.tail for arrow in basis] == [pytest.approx(row, abs=1e-12) for row in np.eye(2)]
+        assert max(min(np.hypot(*(grid - end).T)) for arrow in basis for end in (arrow.tail, arrow.tip)) <= 1e-12
     for panel in maps:
         (loop,), (spin,) = layers(panel, Curve, "trajectory"), layers(panel, Points, "unstable_point")
         assert inside(loop.points, *spin.points[0])
@@ -106,18 +106,18 @@ def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_doe
 
 def test_the_quadrics_of_tops_agree_with_the_class() -> None:
     """Every point of a drawn sheet, at its own centre, has the residual 0 within 1e-9; the kinds part at the border."""
-    scene = made("quadrics_of_tops")
+    scene = scene_of("quadrics_of_tops")
     row, plane = scene.panels
     assert isinstance(row, Space)
-    given = [(0.0, 0.0, -0.3, 0.0), (1.0, 1.0, -0.05, 0.0), (1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 0.0, 0.25)]
-    given += [(1.0, 1.3, 0.0, 0.0), (0.0, 0.0, 0.3, 0.0)]
+    inputs = [(0.0, 0.0, -0.3, 0.0), (1.0, 1.0, -0.05, 0.0), (1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 0.0, 0.25)]
+    inputs += [(1.0, 1.3, 0.0, 0.0), (0.0, 0.0, 0.3, 0.0)]
     surfaces = layers(row, Surface)
     assert len(surfaces) == 8
-    for k, (k2, g, a0, A0) in enumerate(given):
+    for k, (k2, g, a0, A0) in enumerate(inputs):
         quadric = TopQuadric((1.0, 0.75), (k2, 0.75 * g), (1.0, 1.0), a0, A0)
-        mine = surfaces[k : k + 1] if k < 4 else surfaces[2 * k - 4 : 2 * k - 2]
-        points = np.concatenate([grid.reshape(-1, 3) for one in mine for grid in one.grids])[::61]
-        Q = mine[0].quadric
+        surfaces_own = surfaces[k : k + 1] if k < 4 else surfaces[2 * k - 4 : 2 * k - 2]
+        points = np.concatenate([grid.reshape(-1, 3) for surface in surfaces_own for grid in surface.grids])[::61]
+        Q = surfaces_own[0].quadric
         ends = np.append(points, np.ones((len(points), 1)), axis=1)
         assert (
             np.abs(((ends @ Q) * ends).sum(axis=1)).max() <= 1e-12 * ((np.abs(ends) @ np.abs(Q)) * np.abs(ends)).max()
@@ -137,7 +137,7 @@ def test_the_quadrics_of_tops_agree_with_the_class() -> None:
 def test_a_spin_beyond_the_reach_is_neither_drawn_nor_named() -> None:
     """With M3 = 2 both spins have |p| = 2, beyond 1.6; M3 = 0.5 shows both."""
     for M3, count in ((2.0, 0), (0.5, 2)):
-        scene = made("energy_momentum", ratios=(0.5,), M3=M3, linear=(0.5,))
+        scene = scene_of("energy_momentum", ratios=(0.5,), M3=M3, linear=(0.5,))
         panel = scene.panels[0]
         assert len(layers(panel, Points)) == count
-        assert ("spins" in scene.caption) == any("spin" in one.text for one in layers(panel, Label)) == bool(count)
+        assert ("spins" in scene.caption) == any("spin" in label.text for label in layers(panel, Label)) == bool(count)

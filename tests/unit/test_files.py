@@ -32,8 +32,8 @@ def test_a_write_that_fails_leaves_the_old_file(tmp_path: Path) -> None:
     """When an error stops the writing, the old file stands and no other is left beside it."""
     path = tmp_path / "b.txt"
     path.write_text("old")
-    with pytest.raises(ZeroDivisionError), files.replacing(path) as part:
-        part.write_text(str(part.write_text("half") / 0))
+    with pytest.raises(ZeroDivisionError), files.replacing(path) as unfinished:
+        unfinished.write_text(str(unfinished.write_text("half") / 0))
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
 
@@ -41,9 +41,9 @@ def test_a_write_that_fails_leaves_the_old_file(tmp_path: Path) -> None:
 def test_an_error_names_the_file_that_was_meant(tmp_path: Path) -> None:
     """A folder in the place of the file, or of a folder above it a file, is told by the name that was given."""
     (tmp_path / "folder").mkdir()
-    with pytest.raises(OSError, match="folder") as told:
+    with pytest.raises(OSError, match="folder") as caught:
         files.write(tmp_path / "folder", "text")
-    assert told.value.filename == str(tmp_path / "folder")
+    assert caught.value.filename == str(tmp_path / "folder")
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="file"):
         files.write(tmp_path / "file" / "b.txt", "text")
@@ -59,19 +59,21 @@ def test_a_full_disk_names_the_file_that_was_meant(tmp_path: Path) -> None:
         "except OSError as error: print(error.filename)"
     )
     path = tmp_path / "b.txt"
-    told = subprocess.check_output([sys.executable, "-c", program, str(path)], text=True)
-    assert told.strip() == str(path)
+    output = subprocess.check_output([sys.executable, "-c", program, str(path)], text=True)
+    assert output.strip() == str(path)
     assert not list(tmp_path.iterdir())
 
 
 def test_a_process_that_has_ended_does_not_run() -> None:
     """One is alive until it has ended, and not while it waits for a parent that does not ask."""
-    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE, stderr=subprocess.DEVNULL) as one:
-        assert files.alive(one.pid)
-        one.kill()
-        os.waitid(os.P_PID, one.pid, os.WEXITED | os.WNOWAIT)
-        assert not files.alive(one.pid)
-    assert not files.alive(one.pid)
+    with subprocess.Popen(
+        [sys.executable, "-c", "input()"], stdin=subprocess.PIPE, stderr=subprocess.DEVNULL
+    ) as process:
+        assert files.alive(process.pid)
+        process.kill()
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        assert not files.alive(process.pid)
+    assert not files.alive(process.pid)
 
 
 SWEEP = "sweep quadric --set ratio=0.5:2:99 --set B2=1 --set B3=2 --quantity beta -j 1 --out t.csv"
@@ -105,10 +107,10 @@ def test_a_full_disk_is_reported_with_the_file(tmp_path: Path, words: str, name:
 def test_the_libraries_agree_with_the_project() -> None:
     """The list holds the dependencies in pyproject.toml that results depend on, in versions of the ranges there."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    wanted = {one.name: one.specifier for one in map(Requirement, project["dependencies"])}
-    assert {*LIBRARIES} == {*wanted} - {"platformdirs", "fsspec", "uncertainties"}
+    ranges = {requirement.name: requirement.specifier for requirement in map(Requirement, project["dependencies"])}
+    assert {*LIBRARIES} == {*ranges} - {"platformdirs", "fsspec", "uncertainties"}
     assert versions().keys() == {*LIBRARIES}
-    assert all(wanted[name].contains(found) for name, found in versions().items())
+    assert all(ranges[name].contains(version) for name, version in versions().items())
     assert release("no-such-library") is None
 
 
@@ -119,9 +121,9 @@ def test_the_locks_have_every_dependency_in_its_range() -> None:
     for name in ("", "-sweep", "-test", "-bench"):
         lines = (ROOT / f"requirements{name}.lock").read_text(encoding="utf-8").splitlines()
         locked = dict(line.split(" ")[0].split("==") for line in lines if "==" in line.split(" ")[0])
-        for one in map(Requirement, extras[name[1:]] if name else project["dependencies"]):
-            assert one.specifier.contains(locked[one.name.replace("_", "-")]), one
-            assert all(part.operator == ">=" for part in one.specifier), one
+        for requirement in map(Requirement, extras[name[1:]] if name else project["dependencies"]):
+            assert requirement.specifier.contains(locked[requirement.name.replace("_", "-")]), requirement
+            assert all(clause.operator == ">=" for clause in requirement.specifier), requirement
         assert name == "-test" or "mypy" not in locked
 
 
@@ -142,11 +144,11 @@ def test_git_sees_requested_files_and_no_internal_records(tmp_path: Path) -> Non
     for _ in range(2):
         for top in (theirs, tree):
             for folder in (top, top / "made", top / "own", plain):
-                with files.keeping(folder / "t.csv") as part:
-                    part.write_text("1")
+                with files.keeping(folder / "t.csv") as unfinished:
+                    unfinished.write_text("1")
                 files.write(folder / "t.costs.json", "{}")
             publish.replace(top / "pages", {"index.html": b"page", "s/a.css": b""})
-            there = {line.split()[1] for line in said(top, "status", "--short", "-uall").splitlines()}
-            assert there == {"t.csv", "own/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
+            names_listed = {line.split()[1] for line in said(top, "status", "--short", "-uall").splitlines()}
+            assert names_listed == {"t.csv", "own/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
     assert names(plain) == ["t.costs.json", "t.csv"]
     assert (theirs / "own" / ".gitignore").read_text() == "*.log\n"

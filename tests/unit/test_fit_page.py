@@ -37,7 +37,7 @@ def one_figure() -> Iterator[None]:
         yield
 
 
-def written(path: Path, motion: Any, slower: float = 0.0) -> Path:
+def data_file(path: Path, motion: Any, slower: float = 0.0) -> Path:
     """Write 80 attitudes of a motion, with noise; time may slow down."""
     rng = np.random.default_rng(1)
     t = np.sort(rng.uniform(0.0, 15.0, 80))
@@ -57,12 +57,12 @@ def nutating() -> Any:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with data and their page, made once."""
     place = tmp_path_factory.mktemp("fit")
-    file = written(place / "mine.csv", nutating())
-    assert asked(file, place / "out", "--predict", "20").exit_code == 0
+    file = data_file(place / "mine.csv", nutating())
+    assert run_page(file, place / "out", "--predict", "20").exit_code == 0
     return place
 
 
-def asked(file: Path, out: Path, *words: str) -> Any:
+def run_page(file: Path, out: Path, *words: str) -> Any:
     """Make the page of a file."""
     words = ("page", "--fit", str(file), "--out", str(out), *words)
     return CliRunner().invoke(command, words, catch_exceptions=False)
@@ -70,8 +70,8 @@ def asked(file: Path, out: Path, *words: str) -> Any:
 
 def rows(page: Path, table: str) -> list[list[str]]:
     """Return the rows of a table of a page, as plain text with plain spaces and signs."""
-    found = reader.fromstring(page.read_bytes()).get_element_by_id(f"tab-{table}").xpath(".//tbody/tr")
-    texts = [[cell.text_content() for cell in row.xpath("./td")] for row in found]
+    rows_found = reader.fromstring(page.read_bytes()).get_element_by_id(f"tab-{table}").xpath(".//tbody/tr")
+    texts = [[cell.text_content() for cell in row.xpath("./td")] for row in rows_found]
     return [[cell.replace("\xa0", " ").replace("\N{MINUS SIGN}", "-").strip() for cell in row] for row in texts]
 
 
@@ -82,20 +82,20 @@ def test_its_numbers_agree_with_the_fit(folder: Path) -> None:
     text = CliRunner().invoke(
         command, ["fit", str(folder / "mine.csv"), "--horizon", "0.1", "--predict", "20", "--json"]
     )
-    known = json.loads(text.stdout)
+    record = json.loads(text.stdout)
     for name, _, value, _ in rows(page, "parameters"):
         number, error = map(float, value.split(" ± "))
-        p = known["params"][name]
+        p = record["params"][name]
         assert abs(number - p["value"]) <= p["stderr"] / 10
         assert abs(error - p["stderr"]) <= p["stderr"] / 10
-    size = np.sqrt(np.diag(known["covariance"]))
+    size = np.sqrt(np.diag(record["covariance"]))
     for pair, value in rows(page, "correlations"):
-        i, j = (known["names"].index(name) for name in pair.split(", "))
-        assert float(value) == pytest.approx(known["covariance"][i][j] / size[i] / size[j], abs=6e-4)
+        i, j = (record["names"].index(name) for name in pair.split(", "))
+        assert float(value) == pytest.approx(record["covariance"][i][j] / size[i] / size[j], abs=6e-4)
         assert abs(float(value)) >= 0.5
     horizons = rows(page, "horizon")
     assert [row[0] for row in horizons] == ["0.01 rad", "0.1 rad"]
-    assert float(horizons[1][2]) == pytest.approx(known["horizon"], rel=1e-5)
+    assert float(horizons[1][2]) == pytest.approx(record["horizon"], rel=1e-5)
     assert "at t = 20: " in page.read_text("utf-8")
 
 
@@ -103,10 +103,10 @@ def test_the_pdf_and_the_file_have_the_pictures(folder: Path) -> None:
     """Data, curve and residuals, then the motion; both stand in one file, which asks for nothing."""
     page = folder / "out" / "fit-mine-predict-20.html"
     tree = reader.fromstring(page.read_bytes())
-    captions = [one.text_content() for one in tree.xpath("//figure[contains(@id, 'fig-')]//figcaption")]
-    assert ["residuals in standard errors" in one for one in captions] == [True, False]
+    captions = [caption.text_content() for caption in tree.xpath("//figure[contains(@id, 'fig-')]//figcaption")]
+    assert ["residuals in standard errors" in caption for caption in captions] == [True, False]
     assert all(place.startswith("data:") for place in tree.xpath("//img/@src"))
-    text = "".join(one.extract_text() for one in PdfReader(page.with_suffix(".pdf")).pages)
+    text = "".join(page_pdf.extract_text() for page_pdf in PdfReader(page.with_suffix(".pdf")).pages)
     assert all(words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "How far ahead"))
 
 
@@ -117,11 +117,11 @@ def test_its_commands_make_it_again(folder: Path, monkeypatch: pytest.MonkeyPatc
     before = {file.name: file.read_bytes() for file in out.glob("fit-mine*") if "costs" not in file.name}
     assert {Path(name).suffix for name in before} == {".md", ".py", ".html", ".pdf"}
     texts = reader.fromstring((out / "fit-mine-predict-20.html").read_bytes()).xpath("//main//pre")
-    (first,) = (
+    (command_first,) = (
         line for text in texts for line in text.text_content().splitlines() if line.startswith("$ atlas page --fit")
     )
     monkeypatch.chdir(folder)
-    again = CliRunner().invoke(command, [*shlex.split(first)[2:], "--out", "out"], catch_exceptions=False)
+    again = CliRunner().invoke(command, [*shlex.split(command_first)[2:], "--out", "out"], catch_exceptions=False)
     assert again.exit_code == 0
     assert {file.name: file.read_bytes() for file in out.glob("fit-mine*") if "costs" not in file.name} == before
 
@@ -140,9 +140,9 @@ def unbuilt(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("unbuilt")
 def test_undetermined_parameters_are_reported(tmp_path: Path) -> None:
     """An elementary motion does not tell the ratio and the field apart: there are no numbers, and a sentence."""
-    file = written(tmp_path / "steady.csv", atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7))
+    file = data_file(tmp_path / "steady.csv", atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7))
     with pytest.raises(AtlasError, match="not built here"):
-        asked(file, tmp_path)
+        run_page(file, tmp_path)
     blocks = read((tmp_path / "fit-steady.md").read_text("utf-8"))[0]["pages"][0]["blocks"]
     assert "What the data do not determine:\n\n- No nutation is seen" in blocks[0]["text"]
     assert "are not determined apart" in blocks[0]["text"]
@@ -170,7 +170,7 @@ def test_the_picture_is_of_the_fit_in_the_table(tmp_path: Path) -> None:
     file = tmp_path / "few.csv"
     file.write_text(FEW, encoding="utf-8")
     with pytest.raises(AtlasError, match="not built here"):
-        asked(file, tmp_path)
+        run_page(file, tmp_path)
     caption = runpy.run_path(str(tmp_path / "fit-few.py"))["scene"]().caption
     sigma = re.search(r"sigma (\S+) found", caption)
     assert sigma
@@ -180,7 +180,7 @@ def test_the_picture_is_of_the_fit_in_the_table(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_evidence_against_the_family_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A body that slows down: chi square and correlated residuals on the page and on the terminal, with status 1."""
-    file = written(tmp_path / "mine.csv", nutating(), slower=2e-3)
+    file = data_file(tmp_path / "mine.csv", nutating(), slower=2e-3)
     with pytest.raises(SystemExit) as ended:
         main(["page", "--fit", str(file), "--out", str(tmp_path / "out")])
     assert ended.value.code == 1
@@ -197,16 +197,16 @@ def test_evidence_against_the_family_is_reported(tmp_path: Path, capsys: pytest.
 def test_a_bad_file_or_a_changed_one_leaves_the_page(folder: Path, tmp_path: Path) -> None:
     """What is no data, a recipe that was edited and a folder that is read-only are refused; what is there stays."""
     place = shutil.copytree(folder, tmp_path / "copy")
-    good = {file.name: file.read_bytes() for file in (place / "out").iterdir()}
+    contents = {file.name: file.read_bytes() for file in (place / "out").iterdir()}
     recipe, file = place / "out" / "fit-mine-predict-20.py", place / "mine.csv"
     recipe.write_text(recipe.read_text("utf-8").replace("Fit again", "Fit once more"), "utf-8")
     with pytest.raises(AtlasError, match=r"predict-20.py was changed since it was made"):
-        asked(file, place / "out", "--predict", "20")
-    recipe.write_bytes(good[recipe.name])
+        run_page(file, place / "out", "--predict", "20")
+    recipe.write_bytes(contents[recipe.name])
     file.write_text("t,R11\n0,1\n", "utf-8")
     with pytest.raises(AtlasError, match="5 times"):
-        asked(file, place / "out", "--predict", "20")
-    assert {file.name: file.read_bytes() for file in (place / "out").iterdir()} == good
+        run_page(file, place / "out", "--predict", "20")
+    assert {file.name: file.read_bytes() for file in (place / "out").iterdir()} == contents
 
 
 TURN = Rotation.from_rotvec([0.3, -0.2, 0.4]).as_matrix()
@@ -227,13 +227,13 @@ MOTIONS = {
 @pytest.mark.parametrize("family", MODELS)
 def test_the_figures_are_of_the_motion(family: str) -> None:
     """In other axes, and without the attitude, the motion of each family turns as fast at each time."""
-    made = MOTIONS[family]
-    wanted, t = motion_of(made), np.linspace(0.0, 9.0, 7)
-    values = dict(wanted.values)
-    if wanted.body:
-        values |= {"ratio": wanted.body["ratio"], "field": wanted.field["prime"]}
-    own = wanted.family.kernels()(**values)
-    fast = [np.linalg.norm(one.angular_velocity(t), axis=-1) for one in (made, own)]
+    motion = MOTIONS[family]
+    result, t = motion_of(motion), np.linspace(0.0, 9.0, 7)
+    values = dict(result.values)
+    if result.body:
+        values |= {"ratio": result.body["ratio"], "field": result.field["prime"]}
+    motion_kernel = result.family.kernels()(**values)
+    fast = [np.linalg.norm(motion_each.angular_velocity(t), axis=-1) for motion_each in (motion, motion_kernel)]
     assert np.abs(fast[0] - fast[1]).max() < 1e-12
 
 

@@ -94,8 +94,8 @@ def test_without_a_frame_the_user_is_in_the_laboratory() -> None:
     """The arm is R(t) x_N(0) as it stands, for times of any shape."""
     flight, motion = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7]), Tabulated()
     assert np.abs(flight.arm(TIMES) - motion.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 2 * EPS
-    turned = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7], FRAME)
-    assert np.abs(turned.arm(TIMES) - turned.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 4 * EPS
+    flight_turned = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7], FRAME)
+    assert np.abs(flight_turned.arm(TIMES) - flight_turned.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 4 * EPS
     assert flight.position(1.0).shape == (3,)
     assert flight.position(np.array([[0.0, 1.0], [1.5, 2.0]])).shape == (2, 2, 3)
 
@@ -190,8 +190,8 @@ def test_many_points_fly_at_once() -> None:
     paths = Flight(PARTICLE, motion, points, FRAME).position(np.array(TIMES)[:, None])
     assert paths.shape == (4, 2, 3)
     for n in range(2):
-        alone = Flight(PARTICLE, motion, points[n], FRAME).position(TIMES)
-        assert np.abs(paths[:, n] - alone).max() <= 4 * EPS * np.abs(alone).max()
+        path = Flight(PARTICLE, motion, points[n], FRAME).position(TIMES)
+        assert np.abs(paths[:, n] - path).max() <= 4 * EPS * np.abs(path).max()
 
 
 def test_a_point_has_three_components() -> None:
@@ -206,10 +206,10 @@ def test_a_picture_is_of_one_flight() -> None:
     particles = ParticleMotion.in_field(FIELD, [[1.0, 2.0, 3.0], [0.0, 0.0, 0.0]], [0.1, -0.4, 0.2])
     point = [0.3, -0.1, 0.7]
     assert scene_of(Flight(PARTICLE, motion, point, FRAME)).panels
-    for several in (
+    for flight_array in (
         Flight(PARTICLE, motion, [point, point], FRAME),
         Flight(PARTICLE, motions, point, FRAME),
         Flight(particles, motion, point, FRAME),
     ):
         with pytest.raises(AtlasError, match="of one Flight"):
-            scene_of(several)
+            scene_of(flight_array)

@@ -97,8 +97,8 @@ def test_the_pdf_has_no_gallery_and_the_first_page_leads_to_it(tmp_path: Path) -
     (tmp_path / "own.md").write_text(f"{head}\n# One\n\nText.\n\n# Two\n\nMore.\n", "utf-8")
     report = build_report(tmp_path / "own.md", tmp_path / "out", jobs=1)
     assert report.ok
-    first = (tmp_path / "out" / "own" / "index.html").read_text("utf-8")
-    assert 'href="gallery.html"' in first.partition("<ol>")[0]
+    page_first = (tmp_path / "out" / "own" / "index.html").read_text("utf-8")
+    assert 'href="gallery.html"' in page_first.partition("<ol>")[0]
     assert report.pdf.exists()
 
 

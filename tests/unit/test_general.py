@@ -70,9 +70,9 @@ EXTREME: list[Any] = [
 ]
 
 
-def worst(found: Any, exact: Balls, times: Any) -> float:
+def largest_error(rotations: Any, exact: Balls, times: Any) -> float:
     """Return the largest error of matrices in ulp of 1."""
-    pairs = ((R, narrow(partial(exact.rotation, t), 1.0)) for R, t in zip(found, times, strict=True))
+    pairs = ((R, narrow(partial(exact.rotation, t), 1.0)) for R, t in zip(rotations, times, strict=True))
     return max(max(absolute(R.flat, chain(*true))) for R, true in pairs)
 
 
@@ -88,7 +88,7 @@ def test_every_entry_is_true_up_to_a_million_periods(inputs: Any) -> None:
     """Entries of R are within 6 ulp of 1 of the balls, on ordinary and on extreme inputs."""
     motion = GeneralMotion(*inputs)
     times = long_times(motion, 1)
-    assert worst(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
+    assert largest_error(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
@@ -96,7 +96,7 @@ def test_one_time_is_as_true_as_many(inputs: Any) -> None:
     """Entries of R at a time asked for by itself are within 6 ulp of 1, and Omega is that of an array to 16 ulp."""
     motion = GeneralMotion(*inputs)
     times = long_times(motion, 2)[:12].tolist()
-    assert worst([motion.rotation(t) for t in times], Balls(*inputs), times) <= 6
+    assert largest_error([motion.rotation(t) for t in times], Balls(*inputs), times) <= 6
     for t, Omega in zip(times, motion.angular_velocity(times), strict=True):
         assert np.abs(motion.angular_velocity(t) - Omega).max() <= 16 * np.spacing(np.abs(Omega).max())
 
@@ -107,7 +107,7 @@ def test_every_entry_is_true_at_short_times(inputs: Any) -> None:
     motion = GeneralMotion(*inputs)
     period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
     times = period * np.r_[np.geomspace(1e-9, 0.3, 40), -np.geomspace(1e-6, 0.3, 20)]
-    assert worst(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
+    assert largest_error(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
@@ -121,7 +121,7 @@ def test_the_grid_is_the_same_motion(inputs: Any, monkeypatch: pytest.MonkeyPatc
     times = [Fraction(start) + i * Fraction(step) for i in places]
     monkeypatch.setattr(general_grid, "MIN_GRID_COUNT", 10**6)
     R = motion.rotation_grid(start, step, count)
-    assert worst(R[places], Balls(*inputs), times) <= 12
+    assert largest_error(R[places], Balls(*inputs), times) <= 12
     assert np.array_equal(motion.rotation_grid(start, step, 0), np.empty((0, 3, 3)))
 
 
@@ -138,7 +138,7 @@ def test_a_fine_grid_is_interpolated_to_the_last_digits(
     start = -step * 4321.25
     places = sorted({0, 4321, 4322, 8190, *range(0, 8191, 511), *range(510, 8191, 640), *range(37, 8191, 766)})
     R = motion.rotation_grid(start, step, count)[places]
-    assert worst(R, Balls(*inputs), [Fraction(start) + i * Fraction(step) for i in places]) <= 8
+    assert largest_error(R, Balls(*inputs), [Fraction(start) + i * Fraction(step) for i in places]) <= 8
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
@@ -195,11 +195,11 @@ def test_any_field_and_any_attitude() -> None:
     """Turning laboratory, field, attitude and angular velocity together turns the motion."""
     random = np.random.default_rng(3)
     frames = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(3)]
-    first, second, third = (f * np.sign(np.linalg.det(f)) for f in frames)
+    A, second, third = (f * np.sign(np.linalg.det(f)) for f in frames)
     B, w, t = random.normal(size=3), random.normal(size=3), np.linspace(-4, 4, 30)
-    one = GeneralMotion.in_laboratory(0.6, B, first, w).rotation(t)
-    other = GeneralMotion.in_laboratory(0.6, second @ B, second @ first, second @ w).rotation(t)
-    assert np.abs(other - second @ one).max() <= 1e-13
+    R_first = GeneralMotion.in_laboratory(0.6, B, A, w).rotation(t)
+    R_second = GeneralMotion.in_laboratory(0.6, second @ B, second @ A, second @ w).rotation(t)
+    assert np.abs(R_second - second @ R_first).max() <= 1e-13
     assert np.abs(GeneralMotion.in_laboratory(0.6, B, third, w).rotation(0.0) - third).max() <= 8 * ULP1
     aligned = GeneralMotion.in_laboratory(1.5, (0, 1, 2), np.eye(3), (0.3, 0.7, 0.2)).rotation(t)
     assert np.abs(aligned - GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.2)).rotation(t)).max() <= 8 * ULP1
@@ -212,26 +212,26 @@ def test_any_field_and_any_attitude() -> None:
 def test_an_attitude_is_kept_whichever_part_of_its_quaternion_is_largest() -> None:
     """Of the 24 rotations of a cube each entry, and of those a little off each to 4 ulp(1), is the given one."""
     entries = np.array([np.eye(3)[list(order)] for order in permutations(range(3))])
-    cube = [R for one in entries for s in product((1, -1), repeat=3) if np.linalg.det(R := one * s) > 0]
+    cube = [R for entry in entries for s in product((1, -1), repeat=3) if np.linalg.det(R := entry * s) > 0]
     assert len(cube) == 24
     c, s = np.cos(0.1), np.sin(0.1)
     off = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
     for R, most in [*((R, 0.0) for R in cube), *((off @ R, 4 * ULP1) for R in cube)]:
-        found = [[float(x) for x in turned_by(row, R)] for row in np.eye(3).tolist()]
-        assert np.abs(R.T - found).max() <= most
+        axes = [[float(x) for x in turned_by(row, R)] for row in np.eye(3).tolist()]
+        assert np.abs(R.T - axes).max() <= most
 
 
 @pytest.mark.parametrize("name", BORDERS)
 def test_there_is_no_gap_at_a_border(name: str) -> None:
     """From both sides, one ulp and 1e-12 away, R for |t| <= 1/size leaves that of the border by as little."""
     inputs, value = BORDERS[name]
-    there = GeneralMotion(*inputs(value))
-    size = max(map(abs, (*there.omega, *there.field)))
+    motion_at = GeneralMotion(*inputs(value))
+    size = max(map(abs, (*motion_at.omega, *motion_at.field)))
     t = np.linspace(-1, 1, 21) / size
-    R = there.rotation(t)
+    R = motion_at.rotation(t)
     for towards in (-np.inf, np.inf):
-        beside = float(np.nextafter(value, towards))
-        for x, bound in ((beside, 16 * ULP1), (value + np.sign(towards) * 1e-12, 2e-11)):
+        value_next = float(np.nextafter(value, towards))
+        for x, bound in ((value_next, 16 * ULP1), (value + np.sign(towards) * 1e-12, 2e-11)):
             assert np.abs(GeneralMotion(*inputs(x)).rotation(t) - R).max() <= bound, (name, x)
 
 
@@ -242,11 +242,11 @@ def test_parameters_broadcast_with_one_another_and_with_time() -> None:
     assert motions.kind.shape == motions.period.shape == (3, 2)
     assert motions.roots.shape == (3, 2, 4)
     R = motions.rotation(t)
-    alone = GeneralMotion(1.5, (1, 2), (0.3, 0.7, -0.7))
-    assert np.abs(R[2, 1] - alone.rotation(t[1])).max() <= 8 * ULP1
+    motion = GeneralMotion(1.5, (1, 2), (0.3, 0.7, -0.7))
+    assert np.abs(R[2, 1] - motion.rotation(t[1])).max() <= 8 * ULP1
     assert motions.rotation_grid(0, 0.1, 5).shape == (3, 2, 5, 3, 3)
     assert np.isinf(motions.roots[1, 0]).sum() == 2
-    assert motions.turning_points[0][2, 1] == alone.turning_points[0]
+    assert motions.turning_points[0][2, 1] == motion.turning_points[0]
 
 
 def test_public_and_refusals() -> None:
@@ -268,8 +268,8 @@ def test_a_push_in_the_unstable_band_grows_at_the_rate_of_the_curve() -> None:
     curve = Hyperbola(0.5, (1, 0.1))
     rate, motion = curve.growth_rate(-0.5), curve.escape(-0.5, 1e-12)
     t = np.array([4.0, 8.0, 16.0]) / rate
-    left = motion.angular_velocity(t)[:, 2] - curve.omega3(-0.5)
-    assert left == pytest.approx(1e-12 * np.sinh(rate * t) / rate, rel=1e-3, abs=0.0)
+    departure = motion.angular_velocity(t)[:, 2] - curve.omega3(-0.5)
+    assert departure == pytest.approx(1e-12 * np.sinh(rate * t) / rate, rel=1e-3, abs=0.0)
     assert np.array_equal(curve.growth_rate([-0.5, 0.3, 2.0]) > 0, curve.stability([-0.5, 0.3, 2.0]) < 0)
 
 
@@ -312,8 +312,8 @@ def test_an_escape_takes_as_long_and_goes_as_far_as_an_integration_says(push: fl
         return float(state[0] * state[4] - state[1] * state[3])
 
     start = [*omega, 0.0, B2, B3]
-    found = solve_ivp(rates, (0, 2.2 * motion.period), start, "DOP853", events=turning, rtol=1e-13, atol=1e-15)
-    times, thirds = found.t_events[0], found.y_events[0][:, 2]
+    solution = solve_ivp(rates, (0, 2.2 * motion.period), start, "DOP853", events=turning, rtol=1e-13, atol=1e-15)
+    times, thirds = solution.t_events[0], solution.y_events[0][:, 2]
     assert times[2] - times[0] == pytest.approx(motion.period, rel=1e-6)
     assert [thirds.min(), thirds.max()] == pytest.approx(list(motion.turning_points), rel=1e-6)
 

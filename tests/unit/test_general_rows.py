@@ -42,7 +42,7 @@ def ordinary(count: int, seed: int = 0) -> Any:
     return r.uniform(0.1, 2, count), r.normal(size=(2, count)), r.normal(size=(3, count))
 
 
-def along(count: int, tilt: float = 0.0) -> Any:
+def spins(count: int, tilt: float = 0.0) -> Any:
     """Return inputs of motions whose axis starts along the field, or nearly so."""
     I, B, omega = ordinary(count, 9)
     return I, B * [[tilt], [1.0]], omega
@@ -57,7 +57,7 @@ def extreme(seed: int = 0) -> Any:
     return np.array(I), np.array(B).T, np.array(omega).T
 
 
-def one(inputs: Any, i: int) -> Any:
+def inputs_at(inputs: Any, i: int) -> Any:
     """Return the inputs of one motion of an array."""
     I, B, omega = inputs
     return float(I[i]), tuple(B[:, i].tolist()), tuple(omega[:, i].tolist())
@@ -83,15 +83,15 @@ def times(inputs: Any, seed: int) -> Any:
 def test_scalars_of_many_motions_have_the_bits_of_one_by_one(draw: Any) -> None:
     """Kind, turning points, roots, period, moduli, nome and angles are those of each motion made alone, to the bit."""
     inputs = draw()
-    found = GeneralMotion(*inputs)
-    for i in range(found.shape[0]):
-        alone = GeneralMotion(*one(inputs, i))
-        assert found.kind[i] == alone.kind
+    motions = GeneralMotion(*inputs)
+    for i in range(motions.shape[0]):
+        motion = GeneralMotion(*inputs_at(inputs, i))
+        assert motions.kind[i] == motion.kind
         for name in SCALARS:
-            assert getattr(found, name)[i] == getattr(alone, name), (name, one(inputs, i))
-        assert [ends[i] for ends in found.turning_points] == list(alone.turning_points)
+            assert getattr(motions, name)[i] == getattr(motion, name), (name, inputs_at(inputs, i))
+        assert [ends[i] for ends in motions.turning_points] == list(motion.turning_points)
         # a root that is zero is known to 1e-40 alone; a complex pair has no order
-        ours, roots = np.sort_complex(found.roots[i]), np.sort_complex(alone.roots)
+        ours, roots = np.sort_complex(motions.roots[i]), np.sort_complex(motion.roots)
         finite = np.isfinite(roots)
         assert np.array_equal(np.isfinite(ours), finite)
         assert (abs(ours[finite] - roots[finite]) <= 1e-35 * abs(roots[finite]).max()).all()
@@ -99,7 +99,7 @@ def test_scalars_of_many_motions_have_the_bits_of_one_by_one(draw: Any) -> None:
 
 @pytest.mark.parametrize(
     "draw",
-    [partial(ordinary, 200, 1), partial(along, 40), partial(along, 40, 1e-6), partial(extreme, 1)],
+    [partial(ordinary, 200, 1), partial(spins, 40), partial(spins, 40, 1e-6), partial(extreme, 1)],
     ids=["ordinary", "along B", "near B", "extreme"],
 )
 def test_matrices_of_many_motions_are_true_to_the_promise(draw: Any) -> None:
@@ -108,7 +108,7 @@ def test_matrices_of_many_motions_are_true_to_the_promise(draw: Any) -> None:
     motion, t = GeneralMotion(*inputs), times(inputs, 2)
     R, K, Omega = motion.rotation(t), motion.field_in_body(t), motion.angular_velocity(t)
     for i, time in enumerate(t.tolist()):
-        exact, (_, B, omega) = Balls(*one(inputs, i)), one(inputs, i)
+        exact, (_, B, omega) = Balls(*inputs_at(inputs, i)), inputs_at(inputs, i)
         size = max(map(abs, (*B, *omega)))
         true = narrow(partial(state, exact, time), size)
         assert max(absolute(R[i].flat, chain(*true[0]))) <= 6
@@ -119,9 +119,9 @@ def test_matrices_of_many_motions_are_true_to_the_promise(draw: Any) -> None:
 def test_a_kind_next_to_a_border_is_decided_exactly() -> None:
     """An ulp off a separatrix, a ball and a steady motion the kinds are those of the exact inputs."""
     steps = np.arange(-2, 3)
-    beside = np.array([-7 + n * np.spacing(7.0) for n in steps])
+    omega3 = np.array([-7 + n * np.spacing(7.0) for n in steps])
     for ratio, B, omega in (
-        (0.75, (20.0, 15.0), (6.0, -24.5, beside)),
+        (0.75, (20.0, 15.0), (6.0, -24.5, omega3)),
         (1 + steps * 2.0**-52, (1.0, 2.0), (0.3, 0.7, 0.2)),
         (0.5, (3.0, 1.0), (0.0, -1.5, -2 + steps * 2.0**-52)),
         (1.5, (0.0, 1.0), (0.0, steps * 1e-200, 0.4)),
@@ -158,40 +158,40 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
         (1.5, (0.0, 0.0), (0.0, 0.0, 0.0)),  # at rest without a field
     ]
     I, B, omega = zip(*rows, strict=True)
-    motions, lacking = GeneralMotion(np.array(I), np.array(B).T, np.array(omega).T), 0
+    motions, count = GeneralMotion(np.array(I), np.array(B).T, np.array(omega).T), 0
     for i, row in enumerate(rows):
-        alone = GeneralMotion(*row)
-        assert motions.kind[i] == alone.kind
+        motion = GeneralMotion(*row)
+        assert motions.kind[i] == motion.kind
         for name in SCALARS:
             try:
-                assert getattr(motions, name)[i] == getattr(alone, name)
+                assert getattr(motions, name)[i] == getattr(motion, name)
             except DomainError:
-                lacking += 1
+                count += 1
                 assert np.isnan(getattr(motions, name)[i])
-    assert lacking == 5 * 2 + 3 * 3
+    assert count == 5 * 2 + 3 * 3
 
 
 def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 3000 ordinary motions, and as many that start at a turning point, none is made alone for kind and period."""
-    made = []
+    made_singly = []
     standing = general.standing
-    monkeypatch.setattr(general, "standing", lambda *row: made.append(row) or standing(*row))
+    monkeypatch.setattr(general, "standing", lambda *row: made_singly.append(row) or standing(*row))
     inputs = ordinary(3000, 3)
     motions = GeneralMotion(*inputs)
     assert motions.kind.shape == motions.period.shape == motions.nome.shape == (3000,)
     flat = GeneralMotion(*planar(3000))
     assert flat.kind.shape == flat.period.shape == flat.spin_per_period.shape == (3000,)
-    assert not made
+    assert not made_singly
     motions.rotation(times(inputs, 4))
-    assert len(made) <= 60
+    assert len(made_singly) <= 60
     for tilt in (0.0, 1e-6):
-        GeneralMotion(*along(500, tilt)).rotation(1.0)
-    assert len(made) <= 80
+        GeneralMotion(*spins(500, tilt)).rotation(1.0)
+    assert len(made_singly) <= 80
     # balls on a grid of round numbers: only those whose Omega3 is constant
-    made.clear()
+    made_singly.clear()
     x = np.linspace(-3, 3, 21)
     GeneralMotion(1.0, (1.0, 0.5), (0.0, x[:, None], x)).rotation(1.0)
-    assert len(made) <= 40
+    assert len(made_singly) <= 40
 
 
 def test_no_motions_have_no_scalars() -> None:
@@ -220,40 +220,40 @@ def test_nothing_depends_on_the_unit(power: int) -> None:
     """Rows whose frequencies are all that small or large have matrices and periods of those near one, to the bit."""
     (I, B, omega), unit = ordinary(40, 11), 2.0**power
     t = times((I, B, omega), 12)
-    one, other = GeneralMotion(I, B, omega), GeneralMotion(I, B * unit, omega * unit)
-    assert np.array_equal(one.rotation(t), other.rotation(t / unit))
-    assert np.array_equal(one.angular_velocity(t) * unit, other.angular_velocity(t / unit))
-    assert np.array_equal(one.period, other.period * unit)
+    motion, motion_scaled = GeneralMotion(I, B, omega), GeneralMotion(I, B * unit, omega * unit)
+    assert np.array_equal(motion.rotation(t), motion_scaled.rotation(t / unit))
+    assert np.array_equal(motion.angular_velocity(t) * unit, motion_scaled.angular_velocity(t / unit))
+    assert np.array_equal(motion.period, motion_scaled.period * unit)
 
 
 def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
     """Return what arrays make of some rows, none of them alone: columns, Omega, and scalars that are sure."""
     I, B, omega = (x[..., rows] for x in inputs)
-    blocks, found = Blocks((1.0, I, 0.0, *B, *omega), I.shape), []
+    blocks, values = Blocks((1.0, I, 0.0, *B, *omega), I.shape), []
     for name in ("rotation", "angular_velocity"):
-        out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), Rows(blocks, MotionsAtTimes).at
-        made = at(slice(None), t[rows])
+        out, rows_at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), Rows(blocks, MotionsAtTimes).at
+        row_motions = rows_at(slice(None), t[rows])
         with np.errstate(all="ignore"):
-            getattr(made, name)(t[rows], out)
-        out[made.extreme] = 0.0
-        found.append(out)
+            getattr(row_motions, name)(t[rows], out)
+        out[row_motions.extreme] = 0.0
+        values.append(out)
     scalars = Scalars(blocks)
-    return found + [np.where(x.is_certain, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
+    return values + [np.where(x.is_certain, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
 
 
 @pytest.mark.slow
 def test_a_motion_does_not_depend_on_those_beside_it() -> None:
     """In any order and any part of an array, extreme neighbours or none, each row has the same bits."""
     r = np.random.default_rng(0)
-    balls, others, (_, B, omega) = ordinary(300, 0), ordinary(100, 10), ordinary(100, 20)
+    balls, neighbours, (_, B, omega) = ordinary(300, 0), ordinary(100, 10), ordinary(100, 20)
     balls[0][:] = 1.0
     extremes = r.choice([0.5, 1.0, 1 + 2.0**-40], 100), *(x * 10.0 ** r.uniform(-12, 40, x.shape) for x in (B, omega))
-    inputs = tuple(np.concatenate(x, axis=-1) for x in zip(balls, others, extremes, strict=True))
+    inputs = tuple(np.concatenate(x, axis=-1) for x in zip(balls, neighbours, extremes, strict=True))
     t, order = times(inputs, 0), r.permutation(inputs[0].size)
-    whole = motions(inputs, t, np.arange(order.size))
+    results = motions(inputs, t, np.arange(order.size))
     for rows in (*np.array_split(order, 5), order[:1], np.arange(300)):
-        for all_rows, some in zip(whole, motions(inputs, t, rows), strict=True):
-            assert np.array_equal(some, all_rows[rows])
+        for all_rows, rows_picked in zip(results, motions(inputs, t, rows), strict=True):
+            assert np.array_equal(rows_picked, all_rows[rows])
 
 
 def test_a_body_in_a_field_is_a_top_bit_for_bit() -> None:
@@ -269,6 +269,6 @@ def test_a_body_in_a_field_is_a_top_bit_for_bit() -> None:
         np.testing.assert_array_equal(getattr(body, name), getattr(top, name))
     np.testing.assert_array_equal(body.rotation(3.7 / b), top.rotation(3.7 / b))
     for i in range(3):
-        one = GeneralMotion(I[i], (B2[i], B3[i]), [w[i] for w in omega])
+        motion = GeneralMotion(I[i], (B2[i], B3[i]), [w[i] for w in omega])
         other = atlas.TopMotion((1.0, I[i]), (b[i], I[i] * b[i]), (B2[i], B3[i]), [w[i] for w in omega])
-        np.testing.assert_array_equal(one.rotation([1.3, 1e9]), other.rotation([1.3, 1e9]))
+        np.testing.assert_array_equal(motion.rotation([1.3, 1e9]), other.rotation([1.3, 1e9]))

@@ -37,24 +37,24 @@ def narrow(exact: Any, t: float) -> list[arb]:
     precision = 192
     while True:
         with ctx.workprec(precision):
-            found = [arb(x) for x in exact(t)]
-            if max(x.rad() for x in found) <= 2.0**-70 * max(abs(x).lower() for x in found):
-                return found
+            balls = [arb(x) for x in exact(t)]
+            if max(x.rad() for x in balls) <= 2.0**-70 * max(abs(x).lower() for x in balls):
+                return balls
         precision *= 2
 
 
-def off(found: Any, true: Any) -> float:
+def off(values: Any, true: Any) -> float:
     """Return the largest error of a vector in ulp of the largest component of the true one."""
     largest = max(abs(float(x)) for x in map(_middle, true))
     unit = ulp(largest)
-    return max(float(abs(arb(float(x)) - arb(y)).upper()) for x, y in zip(found, true, strict=True)) / unit
+    return max(float(abs(arb(float(x)) - arb(y)).upper()) for x, y in zip(values, true, strict=True)) / unit
 
 
 def _middle(x: Any) -> Any:
     return x.mid() if isinstance(x, arb) else x
 
 
-def one(inputs: Any, i: int) -> tuple[float, tuple[float, ...], tuple[float, ...]]:
+def inputs_at(inputs: Any, i: int) -> tuple[float, tuple[float, ...], tuple[float, ...]]:
     """Return the inputs of one motion of an array."""
     I, B, omega, *_ = inputs
     return float(I[i]), tuple(B[:, i].tolist()), tuple(omega[:, i].tolist())
@@ -67,7 +67,7 @@ def test_omega_meets_the_taylor_series(power: int) -> None:
     t = 4.0 / abs(np.concatenate([B, omega])).max(axis=0)
     together = GeneralMotion(I, tuple(B), tuple(omega)).angular_velocity(t)
     for i, time in enumerate(t.tolist()):
-        ratio, field, start = one(inputs, i)
+        ratio, field, start = inputs_at(inputs, i)
         (state,) = taylor((1, 1, ratio), (0, *field), start, [time], digits=40)
         with ctx.workprec(200):
             true = [arb(mpmath.nstr(x, 40)) for x in state.Omega]
@@ -83,15 +83,15 @@ def test_omega_keeps_its_digits_near_rest(power: int, least: float) -> None:
     I, B, omega, _ = inputs
     together = GeneralMotion(I, tuple(B), tuple(omega)).angular_velocity(t)
     for i, time in enumerate(t.tolist()):
-        true = narrow(Balls(*one(inputs, i)).angular_velocity, time)
+        true = narrow(Balls(*inputs_at(inputs, i)).angular_velocity, time)
         assert off(together[i], true) <= WANTED
-        assert off(GeneralMotion(*one(inputs, i)).angular_velocity(time), true) <= WANTED
+        assert off(GeneralMotion(*inputs_at(inputs, i)).angular_velocity(time), true) <= WANTED
 
 
 @pytest.mark.parametrize("regime", GENERAL)
 def test_omega_keeps_its_digits_in_every_regime(regime: str) -> None:
     """So it is next to separatrices and triple roots, along the field, and at any scale, over some periods."""
-    random, drawn = Random(3), []  # noqa: S311  draws of test inputs
+    random, draws = Random(3), []  # noqa: S311  draws of test inputs
     for _ in range(4):
         I, B, omega = GENERAL[regime](random)
         motion = GeneralMotion(I, B, omega)
@@ -100,8 +100,8 @@ def test_omega_keeps_its_digits_in_every_regime(regime: str) -> None:
         )
         true = narrow(Balls(I, B, omega).angular_velocity, float(t))
         assert off(motion.angular_velocity(t), true) <= WANTED
-        drawn.append((I, B, omega, t, true))
-    I, B, omega, t, true = zip(*drawn, strict=True)
+        draws.append((I, B, omega, t, true))
+    I, B, omega, t, true = zip(*draws, strict=True)
     together = GeneralMotion(np.array(I), np.array(B).T, np.array(omega).T).angular_velocity(np.array(t))
     assert max(map(off, together, true)) <= WANTED
 
@@ -118,12 +118,12 @@ def test_field_and_momentum_are_within_their_promise(power: int) -> None:
     *_, t = inputs = motions(power, 5, 4)
     together = GeneralMotion(inputs[0], tuple(inputs[1]), tuple(inputs[2]))
     for i, time in enumerate(t.tolist()):
-        alone, exact = GeneralMotion(*one(inputs, i)), Balls(*one(inputs, i))
+        motion, exact = GeneralMotion(*inputs_at(inputs, i)), Balls(*inputs_at(inputs, i))
         for name, bound in (("field_in_body", 1.8e-15), ("angular_momentum", 7e-15)):
             true = narrow(getattr(exact, name), time)
             length = float(sum(x * x for x in true).sqrt().mid())
-            for found in (getattr(together, name)(t)[i], getattr(alone, name)(time)):
-                errors = [float(abs(arb(float(x)) - y).upper()) for x, y in zip(found, true, strict=True)]
+            for vector in (getattr(together, name)(t)[i], getattr(motion, name)(time)):
+                errors = [float(abs(arb(float(x)) - y).upper()) for x, y in zip(vector, true, strict=True)]
                 assert max(errors) <= bound * length
 
 
@@ -167,9 +167,9 @@ def test_needles_across_the_field_keep_their_digits_in_arrays(monkeypatch: pytes
     t = np.linspace(5.0, 2000.0, 80)
     true = [narrow(Balls(I, B, omega).angular_velocity, time) for time in t.tolist()]
 
-    def worst() -> float:
+    def largest_error() -> float:
         return max(map(off, GeneralMotion(np.full(80, I), B, omega).angular_velocity(t), true))
 
-    assert worst() <= WANTED / 2
+    assert largest_error() <= WANTED / 2
     monkeypatch.setattr(rows, "MAX_OMEGA3_CHANGE", np.inf)
-    assert worst() > WANTED / 2
+    assert largest_error() > WANTED / 2

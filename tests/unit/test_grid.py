@@ -94,9 +94,9 @@ def test_the_fine_table_is_rounded_once() -> None:
         rows = table[0].reshape(grid.FINE_TIMES, 3, 3)
         for j in range(grid.FINE_TIMES):
             column = true(0.0, -step if back else step, j)[:, 2]
-            for found, exact in zip(rows[grid.FINE_TIMES - 1 - j if back else j, :, 2] / 2, column, strict=True):
+            for value, exact in zip(rows[grid.FINE_TIMES - 1 - j if back else j, :, 2] / 2, column, strict=True):
                 with mp.workdps(40):
-                    assert abs(mpf(float(found)) - exact) <= 0.5 * float(np.spacing(abs(found))) + 2.0**-72
+                    assert abs(mpf(float(value)) - exact) <= 0.5 * float(np.spacing(abs(value))) + 2.0**-72
 
 
 @pytest.mark.usefixtures("tables")
@@ -123,9 +123,9 @@ def test_a_grid_of_any_length_is_cut_well(monkeypatch: pytest.MonkeyPatch, count
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
     monkeypatch.setattr("atlas.arithmetic.machine.processors", lambda: 2)
     grid = motion.rotation_grid(0.0, 1e-3, count)
-    some = np.linspace(0, count - 1, 50).astype(int)
-    exact = motion.rotation(some * 1e-3)
-    assert np.abs(grid[some] - exact).max() < 1e-12
+    indices = np.linspace(0, count - 1, 50).astype(int)
+    exact = motion.rotation(indices * 1e-3)
+    assert np.abs(grid[indices] - exact).max() < 1e-12
 
 
 def test_two_threads_give_the_same_grid(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -192,16 +192,16 @@ def test_phases_agree_with_the_exact_times(start: float, step: float, origin: in
     """Half the phase less half turns of this parity is within 2^-6 w; where it is small, within 2.5 w of itself."""
     phases = Progression([rational(turn) for turn in TURNS], start, step, origin, max(PLACES))
     i = np.array([PLACES, np.ones(len(PLACES))])
-    head, rest, sign, _ = phases.parts(i, np.empty((8, len(TURNS), len(PLACES))))
+    head, low_word, sign, _ = phases.parts(i, np.empty((8, len(TURNS), len(PLACES))))
     with mp.workdps(60):
         for n, turn in enumerate(TURNS):
             for m, place in enumerate(PLACES):
                 exact = half_turns(turn, start, step, origin + place)
                 left = (exact - (sign[n, m] < 0) + 1) % 2 - 1
                 true = mp.mpf(left.numerator) / left.denominator * mp.pi / 2
-                error = abs(mp.mpf(head[n, m]) + mp.mpf(rest[n, m]) - true)
+                error = abs(mp.mpf(head[n, m]) + mp.mpf(low_word[n, m]) - true)
                 assert error <= W / 64
                 if abs(exact) < 0.5:
                     assert error <= 2.5 * W * abs(true)
                 assert abs(true) < 0.786
-                assert abs(rest[n, m]) < 2.0**-12
+                assert abs(low_word[n, m]) < 2.0**-12

@@ -29,7 +29,7 @@ def blocks() -> list[tuple[str, str, str]]:
     """Return the page, the language and the text of each block of code, in their order."""
     pages = load(find("guide")).pages
     texts = [(page.slug, block.text) for page in pages for block in page.blocks if hasattr(block, "text")]
-    return [(slug, *found) for slug, text in texts for _, *found in BLOCK.findall(text)]
+    return [(slug, *block) for slug, text in texts for _, *block in BLOCK.findall(text)]
 
 
 @pytest.fixture
@@ -60,7 +60,7 @@ def test_every_block_of_the_guide_prints_its_output(
             names = test.globs
         else:
             assert language == "console"
-            failures += [told for typed, shown in sessions(text) if (told := shell(typed, shown, capsys))]
+            failures += [failure for command, output in sessions(text) if (failure := shell(command, output, capsys))]
     assert not failures, "".join(failures)
 
 
@@ -69,15 +69,15 @@ def sessions(text: str) -> list[tuple[str, str]]:
     return re.findall(r"^\$ atlas (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE)
 
 
-def shell(typed: str, shown: str, capsys: pytest.CaptureFixture[str]) -> str:
+def shell(command: str, output: str, capsys: pytest.CaptureFixture[str]) -> str:
     """Run a command line in this process; return what is wrong with what it prints, or nothing."""
     capsys.readouterr()
     with pytest.raises(SystemExit) as ended:
-        main(shlex.split(typed))
+        main(shlex.split(command))
     out, err = capsys.readouterr()
-    if doctest.OutputChecker().check_output(shown, out + err, FLAGS) and ended.value.code in {0, 2}:
+    if doctest.OutputChecker().check_output(output, out + err, FLAGS) and ended.value.code in {0, 2}:
         return ""
-    return f"$ atlas {typed}\nexpected:\n{shown}\ngot ({ended.value.code}):\n{out}{err}\n"
+    return f"$ atlas {command}\nexpected:\n{output}\ngot ({ended.value.code}):\n{out}{err}\n"
 
 
 def test_the_reference_holds_every_public_name() -> None:
@@ -85,20 +85,20 @@ def test_the_reference_holds_every_public_name() -> None:
     pages = load(find("guide")).pages
     listed = [name for page in pages for block in page.blocks for name in getattr(block, "names", ())]
     assert sorted(listed) == sorted(set(atlas.__all__) - {"__version__"})
-    known = described()
-    assert known["Quadric"].arguments == "(ratio, field)"
-    assert known["Quadric"].docstring.startswith("Quadric of initial data")
-    assert known["ElementaryMotion"].members["rotation"].arguments == "(t, out=None)"  # inherited
-    assert known["ElementaryMotion"].members["k"].arguments == ""  # a value
-    assert known["SymmetricBody"].members["ring"].arguments == "(mass, radius)"
-    assert known["AtlasError"].arguments == ""
-    assert all(one.docstring for name in known.values() for one in (name, *name.members.values()))
+    entries = described()
+    assert entries["Quadric"].arguments == "(ratio, field)"
+    assert entries["Quadric"].docstring.startswith("Quadric of initial data")
+    assert entries["ElementaryMotion"].members["rotation"].arguments == "(t, out=None)"  # inherited
+    assert entries["ElementaryMotion"].members["k"].arguments == ""  # a value
+    assert entries["SymmetricBody"].members["ring"].arguments == "(mass, radius)"
+    assert entries["AtlasError"].arguments == ""
+    assert all(entry.docstring for name in entries.values() for entry in (name, *name.members.values()))
 
 
 @pytest.mark.slow
 def test_examples_in_docstrings_print_their_output() -> None:
     """What `help` shows of the package and of its classes of motions and surfaces can be typed."""
-    texts = {"atlas": atlas.__doc__ or ""} | {name: one.docstring for name, one in described().items()}
+    texts = {"atlas": atlas.__doc__ or ""} | {name: entry.docstring for name, entry in described().items()}
     examples = {
         name: doctest.DocTestParser().get_doctest(text, {"atlas": atlas}, name, None, None)
         for name, text in texts.items()
@@ -156,16 +156,20 @@ def test_sections_of_a_docstring_become_tables() -> None:
 
 def test_parameters_of_docstrings_agree_with_signatures() -> None:
     """Each public class, function and method lists its parameters in their order, and results where it has some."""
-    missing = list[str]()
+    disagreements = list[str]()
     for name, one in described().items():
         members = {f"{name}.{inner}": member for inner, member in one.members.items()}
-        for where, thing in {name: one, **members}.items():
-            call = "" if thing.arguments in {"", "()"} else f"lambda {thing.arguments[1:-1].replace('...', 'None')}: 0"
-            section = re.search(r"^Parameters\n-{10}\n((?:(?!.*\n-{3}).*\n?)*)", thing.docstring, re.MULTILINE)
+        for place, member_entry in {name: one, **members}.items():
+            call = (
+                ""
+                if member_entry.arguments in {"", "()"}
+                else f"lambda {member_entry.arguments[1:-1].replace('...', 'None')}: 0"
+            )
+            section = re.search(r"^Parameters\n-{10}\n((?:(?!.*\n-{3}).*\n?)*)", member_entry.docstring, re.MULTILINE)
             entries = re.findall(r"^(\S.*?)(?: : .*)?$", section[1] if section else "", re.MULTILINE)
             listed = [x.lstrip("*") for entry in entries for x in entry.split(", ")]
             if call and listed != [*inspect.signature(eval(call)).parameters]:  # noqa: S307  our own signature
-                missing.append(f"{where}{thing.arguments}: {listed}")
-            if call and where.count(".") and "\nReturns\n-------\n" not in thing.docstring:
-                missing.append(f"{where}: no result")
-    assert not missing, "\n".join(missing)
+                disagreements.append(f"{place}{member_entry.arguments}: {listed}")
+            if call and place.count(".") and "\nReturns\n-------\n" not in member_entry.docstring:
+                disagreements.append(f"{place}: no result")
+    assert not disagreements, "\n".join(disagreements)

@@ -99,8 +99,8 @@ def test_the_least_stability_is_that_of_the_curve() -> None:
     for ratio in (0.2, 0.9, 1.0, 1.3, 2.0):
         for B2, B3 in ((1.0, 0.1), (-2.0, 1.5), (0.3, -2.0)):
             curve = Hyperbola(ratio, (B2, B3))
-            found = curve.stability(np.concatenate([x, -x]) * B2 - B2)
-            assert 0 <= found.min() - curve.least_stability <= 1e-5 * (B2**2 + B3**2)
+            stability = curve.stability(np.concatenate([x, -x]) * B2 - B2)
+            assert 0 <= stability.min() - curve.least_stability <= 1e-5 * (B2**2 + B3**2)
     assert Hyperbola(1.0, (1.0, 0.2)).least_stability == 0
     with pytest.raises(DomainError, match="B2 = 0"):
         _ = Hyperbola(0.5, (0.0, 1.0)).least_stability
@@ -109,16 +109,16 @@ def test_the_least_stability_is_that_of_the_curve() -> None:
 def test_the_least_stability_is_rounded_once() -> None:
     """Next to I = 1 and to tau^2 = 1/8, from 1e-130 to 1e130, it is the nearest double, in arrays and alone."""
     r = np.random.default_rng(0)
-    near = 1 + r.choice([-1.0, 1.0], (2, 400)) * 10 ** r.uniform(-16, -1, (2, 400))
-    I = np.where(r.random(400) < 0.5, near[0], r.uniform(0.01, 2, 400))
+    ratios = 1 + r.choice([-1.0, 1.0], (2, 400)) * 10 ** r.uniform(-16, -1, (2, 400))
+    I = np.where(r.random(400) < 0.5, ratios[0], r.uniform(0.01, 2, 400))
     B2 = r.choice([-1.0, 1.0], 400) * 10 ** r.choice([-130.0, 0.0, 130.0], 400) * r.uniform(1, 2, 400)
-    B3 = B2 * np.where(r.random(400) < 0.5, near[1] / np.sqrt(8), r.uniform(-2, 2, 400))
-    found = Hyperbola(I, (B2, B3)).least_stability
+    B3 = B2 * np.where(r.random(400) < 0.5, ratios[1] / np.sqrt(8), r.uniform(-2, 2, 400))
+    stability = Hyperbola(I, (B2, B3)).least_stability
     with mp.workdps(150):
-        for one, ratio, *field in zip(found.tolist(), I.tolist(), B2.tolist(), B3.tolist(), strict=True):
+        for value, ratio, *field in zip(stability.tolist(), I.tolist(), B2.tolist(), B3.tolist(), strict=True):
             less, x, y = 1 - mpf(ratio), mpf(field[0]), mpf(field[1])
-            assert one == float(2 * abs(less * y) * mp.sqrt(x * x + y * y) - less * (x * x - 2 * y * y))
-            assert one == Hyperbola(ratio, field).least_stability
+            assert value == float(2 * abs(less * y) * mp.sqrt(x * x + y * y) - less * (x * x - 2 * y * y))
+            assert value == Hyperbola(ratio, field).least_stability
 
 
 @pytest.mark.parametrize("tau", [1e-12, 0.1, 0.35])
@@ -175,11 +175,11 @@ def test_the_pole_and_too_few_points_are_errors(bad: Any) -> None:
 @pytest.mark.parametrize("ratio", [0.4, 1.5])
 def test_a_branch_begins_at_the_reach_of_one_axis_and_ends_at_that_of_the_other(ratio: float, reach: float) -> None:
     """|X| ends at `reach` |B'|, and begins where |Y| = |1-I| B2^2 times the slope over |X| is, or at 1/e of its end."""
-    far = reach * np.hypot(1.0, 0.7)
+    x_end = reach * np.hypot(1.0, 0.7)
     for omega2, _ in Hyperbola(ratio, (1.0, -0.7)).branches(reach=reach):
         X = np.abs(omega2 + 1.0)
-        assert X[-1] == pytest.approx(far, rel=1e-12, abs=0.0)
-        assert X[0] == pytest.approx(min(abs(1 - ratio) * 0.7 / ratio / far, far / np.e), rel=1e-12, abs=0.0)
+        assert X[-1] == pytest.approx(x_end, rel=1e-12, abs=0.0)
+        assert X[0] == pytest.approx(min(abs(1 - ratio) * 0.7 / ratio / x_end, x_end / np.e), rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize("I", [0.5, 1.5])
@@ -242,6 +242,6 @@ def test_a_sample_of_components_too_far_apart_is_an_error(ratio: float, field: t
 @pytest.mark.parametrize("power", [-600, 600])
 def test_a_sampled_curve_does_not_depend_on_the_unit(power: int) -> None:
     """In a field 2^600 times as strong or as weak the points are as far out, within rounding of the exponential."""
-    near, far = Hyperbola(0.6, (1.0, -2.5)), Hyperbola(0.6, (2.0**power, -2.5 * 2.0**power))
-    for one, other in zip(near.sample(20), far.sample(20), strict=True):
-        assert np.ldexp(other, -power) == pytest.approx(one, rel=1e-11, abs=1e-11)
+    curve, curve_scaled = Hyperbola(0.6, (1.0, -2.5)), Hyperbola(0.6, (2.0**power, -2.5 * 2.0**power))
+    for points, points_scaled in zip(curve.sample(20), curve_scaled.sample(20), strict=True):
+        assert np.ldexp(points_scaled, -power) == pytest.approx(points, rel=1e-11, abs=1e-11)

@@ -48,8 +48,8 @@ def rank(moments: np.ndarray, field: np.ndarray, omega: np.ndarray) -> int:
 def test_a_general_motion_tells_its_body(seed: int) -> None:
     """The six unknowns are determined but for one factor, with three moments and with two equal ones."""
     chance = np.random.default_rng(seed)
-    first, second, third = chance.uniform(0.2, 1, 3)
-    for moments in (np.array([second + third, first + third, first + second]), np.array([1.0, 1.0, 0.3 + first])):
+    a1, second, third = chance.uniform(0.2, 1, 3)
+    for moments in (np.array([second + third, a1 + third, a1 + second]), np.array([1.0, 1.0, 0.3 + a1])):
         assert rank(moments, chance.normal(size=3), chance.normal(size=3)) == 5
 
 
@@ -76,6 +76,6 @@ def test_the_table_of_open_combinations_agrees_with_ranks_and_the_theorem() -> N
     bodies = [[0.5, 1.0, 1.25], [1.0, 1.0, 0.6]]
     parameters = {"bodies": bodies, "field": field, "omega": omega, "z": 0.3}
     rows = compute("identified", Request((), parameters, 2)).rows
-    found = [(int(row[2].digits), int(row[4].digits)) for row in rows]
-    assert found == [(1, 0), (3, 1)] * 2
+    counts = [(int(row[2].digits), int(row[4].digits)) for row in rows]
+    assert counts == [(1, 0), (3, 1)] * 2
     assert [6 - rank(np.array(body), np.array(field), np.array(omega)) for body in bodies] == [1, 1]

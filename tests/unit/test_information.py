@@ -19,8 +19,8 @@ def test_deviations_are_those_of_differences_of_the_motion() -> None:
 
     J = np.array([(rates(inputs + d) - rates(inputs - d)) / (2 * step) for d in step * np.eye(7)]).T / 0.01
     motion = atlas.motion(0.7, field=(0.0, 1.0, 2.0), omega=(0.3, 0.7, 0.2))
-    found = expected_errors(motion, NAMES, T, "angular_velocity", 0.01)
-    np.testing.assert_allclose(found, np.sqrt(np.diag(np.linalg.inv(J.T @ J))), rtol=1e-5)
+    errors = expected_errors(motion, NAMES, T, "angular_velocity", 0.01)
+    np.testing.assert_allclose(errors, np.sqrt(np.diag(np.linalg.inv(J.T @ J))), rtol=1e-5)
 
 
 @pytest.mark.parametrize("reading", ["rotation", "axis", "angular_velocity"])

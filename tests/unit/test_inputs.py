@@ -28,12 +28,12 @@ def test_numbers_of_any_kind_become_floats() -> None:
 def test_computed_values_are_finite_everywhere(place: int, bad: float) -> None:
     """One value that is not, of a number, of an array, and in any member of several, is told; none passes as it is."""
     array = np.arange(4.0)
-    good = (1.0, array, np.ones((2, 2)), 3.0)
-    assert inputs.finite(good, "It") is good
+    values_good = (1.0, array, np.ones((2, 2)), 3.0)
+    assert inputs.finite(values_good, "It") is values_good
     assert inputs.finite(array, "It") is array
-    wrong = np.where(np.arange(4) == place, bad, array)
-    several = (*good[:place], np.array([0.0, bad]), *good[place + 1 :])
-    for values in (wrong, several, bad):
+    values_wrong = np.where(np.arange(4) == place, bad, array)
+    values_several = (*values_good[:place], np.array([0.0, bad]), *values_good[place + 1 :])
+    for values in (values_wrong, values_several, bad):
         with pytest.raises(DomainError, match=r"^It is too large for a float"):
             inputs.finite(values, "It")
 
@@ -103,8 +103,8 @@ def test_a_square_array_is_no_vectors_in_rows(make: Callable[[Any], Any], kind: 
 def test_a_tuple_of_components_is_an_array_of_vectors() -> None:
     """As many as each component has numbers, three too."""
     rows = np.array([[0.3, 0.7, 0.2], [0.1, 0.5, 0.4], [0.9, 0.2, 0.6]])
-    found = atlas.FreeMotion(1.5, tuple(rows.T)).k
-    assert found.tolist() == [atlas.FreeMotion(1.5, row).k for row in rows]
+    k = atlas.FreeMotion(1.5, tuple(rows.T)).k
+    assert k.tolist() == [atlas.FreeMotion(1.5, row).k for row in rows]
 
 
 @pytest.mark.parametrize("value", [{1.0: 2.0, 2.0: 3.0}, {1.0, 2.0}, b"\x01\x02", bytearray(2)])

@@ -57,10 +57,10 @@ def test_the_constants_of_a_general_motion_are_rounded_once(size: float) -> None
     for i, (I, row) in enumerate(zip(ratios, rows.T, strict=True)):
         I2, (B2, B3, w1, w2, w3) = Fraction(I), map(Fraction, row.tolist())
         c3 = w3 + B3
-        along = (w2 + B2) * B2 + I2 * c3 * B3
-        true = [w1**2 + w2**2 + I2 * w3**2, B2**2 + B3**2, c3, w2 * B2 - w3**2 + (2 - I2) * c3 * w3, along]
-        one = atlas.GeneralMotion(I, tuple(row[:2]), tuple(row[2:]))
-        assert list(one.invariants().values()) == [float(x) for x in true]
+        p = (w2 + B2) * B2 + I2 * c3 * B3
+        true = [w1**2 + w2**2 + I2 * w3**2, B2**2 + B3**2, c3, w2 * B2 - w3**2 + (2 - I2) * c3 * w3, p]
+        motion = atlas.GeneralMotion(I, tuple(row[:2]), tuple(row[2:]))
+        assert list(motion.invariants().values()) == [float(x) for x in true]
         assert [x[i] for x in motions.invariants().values()] == [float(x) for x in true]
 
 
@@ -79,8 +79,8 @@ def test_the_constants_of_a_top_are_rounded_once() -> None:
         M3 = (J3 * z + c3 * n3) / J2
         h = (x**2 + y**2 + J3 / J2 * z**2) / 2 + (a * n3 + A * n3**2 / 2) / J2
         true = [float(h), float(M3), float((y + c2 * n2 / J2) * n2 + M3 * n3)]
-        found = [value[i] for value in tops.invariants().values()]
-        assert found == true, i
+        constants = [value[i] for value in tops.invariants().values()]
+        assert constants == true, i
 
 
 @pytest.mark.parametrize(("unit", "size"), [(1.0, 1.0), (2.0**-150, 2.0**40), (2.0**150, 2.0**-200)])
@@ -90,7 +90,7 @@ def test_the_integrals_of_a_state_are_rounded_once(unit: float, size: float) -> 
     rng = np.random.default_rng(5)
     Omega, K = rng.normal(size=(2, 30, 3)) * size
     Omega[:10] = -K[:10] * (1 + EPS)
-    found = atlas.clebsch(tensor, Omega, K)
+    result = atlas.clebsch(tensor, Omega, K)
     J = [[Fraction(x) for x in row] for row in tensor.tolist()]
     cofactors = [
         [J[i - 2][j - 2] * J[i - 1][j - 1] - J[i - 2][j - 1] * J[i - 1][j - 2] for j in range(3)] for i in range(3)
@@ -98,19 +98,19 @@ def test_the_integrals_of_a_state_are_rounded_once(unit: float, size: float) -> 
     for i, (spin, field) in enumerate(zip(Omega.tolist(), K.tolist(), strict=True)):
         w, k = [Fraction(x) for x in spin], [Fraction(x) for x in field]
         W = [x + y for x, y in zip(w, k, strict=True)]
-        M, pulled, turned, spun = (
+        M, pulled, b_products, spun = (
             [_products(row, v) for row in m] for m, v in ((J, W), (J, k), (cofactors, k), (J, w))
         )
         true = {
             "H": (_products(M, W) + _products(k, pulled)) / 2,
-            "F": _products(M, M) - _products(k, turned),
+            "F": _products(M, M) - _products(k, b_products),
             "MK": _products(M, k),
             "K2": _products(k, k),
             "energy": _products(w, spun) / 2,
         }
-        one = atlas.clebsch(tensor, Omega[i], K[i])
+        result_alone = atlas.clebsch(tensor, Omega[i], K[i])
         for name, value in true.items():
-            assert getattr(found, name)[i] == getattr(one, name) == float(value), (name, i)
+            assert getattr(result, name)[i] == getattr(result_alone, name) == float(value), (name, i)
 
 
 def test_the_constants_of_an_elliptic_motion_agree_with_its_state() -> None:
@@ -118,8 +118,8 @@ def test_the_constants_of_an_elliptic_motion_agree_with_its_state() -> None:
     body, field, z = (0.8, 1.0, 1.3), (0.2, 1.0, 0.6), np.array([1.7, 2.5])
     many = atlas.EllipticMotion(body, field, z).invariants()
     for i, place in enumerate(z):
-        one = atlas.EllipticMotion(body, field, place)
-        assert {name: value[i] for name, value in many.items()} == one.invariants()
-        assert list(one.invariants().values()) == pytest.approx(
-            list(vars(atlas.clebsch(body, one.omega, field)).values()), rel=16 * EPS
+        motion = atlas.EllipticMotion(body, field, place)
+        assert {name: value[i] for name, value in many.items()} == motion.invariants()
+        assert list(motion.invariants().values()) == pytest.approx(
+            list(vars(atlas.clebsch(body, motion.omega, field)).values()), rel=16 * EPS
         )

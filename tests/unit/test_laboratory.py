@@ -45,8 +45,8 @@ def test_the_dipole_of_a_flying_charge_loses_energy_at_the_rate_of_larmor() -> N
     t = np.arange(32) * 2 * np.pi / omega / 32
     dipole = mu * mass * radius * np.stack([np.cos(omega * t), np.sin(omega * t)], axis=1)
     power = (derivative(dipole, omega, 2) ** 2).sum(1).mean() / (6 * np.pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**3)
-    found = laboratory.damping_of_flight(mu, mass, omega)
-    assert abs(found / (power / (mass * (radius * omega) ** 2 / 2)) - 1) <= 1e-12
+    rate = laboratory.damping_of_flight(mu, mass, omega)
+    assert abs(rate / (power / (mass * (radius * omega) ** 2 / 2)) - 1) <= 1e-12
 
 
 def test_the_magnetic_moment_of_a_ball_radiates_by_its_precession() -> None:
@@ -89,9 +89,9 @@ def test_the_demagnetising_factors_are_means_over_the_wall(shape: str) -> None:
     circle = np.stack([np.cos(w), np.sin(w), 0 * w], axis=1)
     u, weight = np.polynomial.legendre.leggauss(8)
     sphere = np.concatenate([np.c_[np.sqrt(1 - z * z) * circle[:, :2], np.full(64, z)] for z in u])
-    axis, along = np.array([[0.0, 0.0, 1.0]]), np.cross([0.0, 0.0, 1.0], circle)
+    axis, tangents = np.array([[0.0, 0.0, 1.0]]), np.cross([0.0, 0.0, 1.0], circle)
     walls = {"disk": axis, "cylindrical_shell": circle, "spherical_shell": sphere}
-    wires = {"ring": along, "thin_rod": axis}
+    wires = {"ring": tangents, "thin_rod": axis}
     weights = np.repeat(weight / 2, 64) / 64 if shape == "spherical_shell" else None
     if shape in walls:
         N = np.average(np.einsum("ni,nj->nij", walls[shape], walls[shape]), axis=0, weights=weights)
@@ -101,21 +101,21 @@ def test_the_demagnetising_factors_are_means_over_the_wall(shape: str) -> None:
     assert abs(N[0, 0] - N[2, 2] - laboratory.DEMAGNETIZATION[shape]) <= 1e-12
 
 
-@pytest.mark.parametrize("along", [0.0, 0.1, 1 / 3, 0.4, 0.9, 1.0])
+@pytest.mark.parametrize("N_along", [0.0, 0.1, 1 / 3, 0.4, 0.9, 1.0])
 @pytest.mark.parametrize("gaussian", [False, True])
-def test_a_susceptibility_is_taken_while_no_moment_is_infinite(along: float, gaussian: bool) -> None:
+def test_a_susceptibility_is_taken_while_no_moment_is_infinite(N_along: float, gaussian: bool) -> None:
     """Down to -1/N, N the larger of both factors, over 4 pi in Gaussian units, and no factor outside 0 ... 1.
 
     The anisotropy is the difference of the two polarizabilities V chi/(1 + chi N).
     """
     scale = 4 * np.pi if gaussian else 1.0
-    border, across = -1 / max(along, (1 - along) / 2) / scale, (1 - along) / 2
+    border, N_across = -1 / max(N_along, (1 - N_along) / 2) / scale, (1 - N_along) / 2
     chi, unit = border * (1 - 1e-6), 1.0 if gaussian else MAGNETIC_CONSTANT
-    found = laboratory.anisotropy(chi, 2.0, along, gaussian)
-    first, second = (2.0 * chi / (unit * (1 + scale * chi * n)) for n in (along, across))
-    assert found == pytest.approx(first - second, rel=1e-9, abs=1e-9 * abs(first))
+    difference = laboratory.anisotropy(chi, 2.0, N_along, gaussian)
+    chi_along, second = (2.0 * chi / (unit * (1 + scale * chi * n)) for n in (N_along, N_across))
+    assert difference == pytest.approx(chi_along - second, rel=1e-9, abs=1e-9 * abs(chi_along))
     with pytest.raises(AtlasError, match="is not positive"):
-        laboratory.anisotropy(border * (1 + 1e-6), 2.0, along, gaussian)
+        laboratory.anisotropy(border * (1 + 1e-6), 2.0, N_along, gaussian)
     for outside in (-1e-9, 1 + 1e-9):
         with pytest.raises(AtlasError, match=r"in 0 \.\.\. 1"):
             laboratory.anisotropy(chi, 2.0, outside, gaussian)
@@ -126,9 +126,9 @@ def test_the_energy_of_a_magnetised_body_is_that_of_its_moment() -> None:
     chi, V, B = -0.01, 3e-6, 2.0
     N = {"along": 0.0, "across": 0.5}  # a cylindrical surface
     energy = {name: -chi * V * (1 - chi * n) * B * B / (2 * MAGNETIC_CONSTANT) for name, n in N.items()}
-    found = laboratory.diamagnetic_energy(chi, V, B, "cylindrical_shell")
-    assert abs(found / (energy["along"] - energy["across"]) - 1) <= 1e-9
-    assert found == laboratory.diamagnetic_energy(-chi, V, B, "cylindrical_shell") < 0
+    difference = laboratory.diamagnetic_energy(chi, V, B, "cylindrical_shell")
+    assert abs(difference / (energy["along"] - energy["across"]) - 1) <= 1e-9
+    assert difference == laboratory.diamagnetic_energy(-chi, V, B, "cylindrical_shell") < 0
     assert laboratory.diamagnetic_energy(chi, V, B, "sphere") == 0
     assert abs(MAGNETIC_CONSTANT * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**2 - 1) <= 2e-10
     with pytest.raises(AtlasError, match="cylindrical_shell"):
@@ -169,20 +169,20 @@ def test_lines_say_how_far_a_component_swings(spin: float) -> None:
     motion, rows = Dipole(**BALL, spins=()).motion(spin), cells(table("lines", **BALL, spins=[spin], least=3e-3))
     t = np.arange(1 << 14) * 60 / (1 << 14) * motion.period
     window, axis, n = blackmanharris(t.size), motion.column(3, t), np.array([0.0, *motion.direction])
-    across = np.stack([axis[:, 0], axis @ np.cross(n, [1.0, 0.0, 0.0])], 1)
-    for _, f, _, swing, along in rows:
+    components = np.stack([axis[:, 0], axis @ np.cross(n, [1.0, 0.0, 0.0])], 1)
+    for _, f, _, swing, component_along in rows:
         kernel = (1 + (f > 0)) * window / window.sum() * np.exp(-2j * pi * f * t)
-        sides = [abs(kernel @ across @ [np.cos(w), np.sin(w)]) for w in np.linspace(0, pi, 180)]
-        found = max(sides), abs(kernel @ (axis @ n))
-        assert (swing, along) == pytest.approx(found, rel=1e-2, abs=2e-4)
+        sides = [abs(kernel @ components @ [np.cos(w), np.sin(w)]) for w in np.linspace(0, pi, 180)]
+        amplitudes = max(sides), abs(kernel @ (axis @ n))
+        assert (swing, component_along) == pytest.approx(amplitudes, rel=1e-2, abs=2e-4)
 
 
 def test_tables_of_the_levitated_ball_have_one_precession() -> None:
     """The rate of the first table is a line of the second, without a spin too; its sign is that of a fast spin."""
     for spin in (0.0, 500.0):
         ((_, _, _, rate, slow),) = cells(table("levitated", **BALL, spins=[spin]))
-        found = [f for _, f, _, across, _ in cells(table("lines", **BALL, spins=[spin])) if across > 0.1]
-        assert found == [abs(rate)]
+        frequencies = [f for _, f, _, amplitude, _ in cells(table("lines", **BALL, spins=[spin])) if amplitude > 0.1]
+        assert frequencies == [abs(rate)]
         assert rate * slow > 0 or spin == 0
 
 
@@ -192,39 +192,39 @@ def test_deviations_agree_with_a_fit(spin: float) -> None:
     """A fit to noisy looks has the errors of the table, by differences of motions; it tells I3 where the table does."""
     data = table("inferred", **BALL, spins=[spin], samples=400, seconds=0.05, noise=0.01)
     expected = [getattr(row[1], "digits", "") for row in data.rows]
-    one = Dipole(**BALL, spins=()).motion(spin)
+    motion = Dipole(**BALL, spins=()).motion(spin)
     rng, tilt = np.random.default_rng(1), Rotation.from_rotvec([0.3, 0.0, 0.0]).as_matrix()  # the field is along e3
     t = np.sort(rng.uniform(0, 0.05, 400))
-    axis = one.column(3, t) @ tilt.T + rng.normal(0, 0.01, (400, 3))
-    known = dict.fromkeys(["k2", "k3", "quadratic"], 0.0) | {"I3": 1.0}
-    params = {name: {"value": value, "vary": False} for name, value in known.items()}
-    torque, omega3 = one.linear / one.inertia[0], 2 * pi * spin
+    axis = motion.column(3, t) @ tilt.T + rng.normal(0, 0.01, (400, 3))
+    values_fixed = dict.fromkeys(["k2", "k3", "quadratic"], 0.0) | {"I3": 1.0}
+    params = {name: {"value": value, "vary": False} for name, value in values_fixed.items()}
+    torque, omega3 = motion.linear / motion.inertia[0], 2 * pi * spin
     start = dict.fromkeys(["n1", "n2", "omega1", "omega2", "a2"], 0.0)
     start |= {"linear": torque, "omega3": omega3, "a1": 0.3}
     params |= {name: {"value": value, "vary": True} for name, value in start.items()}
-    found = atlas.fit(t, "top", axis=axis, sigma=0.01, params=params)
-    errors = {name: p.stderr for name, p in found.params.items()}
-    across = [found.names.index(name) for name in ("a1", "n2")]  # the axis is at (0, -sin a1, cos a1), n at (0, n2, 1)
-    inclination = np.sqrt(found.covariance[np.ix_(across, across)].sum())
+    fit = atlas.fit(t, "top", axis=axis, sigma=0.01, params=params)
+    errors = {name: p.stderr for name, p in fit.params.items()}
+    indices = [fit.names.index(name) for name in ("a1", "n2")]  # the axis is at (0, -sin a1, cos a1), n at (0, n2, 1)
+    inclination = np.sqrt(fit.covariance[np.ix_(indices, indices)].sum())
     assert [errors["linear"] / abs(torque), inclination, errors["omega3"] / (2 * pi)] == pytest.approx(
         [float(expected[i]) for i in (0, 1, 4)], rel=0.12
     )
-    free = atlas.fit(t, "top", axis=axis, sigma=0.01, params=params | {"I3": {"value": 1.0, "vary": True}})
-    assert (free.params["I3"].stderr is None) == (expected[2] == "")
+    fit_free = atlas.fit(t, "top", axis=axis, sigma=0.01, params=params | {"I3": {"value": 1.0, "vary": True}})
+    assert (fit_free.params["I3"].stderr is None) == (expected[2] == "")
 
 
 def test_the_precession_beyond_larmors_turn_is_that_of_the_general_motion() -> None:
     """By the charge alone; without a susceptibility there is no other, and all of it is what the charge changes."""
-    more = {"radii": [1e-6], "spin": 3.0, "inclination": 0.7}
-    ((_, larmor, own, *_),) = cells(table("beyond_larmor", **DESIGN, **more))
+    parameters = {"radii": [1e-6], "spin": 3.0, "inclination": 0.7}
+    ((_, larmor, precession, *_),) = cells(table("beyond_larmor", **DESIGN, **parameters))
     body = atlas.SymmetricBody.spheroid(mass=1.0, equatorial=1.0, polar=0.5)
     B = np.sin(0.7), np.cos(0.7)
     motion = atlas.GeneralMotion(body, B, (0.0, -B[0], 3 - B[1]))
-    assert own / larmor == pytest.approx(motion.precession_rate + 1, rel=5e-3)
+    assert precession / larmor == pytest.approx(motion.precession_rate + 1, rel=5e-3)
     ((_, _, one, none, two, changed, quotient, *_),) = cells(
-        table("beyond_larmor", **(DESIGN | {"susceptibility": 0.0}), **more)
+        table("beyond_larmor", **(DESIGN | {"susceptibility": 0.0}), **parameters)
     )
-    assert one == two == own == changed
+    assert one == two == precession == changed
     assert none == quotient == 0
 
 
@@ -234,17 +234,19 @@ def test_the_charge_changes_less_than_its_own_precession() -> None:
 
     The potentials A nu^2/2 and (A + A_own) nu^2/2 act on one momentum; A is scaled down until a step can follow.
     """
-    more = {"radii": [1e-6], "spin": 3.0, "inclination": 0.7}
+    parameters = {"radii": [1e-6], "spin": 3.0, "inclination": 0.7}
     design = DESIGN | {"susceptibility": -1.2e-6}
-    ((_, larmor, own, induced, both, changed, quotient, _, pressure),) = cells(table("beyond_larmor", **design, **more))
-    assert changed < own / 2
-    assert both > induced > own
+    ((_, larmor, precession, induced, precession_both, changed, quotient, _, pressure),) = cells(
+        table("beyond_larmor", **design, **parameters)
+    )
+    assert changed < precession / 2
+    assert precession_both > induced > precession
     I = atlas.SymmetricBody.spheroid(mass=1.0, equatorial=1.0, polar=0.5).ratio
     rates = [integrated_precession(3 * I, 0.7, (I - 1) * x) for x in (1.0, quotient, quotient + 1)]
     expected = rates[0], rates[1], rates[2], rates[2] - rates[1]
-    assert np.array([own, induced, both, changed]) / larmor == pytest.approx(expected, rel=2e-2)
-    ((*_, least),) = cells(table("beyond_larmor", **(design | {"susceptibility": 0.0}), **more))
-    assert pressure / least == pytest.approx(changed / own, rel=1e-2)
+    assert np.array([precession, induced, precession_both, changed]) / larmor == pytest.approx(expected, rel=2e-2)
+    ((*_, least),) = cells(table("beyond_larmor", **(design | {"susceptibility": 0.0}), **parameters))
+    assert pressure / least == pytest.approx(changed / precession, rel=1e-2)
 
 
 def integrated_precession(M3: float, inclination: float, A: float) -> float:

@@ -89,8 +89,8 @@ def test_printed_numbers_of_tables_have_keys(made: Path, numbers: dict[str, tupl
     texts = [(made / "tables" / f"{name}.tex").read_text("utf-8") for name in ("numbers", "samples")]
     rows = [line for text in texts for line in text.partition(r"\midrule")[2].splitlines() if line.endswith(r"\\")]
     printed = [cell.strip() for row in rows for cell in row.removesuffix(r"\\").split("&")]
-    found = [cell for cell in printed if re.fullmatch(r"-?\d[\d.]*(e-?\d+)?", cell)]
-    assert sorted(found) == sorted(value for _, value, _ in numbers.values())
+    numerals = [cell for cell in printed if re.fullmatch(r"-?\d[\d.]*(e-?\d+)?", cell)]
+    assert sorted(numerals) == sorted(value for _, value, _ in numbers.values())
 
 
 def test_words_formulas_and_citations_are_latex(made: Path) -> None:
@@ -147,9 +147,9 @@ needs_latex = pytest.mark.skipif(
 
 def compiled(folder: Path, file: str) -> tuple[int, str, str]:
     """Compile a file; return the status, the log, and the words of the PDF."""
-    told: dict[str, Any] = {"cwd": folder, "capture_output": True, "text": True, "errors": "replace"}
-    done = subprocess.run([LATEX, "-interaction=nonstopmode", file], check=False, timeout=120, **told)
-    words = subprocess.run([TO_TEXT, Path(file).with_suffix(".pdf").name, "-"], check=False, **told)
+    options: dict[str, Any] = {"cwd": folder, "capture_output": True, "text": True, "errors": "replace"}
+    done = subprocess.run([LATEX, "-interaction=nonstopmode", file], check=False, timeout=120, **options)
+    words = subprocess.run([TO_TEXT, Path(file).with_suffix(".pdf").name, "-"], check=False, **options)
     return done.returncode, done.stdout, words.stdout
 
 
@@ -194,8 +194,8 @@ def test_the_report_of_a_page_has_keys_by_the_names_in_python(tmp_path: Path) ->
     """LaTeX prints such a number with its unit; a float that is not certified has no key."""
     blocks = "".join(
         f'[[pages.blocks]]\nkind = "table"\ntable = "properties"\nid = "{family}"\nbody = "b"\nfield = "f"\n'
-        f'parameters = {{ family = "{family}", {more} }}\n'
-        for family, more in (("general", "omega = [0.3, 0.7, 0.2]"), ("hyperbola", "given = false"))
+        f'parameters = {{ family = "{family}", {parameters} }}\n'
+        for family, parameters in (("general", "omega = [0.3, 0.7, 0.2]"), ("hyperbola", "given = false"))
     )
     text = f"""name = "own"
 title = "Own"
@@ -205,16 +205,18 @@ slug = "index"
 title = "Own"
 {blocks}"""
     (tmp_path / "own.toml").write_text(text, encoding="utf-8")
-    made = build_tex(tmp_path / "own.toml", tmp_path / "out").parent
-    found = {key: (value, unit) for key, _, value, unit in KEY.findall((made / "atlas-numbers.tex").read_text("utf-8"))}
-    assert {unit for _, unit in found.values()} == {"", "rad", "time", "time^{-1}", "time^{-2}"}
-    assert {"general/roots_0", "general/period", "hyperbola/pole"} < set(found)
-    assert "hyperbola/least_stability" in found
+    folder = build_tex(tmp_path / "own.toml", tmp_path / "out").parent
+    keys = {
+        key: (value, unit) for key, _, value, unit in KEY.findall((folder / "atlas-numbers.tex").read_text("utf-8"))
+    }
+    assert {unit for _, unit in keys.values()} == {"", "rad", "time", "time^{-1}", "time^{-2}"}
+    assert {"general/roots_0", "general/period", "hyperbola/pole"} < set(keys)
+    assert "hyperbola/least_stability" in keys
     head = "\\documentclass{article}\\usepackage{siunitx}\\input{atlas-numbers}\\begin{document}"
-    (made / "all.tex").write_text(head + " ".join(rf"\atlas{{{key}}}" for key in found) + r"\end{document}", "utf-8")
-    status, log, printed = compiled(made, "all.tex")
+    (folder / "all.tex").write_text(head + " ".join(rf"\atlas{{{key}}}" for key in keys) + r"\end{document}", "utf-8")
+    status, log, printed = compiled(folder, "all.tex")
     assert status == 0, log[-2000:]
-    assert found["general/period"][0].replace(" ", "") in re.sub(r"[\s\u2009\u202f]", "", printed)
+    assert keys["general/period"][0].replace(" ", "") in re.sub(r"[\s\u2009\u202f]", "", printed)
 
 
 @pytest.mark.parametrize(
@@ -230,12 +232,12 @@ def test_a_formula_that_pages_refuse_is_refused_here(formula: str, tmp_path: Pat
     file = tmp_path / "own.toml"
     page = f"[[pages]]\nslug = 'index'\ntitle = 'Own'\nblocks = [{{ kind = 'prose', text = '${formula}$' }}]\n"
     file.write_text(f"name = 'own'\ntitle = 'Own'\n{page}", encoding="utf-8")
-    said = set()
+    messages = set()
     for make in (build_report, build_tex):
         with pytest.raises(AtlasError, match=r"block 1 \(prose\): ") as refused:
             make(file, tmp_path / "out")
-        said.add(str(refused.value))
-    assert len(said) == 1
+        messages.add(str(refused.value))
+    assert len(messages) == 1
 
 
 @pytest.mark.parametrize(
@@ -293,4 +295,4 @@ def test_a_number_that_is_not_proven_has_no_key() -> None:
     table = TableView(
         1, "tab-x", (ColumnView(0, None, numeric=True, before=0.0, after=0.0),), tuple(cells), 0, 0, None, "x"
     )
-    assert [one.value for one in _numbers(table, ["k"])] == ["1.5"]
+    assert [entry.value for entry in _numbers(table, ["k"])] == ["1.5"]

@@ -204,8 +204,8 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Room:
 def test_every_library_is_watched() -> None:
     """Each library that the package depends on is small or counts as heavy."""
     project = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    needed = {line.split(">=")[0] for line in [*project["dependencies"], *project["optional-dependencies"]["bench"]]}
-    assert needed == {*HEAVY, "click", "platformdirs", "fsspec", "uncertainties"}
+    libraries = {line.split(">=")[0] for line in [*project["dependencies"], *project["optional-dependencies"]["bench"]]}
+    assert libraries == {*HEAVY, "click", "platformdirs", "fsspec", "uncertainties"}
 
 
 def test_every_command_has_a_case() -> None:
@@ -267,15 +267,15 @@ def test_help_loads_nothing_heavy() -> None:
 
 def test_help_is_there_at_once() -> None:
     """``atlas --help`` loads few modules of ours, the register and click, and little that these do not need."""
-    found = loaded_by(
+    modules = loaded_by(
         "from atlas.cli import main\n"
         "try:\n"
         "    main(['--help'])\n"
         "except SystemExit as end:\n"
         "    assert not end.code, end.code"
     )
-    other = {name for name in found if name.split(".")[0] not in sys.stdlib_module_names}
-    ours = {name for name in other if name.split(".")[0] != "click"}
+    foreign_modules = {name for name in modules if name.split(".")[0] not in sys.stdlib_module_names}
+    ours = {name for name in foreign_modules if name.split(".")[0] != "click"}
     families = {name for name in ours if name.rpartition(".")[2].startswith("family")}
     assert families
     assert ours - families <= {
@@ -291,8 +291,8 @@ def test_help_is_there_at_once() -> None:
         "atlas.viewers",
     }
     # click asks shutil how wide the terminal is
-    needed = loaded_by("import click, dataclasses, difflib, shutil, textwrap")
-    assert len(found - other - needed) <= 5
+    modules_click = loaded_by("import click, dataclasses, difflib, shutil, textwrap")
+    assert len(modules - foreign_modules - modules_click) <= 5
 
 
 @pytest.mark.slow

@@ -24,12 +24,12 @@ from atlas.motions.nutation.swing import Swing
 EPS = 2.0**-52
 
 
-def top(*parts: Any) -> SingleTop:
+def top(*inputs: Any) -> SingleTop:
     """Return a top made alone."""
-    return SingleTop(balls(*np.hstack(parts).tolist()))
+    return SingleTop(balls(*np.hstack(inputs).tolist()))
 
 
-def drawn(regime: str, count: int) -> Iterator[SingleMotion]:
+def draw_motions(regime: str, count: int) -> Iterator[SingleMotion]:
     """Yield motions of a regime, those left out that floats do not hold."""
     random = Random(3)  # noqa: S311  reproducible, not secret
     for _ in range(count):
@@ -48,30 +48,30 @@ def swinging() -> Iterator[SingleTop]:
     for e, d in ((0.0, 1e-30), (1e-15, 0.0), (0.0, 1e-10), (1e-3, 0.0)):
         yield top((1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (2.0 + e, 0.0, d), 0.0, 3.0)
     for regime in TOPS:
-        for one in drawn(regime, 29 if regime == "top, near the cubic" else 9):
-            if isinstance(one, SingleTop) and isinstance(one.pair.swing, Swing):
-                yield one
+        for motion in draw_motions(regime, 29 if regime == "top, near the cubic" else 9):
+            if isinstance(motion, SingleTop) and isinstance(motion.pair.swing, Swing):
+                yield motion
 
 
 @pytest.mark.slow
 def test_the_further_turn_of_a_top_is_that_of_balls() -> None:
     """Its part that is periodic, all through half a period, within 8 ulp of one or of itself, in all its forms."""
     forms = set()
-    for one in swinging():
-        swing = one.pair.swing
-        with ctx.workprec(one.pair.precision + 64):
-            exact = one.exact.solution.swing
+    for motion in swinging():
+        swing = motion.pair.swing
+        with ctx.workprec(motion.pair.precision + 64):
+            exact = motion.exact.solution.swing
             half, rate = exact.lattice.half, exact.lattice.rate
             forms.add((swing.form, swing.sign))
             ends = (half, exact.depth / rate if swing.form == "hyperbolic" and swing.sign > 0 else half / 3)
             for s in (end * k / 7 for end in ends for k in (-7, -5, 1, 2, 4, 6, 8) if abs(end * k / 7) <= half):
                 x, true = rate * s, exact.kappa * exact.oscillation(s) / 2
                 if swing.form == "trigonometric":
-                    parts = (2 * x).cos(), (2 * x).sin()
-                    found = swing.of_circle(*(np.asarray(swing._number(part)) for part in parts))
+                    components = (2 * x).cos(), (2 * x).sin()
+                    angle = swing.of_circle(*(np.asarray(swing._number(component)) for component in components))
                 else:
-                    found = swing.of_line(np.asarray(swing._number(x)))
-                assert abs(float(true) - float(found)) <= 8 * EPS * max(1.0, abs(float(true)))
+                    angle = swing.of_line(np.asarray(swing._number(x)))
+                assert abs(float(true) - float(angle)) <= 8 * EPS * max(1.0, abs(float(true)))
     assert {("hyperbolic", 1), ("hyperbolic", -1), ("trigonometric", -1), ("trigonometric", 1)} <= forms
 
 
@@ -79,13 +79,13 @@ def test_the_further_turn_of_a_top_is_that_of_balls() -> None:
 def test_a_top_with_the_integrals_of_a_spin_moves_as_balls_do(k3: float) -> None:
     """One of its two parameters is constant; R is within 16 ulp(1) at any time, whatever the further turn."""
     omega, potential = (0.0, 0.5, 2.0 - 6.0 * k3 / 5.0), (1.5625 + 2.0 * k3, -1.5625 - 2.0 * k3 * k3)
-    one = top((1.0, 0.5), (0.0, k3), (4.0, 3.0), omega, potential)
-    assert one.pair.functions.constant
-    assert (one.pair.swing and one.pair.swing.is_large) == {0.0: None, 1.25: False, 20.0: True}[k3]
+    top_still = top((1.0, 0.5), (0.0, k3), (4.0, 3.0), omega, potential)
+    assert top_still.pair.functions.constant
+    assert (top_still.pair.swing and top_still.pair.swing.is_large) == {0.0: None, 1.25: False, 20.0: True}[k3]
     for t in (0.3, -7.7, 1e4):
         with ctx.workprec(300):
-            true = [[float(x) for x in row] for row in one.exact.rotation(t)]
-        assert np.abs(one.rotation(t) - true).max() <= 16 * EPS
+            true = [[float(x) for x in row] for row in top_still.exact.rotation(t)]
+        assert np.abs(top_still.rotation(t) - true).max() <= 16 * EPS
 
 
 @pytest.mark.parametrize(("slope", "start"), [(0.7, 0.0), (0.7, 1.3), (-3e-5, 2e9), (1e120, -1e3), (2.0, -1e-30)])
@@ -94,10 +94,10 @@ def test_a_line_is_known_to_two_words(slope: float, start: float) -> None:
     with ctx.workprec(400):
         a, b = arb(slope) / 3, arb(start) / 7
         t = np.random.default_rng(0).normal(size=50) * 10.0 / (abs(slope) or 1.0)
-        rest = t * 2.0**-54
-        x, left = Line(a, b).at(t, rest)
-        assert (abs(left) <= 4 * np.spacing(abs(x) + abs(float(b)))).all()
-        for time, less, high, low in zip(t.tolist(), rest.tolist(), x.tolist(), left.tolist(), strict=True):
+        low_word = t * 2.0**-54
+        x, deficit = Line(a, b).at(t, low_word)
+        assert (abs(deficit) <= 4 * np.spacing(abs(x) + abs(float(b)))).all()
+        for time, less, high, low in zip(t.tolist(), low_word.tolist(), x.tolist(), deficit.tolist(), strict=True):
             size = abs(a * time) + abs(b)
             assert abs(arb(high) + arb(low) - a * (arb(time) + arb(less)) - b) <= size * 2.0**-100
 
@@ -105,7 +105,7 @@ def test_a_line_is_known_to_two_words(slope: float, start: float) -> None:
 ZERO, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
 
 
-def along(x: Any, unit: Any) -> Any:
+def parallel_to(x: Any, unit: Any) -> Any:
     """Return a vector for each number of an array."""
     return np.asarray(x)[:, None] * np.array(unit)
 
@@ -142,11 +142,11 @@ CASES: list[tuple[Callable[[Any], Any], float, float, str]] = [
     (lambda x: atlas.Hyperbola(1.5, (1.25, 2.0)).omega3(x), 1.0, -1.25, "-B2 = -1.25 is the pole"),
     (lambda x: particle(c=x), 1.0, -2.0, "c must be positive, not -2.0"),
     (lambda x: particle(mu=x).drift, 1.0, 0.0, "no drift"),
-    (lambda x: particle(E=along(x, (0.0, 1.0, 0.0))).axes, 1.0, 0.0, "no axis along"),
-    (lambda x: particle(B=ZERO, v=along(x, UP)).position(10.0), 1.0, 1.7e308, "The position is too large"),
-    (lambda x: particle(B=ZERO, E=along(x, UP), mu=4.0), 1.0, 1.7e308, "The acceleration mu E is too large"),
+    (lambda x: particle(E=parallel_to(x, (0.0, 1.0, 0.0))).axes, 1.0, 0.0, "no axis along"),
+    (lambda x: particle(B=ZERO, v=parallel_to(x, UP)).position(10.0), 1.0, 1.7e308, "The position is too large"),
+    (lambda x: particle(B=ZERO, E=parallel_to(x, UP), mu=4.0), 1.0, 1.7e308, "The acceleration mu E is too large"),
     (lambda x: Wells(0.3, 0.5).potential(0.2, x), 0.5, -1.0, "both left out"),
-    (lambda x: momentum_map(1.5, UP, along(x, UP)), 1.0, 0.0, "needs a field"),
+    (lambda x: momentum_map(1.5, UP, parallel_to(x, UP)), 1.0, 0.0, "needs a field"),
     (lambda x: atlas.Field(B=(*x, 1.0), mu=0.5), 1.0, 5e-324, "too small"),
     (lambda x: atlas.SymmetricBody.from_point_masses((*x, 1, 1), np.eye(4, 3)), 1.0, -1.0, "one is -1.0"),
     (lambda x: mass_matrix_from_inertia(skew(x)), 1.0, 2.0, "must be symmetric"),
@@ -154,17 +154,17 @@ CASES: list[tuple[Callable[[Any], Any], float, float, str]] = [
 
 
 @pytest.mark.parametrize(
-    ("make", "good", "bad", "says"), CASES, ids=[f"{k}: {case[3]}" for k, case in enumerate(CASES)]
+    ("make", "value_good", "bad", "says"), CASES, ids=[f"{k}: {case[3]}" for k, case in enumerate(CASES)]
 )
 def test_one_bad_entry_is_refused_and_none_is_not(
-    make: Callable[[Any], Any], good: float, bad: float, says: str
+    make: Callable[[Any], Any], value_good: float, bad: float, says: str
 ) -> None:
     """Whether it comes first or last, or all are bad."""
-    make(np.array([good, good]))
-    for entries in ([bad, good], [good, bad], [bad, bad]):
-        with pytest.raises(atlas.AtlasError) as told, np.errstate(all="ignore"):
+    make(np.array([value_good, value_good]))
+    for entries in ([bad, value_good], [value_good, bad], [bad, bad]):
+        with pytest.raises(atlas.AtlasError) as refused, np.errstate(all="ignore"):
             make(np.array(entries))
-        assert says in str(told.value)
+        assert says in str(refused.value)
 
 
 TWO = np.array([0.7, 1.2])
@@ -186,14 +186,14 @@ OF_TIME = (
 @pytest.mark.parametrize("shape", [(), (1,), (0, 2), (3, 2), (1001, 2)], ids=str)
 def test_functions_of_time_of_an_array_agree_with_each_motion(make: Callable[[Any], Any], shape: Any) -> None:
     """Shapes too, at no, a few and many times each, within 24 ulp(1); what is constant is so to the bit."""
-    many, each = make(TWO), [make(float(x)) for x in TWO]
+    many, motions = make(TWO), [make(float(x)) for x in TWO]
     t = np.linspace(-2.0, 3.0, int(np.prod(shape))).reshape(shape)
     for name in OF_TIME:
         if not hasattr(many, name):
             continue
-        found, true = (
+        values, true = (
             getattr(many, name)(t),
-            [getattr(one, name)(np.broadcast_to(t, (*shape[:-1], 2))[..., i]) for i, one in enumerate(each)],
+            [getattr(motion, name)(np.broadcast_to(t, (*shape[:-1], 2))[..., i]) for i, motion in enumerate(motions)],
         )
-        assert found.shape == np.stack(true, axis=len(shape[:-1])).shape
-        assert np.abs(found - np.stack(true, axis=len(shape[:-1]))).max(initial=0.0) <= 24 * 2.0**-52 * 4, name
+        assert values.shape == np.stack(true, axis=len(shape[:-1])).shape
+        assert np.abs(values - np.stack(true, axis=len(shape[:-1]))).max(initial=0.0) <= 24 * 2.0**-52 * 4, name

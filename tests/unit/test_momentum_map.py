@@ -20,12 +20,12 @@ def test_elementary_motions_are_critical_values(ratio: float, field: tuple, omeg
     """The map of an elementary motion is that of the steady precession w = k + b, r = B3/b; 64 eps of its terms."""
     motion = atlas.ElementaryMotion(ratio, field, omega2)
     b = float(np.hypot(*field))
-    found = momentum_map(ratio, motion.angular_velocity(0.3), motion.field_in_body(0.3))
+    point = momentum_map(ratio, motion.angular_velocity(0.3), motion.field_in_body(0.3))
     w, r, A = motion.k + b, field[1] / b, (ratio - 1) * b * b
     M3 = r * (w + A / w)
     h = M3 * M3 / ratio + b * b + Wells(M3, A).energy(r, w)
     true = M3, w * (1 - r * r) + r * M3, h
-    assert (found.M3, found.p, found.h) == pytest.approx(true, abs=64 * EPS * 100)
+    assert (point.M3, point.p, point.h) == pytest.approx(true, abs=64 * EPS * 100)
     stability = atlas.Hyperbola(ratio, field).stability(omega2)
     assert nutation_squared(A, 0.0, w, r) == pytest.approx(stability, abs=64 * EPS * 100)
 
@@ -35,10 +35,10 @@ def test_spins_on_the_axis_are_critical_values() -> None:
     for ratio in (0.5, 1.0, 1.7):
         for B3 in (1.5, -1.5):
             state = atlas.ElementaryMotion(ratio, (0.0, B3), 0.0, 0.4)
-            found = momentum_map(ratio, state.angular_velocity(0.0), state.field_in_body(0.0))
+            point = momentum_map(ratio, state.angular_velocity(0.0), state.field_in_body(0.0))
             M3 = ratio * (0.4 + B3)
             p, g, D = Wells(M3, (ratio - 1) * B3**2).spin(int(np.sign(B3)))
-            assert (found.M3, found.p, found.h) == pytest.approx((M3, p, M3**2 / ratio + B3**2 + g), abs=64 * EPS)
+            assert (point.M3, point.p, point.h) == pytest.approx((M3, p, M3**2 / ratio + B3**2 + g), abs=64 * EPS)
             assert pytest.approx(ratio**2 * (0.4 + B3) ** 2 + 4 * (1 - ratio) * B3**2, abs=64 * EPS) == D
 
 
@@ -147,9 +147,9 @@ def test_maps_agree_with_a_simulation(ratio: float) -> None:
     """The range of nu, and whether the precession turns back, are those of a long simulation, to 1e-3 of the range."""
     rng = np.random.default_rng(8)
     field = (1.0, 0.3)
-    for first in (0.0, 0.5):
+    for factor in (0.0, 0.5):
         omega = rng.normal(size=(2, 3))
-        omega[:, 0] *= first
+        omega[:, 0] *= factor
         ends = np.array(atlas.GeneralMotion(ratio, field, tuple(omega.T)).turning_points)
         high, low = (omega[:, 2] + field[1] - ends) / np.hypot(*field)
         traces = trace_map(ratio, field, omega)
@@ -165,8 +165,8 @@ def test_maps_agree_with_a_simulation(ratio: float) -> None:
 def test_where_the_axis_stops_the_potential_is_the_energy() -> None:
     """With omega1 = 0 and K in the plane (e2, e3) dtheta = 0 and V = h, for any body, field and rate, to rounding."""
     for B2, B3, w2, w3, I in np.random.default_rng(4).uniform(0.2, 2.0, (20, 5)):
-        found, b = momentum_map(I, (0.0, w2, w3), (0.0, B2, B3)), np.hypot(B2, B3)
-        assert potential(I, b, found.M3, found.p, B3 / b) == pytest.approx(found.h, rel=64 * EPS)
+        point, b = momentum_map(I, (0.0, w2, w3), (0.0, B2, B3)), np.hypot(B2, B3)
+        assert potential(I, b, point.M3, point.p, B3 / b) == pytest.approx(point.h, rel=64 * EPS)
 
 
 def test_arguments_outside_the_map_are_refused() -> None:

@@ -28,7 +28,7 @@ def potential(name: str) -> Wells:
     return Wells(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
 
 
-def carried(name: str, points: int = 32) -> tuple[Wells, Monodromy]:
+def monodromy_of(name: str, points: int = 32) -> tuple[Wells, Monodromy]:
     """Return the potential and the lattice carried round the loop of one case."""
     I, (k2, k3), M3, p, linear, quadratic, _ = CASES[name]
     wells = potential(name)
@@ -48,8 +48,8 @@ def quadrature(name: str, p: float, g: float) -> np.ndarray:
     )
     count = 20_000
     nu = (low + high) / 2 + (high - low) / 2 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
-    rest = np.polydiv(q, [-1.0, low + high, -low * high])[0]
-    dt = 2 * np.pi / count / np.sqrt(np.polyval(rest, nu))
+    q_rest = np.polydiv(q, [-1.0, low + high, -low * high])[0]
+    dt = 2 * np.pi / count / np.sqrt(np.polyval(q_rest, nu))
     turn = (p - M3 * nu) / ((1 - nu) * (1 + nu))
     return np.array(
         [dt.sum(), ((turn - k2) * dt).sum() / (2 * np.pi), ((M3 / I - nu * turn + kappa * nu) * dt).sum() / (2 * np.pi)]
@@ -62,17 +62,17 @@ def test_the_lattice_is_that_of_a_quadrature_all_round_the_loop(name: str) -> No
 
     Carried on by themselves the angles of the quadrature change by the same whole turns.
     """
-    wells, found = carried(name)
-    true = np.array([quadrature(name, p, g) for p, g in zip(found.p, found.g, strict=True)])
-    assert found.period == pytest.approx(true[:, 0], rel=1e-9)
-    apart = found.turns - true[:, 1:]
-    assert np.abs(apart - np.round(apart)).max() <= 1e-9
+    wells, monodromy = monodromy_of(name)
+    true = np.array([quadrature(name, p, g) for p, g in zip(monodromy.p, monodromy.g, strict=True)])
+    assert monodromy.period == pytest.approx(true[:, 0], rel=1e-9)
+    differences = monodromy.turns - true[:, 1:]
+    assert np.abs(differences - np.round(differences)).max() <= 1e-9
     carried_on = np.unwrap(true[:, 1:], axis=0, period=1.0)
     m, n = -(carried_on[-1] - carried_on[0])
-    assert found.matrix == ((1, 0, 0), (0, 1, 0), (round(m), round(n), 1))
+    assert monodromy.matrix == ((1, 0, 0), (0, 1, 0), (round(m), round(n), 1))
     assert (round(m), round(n)) == CASES[name][-1]
-    assert found.radius <= 2.0**-80
-    assert found.step < 1 / 4
+    assert monodromy.radius <= 2.0**-80
+    assert monodromy.step < 1 / 4
     assert wells.spin(1)[0] == wells.M3
 
 
@@ -80,7 +80,7 @@ def test_the_lattice_is_that_of_a_quadrature_all_round_the_loop(name: str) -> No
 def test_the_turn_is_made_where_the_axis_passes_through_the_pole(name: str) -> None:
     """By theorem-residue the angles of one nutation jump by a turn where p = sigma M3 above the spin, not below it."""
     _, _, M3, p, *_ = CASES[name]
-    wells, _ = carried(name)
+    wells, _ = monodromy_of(name)
     sigma = 1 if p == M3 else -1
     _, spin, D = wells.spin(sigma)
     assert D < 0
@@ -96,10 +96,10 @@ def test_a_loop_run_backwards_has_the_inverse_matrix() -> None:
     """And half the points give the same."""
     I, coupling, M3, p, linear, *_ = CASES["heavy top"]
     loop = around(Wells(M3, 0.0, linear), p, 32)
-    there, back, half = (on_loop(I, coupling, M3, one, linear) for one in (loop, loop[::-1], loop[::2]))
-    assert (np.array(there.matrix) @ np.array(back.matrix) == np.eye(3)).all()
-    assert half.matrix == there.matrix
-    assert half.step > there.step
+    forward, back, half = (on_loop(I, coupling, M3, path, linear) for path in (loop, loop[::-1], loop[::2]))
+    assert (np.array(forward.matrix) @ np.array(back.matrix) == np.eye(3)).all()
+    assert half.matrix == forward.matrix
+    assert half.step > forward.step
 
 
 @pytest.mark.parametrize(
@@ -124,11 +124,11 @@ def test_periods_that_balls_do_not_tell_are_refused() -> None:
         on_loop(1e-160, (0.0, 0.0), 5e-161, loop, 1e-160)
 
 
-@pytest.mark.parametrize("given", [((1.0, 0.5), [0.5]), ((1.0, 0.5), "a"), ((1.0, [0.5]), 0.5)])
-def test_non_numbers_of_a_top_are_refused_in_one_line(given: Any) -> None:
+@pytest.mark.parametrize("arguments", [((1.0, 0.5), [0.5]), ((1.0, 0.5), "a"), ((1.0, [0.5]), 0.5)])
+def test_non_numbers_of_a_top_are_refused_in_one_line(arguments: Any) -> None:
     """Text and lists in the place of a number are AtlasErrors."""
     with pytest.raises(atlas.AtlasError, match=r"^A parameter of the top must be [^\n]*$"):
-        atlas.monodromy(*given, linear=1.0)
+        atlas.monodromy(*arguments, linear=1.0)
 
 
 def test_a_stable_spin_has_no_loop() -> None:
@@ -160,7 +160,7 @@ def test_curves_of_precessions_run_on_from_end_to_end(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("inertia", "M3", "rest", "third"),
+    ("inertia", "M3", "options", "third"),
     [
         ((1.0, 0.5), 0.5, {"linear": 1.0}, (-1, 1, 1)),
         ((2.0, 3.0), 0.0, {"coupling": (2.0, 3.0), "p": 0.0}, (-2, 0, 1)),
@@ -168,15 +168,15 @@ def test_curves_of_precessions_run_on_from_end_to_end(name: str) -> None:
     ],
 )
 def test_the_matrix_does_not_depend_on_the_unit_of_inertia(
-    inertia: tuple[float, float], M3: float, rest: dict[str, Any], third: tuple[int, int, int]
+    inertia: tuple[float, float], M3: float, options: dict[str, Any], third: tuple[int, int, int]
 ) -> None:
     """Lagrange's top and the disk at M3 = 0; the loop is closed, and the balls of the angles are narrow."""
-    found = atlas.monodromy(inertia, M3, points=32, **rest)
-    assert found.matrix == ((1, 0, 0), (0, 1, 0), third)
-    assert len(found.p) == len(found.turns) == 33
-    assert found.p[0] == found.p[-1]
-    assert found.radius < 1e-30
-    assert found.step < 0.25
+    monodromy = atlas.monodromy(inertia, M3, points=32, **options)
+    assert monodromy.matrix == ((1, 0, 0), (0, 1, 0), third)
+    assert len(monodromy.p) == len(monodromy.turns) == 33
+    assert monodromy.p[0] == monodromy.p[-1]
+    assert monodromy.radius < 1e-30
+    assert monodromy.step < 0.25
 
 
 def test_a_stable_spin_is_refused_whatever_other_wells_there_are() -> None:
@@ -193,17 +193,17 @@ def test_a_stable_spin_is_refused_whatever_other_wells_there_are() -> None:
 @pytest.mark.parametrize("M3", [1.9, 1.99, 1.9999])
 def test_an_unstable_spin_next_to_a_stable_one_has_its_matrix(M3: float) -> None:
     """D = M3^2 - 4 is as little as -4e-4; by theorem-residue the matrix is that of any isolated value."""
-    found = atlas.monodromy((1, 0.5), M3, linear=1)
-    assert found.matrix == ((1, 0, 0), (0, 1, 0), (-1, 1, 1))
-    assert found.step < 0.1
+    monodromy = atlas.monodromy((1, 0.5), M3, linear=1)
+    assert monodromy.matrix == ((1, 0, 0), (0, 1, 0), (-1, 1, 1))
+    assert monodromy.step < 0.1
 
 
 @pytest.mark.parametrize("wells", [Wells(0.93, 0.0, 0.0), Wells(0.0, -1.0, 0.0), Wells(0.5, -1.0, 0.5)])
 def test_precessions_at_any_cosine_are_motions_at_rest_in_the_potential(wells: Wells) -> None:
     """Of w^2 = -A, M3 w = a: the free body that spins about its axis is one. V has no slope there, and a bend."""
-    found = [x for x in wells.precessions(6.0, 50) if np.ptp(x.w) == 0]
-    assert len(found) == (2 if not wells.M3 and wells.A else 1)
-    for branch in found:
+    precessions = [x for x in wells.precessions(6.0, 50) if np.ptp(x.w) == 0]
+    assert len(precessions) == (2 if not wells.M3 and wells.A else 1)
+    for branch in precessions:
         assert np.ptp(branch.r) > 1.99
         for r, p, g, bend in zip(*(x[5:-5] for x in (branch.r, branch.p, branch.g, branch.stable)), strict=True):
             h = 1e-4 * (1 - r * r)

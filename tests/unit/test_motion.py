@@ -24,8 +24,8 @@ def turn(seed: int) -> Any:
 def tensor(seed: int, *moments: float) -> Any:
     """Return the tensor of a body with these moments in odd axes."""
     P = turn(seed)
-    found = P @ np.diag(moments) @ P.T
-    return (found + found.T) / 2
+    matrix = P @ np.diag(moments) @ P.T
+    return (matrix + matrix.T) / 2
 
 
 def integrated(I: Any, B: Any, omega: Any, attitude: Any, t: Any) -> tuple[Any, Any]:
@@ -66,13 +66,13 @@ def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
     R, Omega = integrated(I, B, omega, A, t)
     w = np.matvec(R, Omega)
     assert m.family == family
-    for found, true in (
+    for values, true in (
         (m.rotation(t), R), (m.rotation_grid(0.5, 0.5, 20), R), (m.column(2, t), R[:, :, 1]),
         (Rotation.from_quat(m.quaternion(t)).as_matrix(), R), (m.angular_velocity(t), Omega),
         (m.angular_velocity_in_laboratory(t), w), (m.field_in_body(t), np.vecmat(B, R)),
         (m.angular_momentum(t), np.matvec(R, np.matvec(I, Omega))),
     ):  # fmt: skip
-        assert np.abs(found - true).max() <= 3e-12
+        assert np.abs(values - true).max() <= 3e-12
     assert np.abs(m.rotation(0.0) - A).max() <= 8 * EPS
     assert np.abs(m.angular_velocity(0.0) - omega).max() <= 16 * EPS
     assert np.linalg.norm(np.diff(m.quaternion(np.linspace(0, 10, 1000)), axis=0), axis=-1).max() < 0.1
@@ -81,7 +81,7 @@ def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
 def test_all_ways_to_give_a_body_say_the_same() -> None:
     """A ratio, a body, moments and a tensor; along another axis the same body is that with its axes renamed."""
     B, w, t = (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), np.linspace(-3, 3, 7)
-    one = atlas.motion(1.5, B, w).rotation(t)
+    R_ratio = atlas.motion(1.5, B, w).rotation(t)
     for body in (
         atlas.SymmetricBody(2.0, 3.0),
         (2.0, 2.0, 3.0),
@@ -89,18 +89,18 @@ def test_all_ways_to_give_a_body_say_the_same() -> None:
         [[2, 0, 0], [0, 2, 0], [0, 0, 3]],
     ):
         m = atlas.motion(body, B, w)
-        assert np.abs(m.rotation(t) - one).max() <= 32 * EPS
+        assert np.abs(m.rotation(t) - R_ratio).max() <= 32 * EPS
         assert np.abs(m.angular_momentum(0.0) - np.array([2.0, 2.0, 3.0]) * w).max() <= 8 * EPS
     order = [1, 2, 0]
-    other = atlas.motion((3.0, 2.0, 2.0), np.array(B)[[2, 0, 1]], np.array(w)[[2, 0, 1]]).rotation(t)
-    assert np.abs(other[:, order][:, :, order] - one).max() <= 64 * EPS
+    R_order = atlas.motion((3.0, 2.0, 2.0), np.array(B)[[2, 0, 1]], np.array(w)[[2, 0, 1]]).rotation(t)
+    assert np.abs(R_order[:, order][:, :, order] - R_ratio).max() <= 64 * EPS
 
 
 def test_the_class_that_fits_is_found() -> None:
     """By the start, too: the paper's family, a free body; and it is an instance of its class."""
     quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     fraction = Fraction(7, 10), Fraction(56, 85)
-    for given, made, family, kind in (
+    for inputs, kind_class, family, kind in (
         ((0.5, (0, 1, 1), (0, 1, 2.5)), atlas.ElementaryMotion, "elementary", "precession"),
         ((1.5, (0, 1, 2), (0, *fraction)), atlas.ElementaryMotion, "elementary", "precession"),
         ((0.5, (-1, 0, 1), (0, 1, 2.5), quarter), atlas.ElementaryMotion, "elementary", "precession"),
@@ -113,10 +113,10 @@ def test_the_class_that_fits_is_found() -> None:
         ((1.0, (0, 1, 2), (0.1, 0.7, 0.1)), atlas.BallMotion, "ball", "ball"),
         (((1.0, 1.2, 1.5), (0, 1, 2), (0, 0.7, 0.1)), atlas.AsymmetricMotion, "asymmetric", "on a torus"),
     ):
-        m = atlas.motion(*given)  # type: ignore[arg-type]
-        assert isinstance(m, made)
+        m = atlas.motion(*inputs)  # type: ignore[arg-type]
+        assert isinstance(m, kind_class)
         assert (m.family, m.kind) == (family, kind)
-        assert np.array_equal(m.angular_velocity(0.0), np.asarray(given[2], dtype=float))
+        assert np.array_equal(m.angular_velocity(0.0), np.asarray(inputs[2], dtype=float))
 
 
 @pytest.mark.slow
@@ -154,10 +154,10 @@ def test_arrays_have_each_motion_of_their_own() -> None:
     assert R.shape == (5, 6, 3, 3)
     assert m.rotation_grid(-2, 1, 5).shape == (6, 5, 3, 3)
     for i in range(6):
-        one = atlas.motion(float(ratios[i]), B[i], w[i], A[i])
-        assert np.abs(one.rotation(t) - R[:, i]).max() <= 64 * EPS
-        assert np.abs(one.quaternion(t) - q[:, i]).max() <= 64 * EPS
-        assert np.abs(one.angular_velocity(t) - Omega[:, i]).max() <= 128 * EPS
+        motion = atlas.motion(float(ratios[i]), B[i], w[i], A[i])
+        assert np.abs(motion.rotation(t) - R[:, i]).max() <= 64 * EPS
+        assert np.abs(motion.quaternion(t) - q[:, i]).max() <= 64 * EPS
+        assert np.abs(motion.angular_velocity(t) - Omega[:, i]).max() <= 128 * EPS
     assert atlas.motion((1.0, 1.0, ratios), tuple(B.T), tuple(w.T)).shape == (6,)
 
 
@@ -167,9 +167,9 @@ def test_a_motion_in_given_axes_is_copied_and_has_a_repr() -> None:
     top = atlas.TopMotion.in_laboratory(
         (1.0, 0.5), (0.3, -1.0, 2.0), turn(1), (0.1, 0.2, 5.0), coupling=(0.0, 0.0), linear=3.0
     )
-    for one in (m, top):
-        for again in (copy.copy(one), pickle.loads(pickle.dumps(one))):  # noqa: S301  its own
-            assert np.array_equal(again.rotation(1.3), one.rotation(1.3))
+    for original in (m, top):
+        for again in (copy.copy(original), pickle.loads(pickle.dumps(original))):  # noqa: S301  its own
+            assert np.array_equal(again.rotation(1.3), original.rotation(1.3))
     assert repr(m).startswith("motion(inertia=(1.0, 1.0, 1.5), field=[0.3, -1.0, 2.0], omega=")
     assert m.kind == "nutation, four real roots"
     assert m.period > 0
@@ -181,10 +181,10 @@ def test_a_motion_in_given_axes_is_copied_and_has_a_repr() -> None:
 )
 def test_a_start_beside_an_elementary_one_is_not_taken_for_it(ratio: float, field: Any, omega: Any) -> None:
     """In the axes of its class nothing is rounded: a slow start in a strong field, a push off what is unstable."""
-    found, true = atlas.motion(ratio, (0.0, *field), omega), atlas.GeneralMotion(ratio, field, omega)
-    assert found.family == "general"
+    motion, true = atlas.motion(ratio, (0.0, *field), omega), atlas.GeneralMotion(ratio, field, omega)
+    assert motion.family == "general"
     for t in (100.0, 1e11 if ratio > 1 else 60.0):
-        assert np.array_equal(found.rotation(t), true.rotation(t))
+        assert np.array_equal(motion.rotation(t), true.rotation(t))
 
 
 @pytest.mark.slow
@@ -197,8 +197,8 @@ def test_given_arrays_broadcast() -> None:
     assert np.array_equal(fields.third_axis(1.7), fields.rotation(1.7)[..., 2])
     assert atlas.motion(1.5, np.zeros((4, 3)), (0.1, 0.2, 0.3)).rotation(1.0).shape == (4, 3, 3)
     attitudes = Rotation.random(5, random_state=1)
-    free, slow = (atlas.motion(1.5, (0.0, 0.0, b), (0.1, 0.2, 0.3), attitudes) for b in (0.0, 1e-30))
-    assert np.abs(free.rotation(1.0) - slow.rotation(1.0)).max() < 8 * EPS
+    motion_free, slow = (atlas.motion(1.5, (0.0, 0.0, b), (0.1, 0.2, 0.3), attitudes) for b in (0.0, 1e-30))
+    assert np.abs(motion_free.rotation(1.0) - slow.rotation(1.0)).max() < 8 * EPS
 
 
 def test_later_changes_of_given_arrays_have_no_effect_on_copies() -> None:
@@ -214,48 +214,48 @@ def test_later_changes_of_given_arrays_have_no_effect_on_copies() -> None:
 
 
 @pytest.mark.parametrize(
-    ("made", "says"),
+    ("call", "says"),
     [
         (lambda: atlas.GeneralMotion(1.5, (1, 2), omega2=3), "omega2, which is for atlas.ElementaryMotion"),  # type: ignore[call-arg]
         (lambda: atlas.ElementaryMotion(1.5, (1, 2), omega=(1, 2, 3)), "omega, which is for atlas.motion"),  # type: ignore[call-arg]
     ],
 )
-def test_an_argument_of_another_class_is_led_there(made: Any, says: str) -> None:
+def test_an_argument_of_another_class_is_led_there(call: Any, says: str) -> None:
     """The line names the class that takes it, and what this one takes."""
     with pytest.raises(TypeError, match=says):
-        made()
+        call()
 
 
 def test_every_class_takes_the_laboratory() -> None:
     """R(0) is the attitude, n or B' and the angular velocity are where they were given; a wrong class is refused."""
     A, B, w = turn(8), np.array([0.3, -1.0, 2.0]), np.array([0.3, 0.7, 0.2])
-    for made, body, field, more in (
+    for family_class, body, field, options in (
         (atlas.GeneralMotion, 1.5, B, {}), (atlas.BallMotion, 1.0, B, {}), (atlas.FreeMotion, 1.5, 0 * B, {}),
         (atlas.AsymmetricMotion, (0.8, 1.0, 1.3), B, {}),
         (atlas.TopMotion, (1.0, 0.5), B, {"coupling": (1.0, 0.3), "linear": 2.0}),
         (atlas.EllipticMotion, (0.8, 1.0, 1.3), B, {"z": 1.7}),
     ):  # fmt: skip
-        start = () if made is atlas.EllipticMotion else (w,)
-        m = made.in_laboratory(body, field, A, *start, **more)
-        assert isinstance(m, made)
+        start = () if family_class is atlas.EllipticMotion else (w,)
+        m = family_class.in_laboratory(body, field, A, *start, **options)
+        assert isinstance(m, family_class)
         assert np.abs(m.rotation(0.0) - A).max() <= 8 * EPS
         if start:
             assert np.abs(m.angular_velocity_in_laboratory(0.0) - w).max() <= 16 * EPS
-        along = field / np.linalg.norm(B) if made is atlas.TopMotion else field
+        direction = field / np.linalg.norm(B) if family_class is atlas.TopMotion else field
         if hasattr(m, "field_in_body"):
-            assert np.abs(np.matvec(m.rotation(0.7), m.field_in_body(0.7)) - along).max() <= 32 * EPS
+            assert np.abs(np.matvec(m.rotation(0.7), m.field_in_body(0.7)) - direction).max() <= 32 * EPS
     with pytest.raises(atlas.DomainError, match=r"gives no ElementaryMotion: atlas.motion finds the class"):
         atlas.ElementaryMotion.in_laboratory(1.5, B, A, w)
 
 
 @pytest.mark.parametrize(
-    ("made", "more"),
+    ("family_class", "options"),
     [(atlas.GeneralMotion, {"omega_laboratory": (0.3, 0.7, 0.2)}), (atlas.ElementaryMotion, {"omega2": 0.7})],
 )
-def test_three_different_moments_are_no_symmetric_body(made: Any, more: Any) -> None:
+def test_three_different_moments_are_no_symmetric_body(family_class: Any, options: Any) -> None:
     """One of the moments is not left out: the class of symmetric bodies is refused."""
-    with pytest.raises(atlas.DomainError, match=f"gives no {made.__name__}"):
-        made.in_laboratory((1.0, 2.0, 2.5), (0.1, 0.2, 0.3), np.eye(3), **more)
+    with pytest.raises(atlas.DomainError, match=f"gives no {family_class.__name__}"):
+        family_class.in_laboratory((1.0, 2.0, 2.5), (0.1, 0.2, 0.3), np.eye(3), **options)
 
 
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-0.4, 0.3)])
@@ -265,12 +265,14 @@ def test_mean_rates_agree_with_counted_turns(field: tuple[float, float]) -> None
     t = np.linspace(0, 50 * m.period, 20001)
     n = np.array([0.0, *field]) / np.hypot(*field)
     x, y = m.third_axis(t) @ [1.0, 0.0, 0.0], m.third_axis(t) @ np.cross(n, [1.0, 0.0, 0.0])
-    turned = np.unwrap(np.arctan2(y, x))
-    assert abs((turned[-1] - turned[0]) / t[-1] - m.precession_rate) <= 1e-9
-    one = atlas.ElementaryMotion(1.5, field, 0.7)
-    same = atlas.GeneralMotion(1.5, field, (0.0, 0.7, one.omega3))
-    assert abs(same.precession_rate - one.precession_rate) <= 16 * EPS * abs(one.k)
-    assert abs(same.spin_rate - one.spin_rate) <= 16 * EPS * max(abs(one.k), abs(one.phi))
+    angle = np.unwrap(np.arctan2(y, x))
+    assert abs((angle[-1] - angle[0]) / t[-1] - m.precession_rate) <= 1e-9
+    motion_elementary = atlas.ElementaryMotion(1.5, field, 0.7)
+    same = atlas.GeneralMotion(1.5, field, (0.0, 0.7, motion_elementary.omega3))
+    assert abs(same.precession_rate - motion_elementary.precession_rate) <= 16 * EPS * abs(motion_elementary.k)
+    assert abs(same.spin_rate - motion_elementary.spin_rate) <= 16 * EPS * max(
+        abs(motion_elementary.k), abs(motion_elementary.phi)
+    )
     ball = atlas.BallMotion(1.0, 0.5, (0.3, -0.7))
     assert (ball.precession_rate, ball.spin_rate) == (-0.5, -ball.gamma)
 
@@ -279,8 +281,8 @@ def test_mean_rates_agree_with_counted_turns(field: tuple[float, float]) -> None
 def test_the_least_floats_are_a_field_that_the_body_does_not_feel(ratio: float) -> None:
     """In a field of whole multiples of the smallest float the body turns as a free one, by rotations."""
     omega, t = (0.25, -1.0, 0.75), np.array([0.0, 0.25, -1.5])
-    free = atlas.motion(ratio, (0, 0, 0), omega).rotation(t)
-    assert np.abs(atlas.motion(ratio, np.ldexp([1.0, 1.0, 2.0], -1074), omega).rotation(t) - free).max() <= 16 * EPS
+    R_free = atlas.motion(ratio, (0, 0, 0), omega).rotation(t)
+    assert np.abs(atlas.motion(ratio, np.ldexp([1.0, 1.0, 2.0], -1074), omega).rotation(t) - R_free).max() <= 16 * EPS
 
 
 @pytest.mark.parametrize("exponent", [-565, 565])
@@ -294,7 +296,7 @@ def test_a_field_along_any_axis_turns_the_body_in_any_unit_of_time(ratio: float,
 
 
 @pytest.mark.parametrize(
-    "given",
+    "inputs",
     [
         ((1, [1, 2], np.array([1.0])), (1, 0, 1), (1, 0.2, 1)),
         ([1, [1, 2]], (1, 0, 1), (1, 0.2, 1)),
@@ -302,7 +304,7 @@ def test_a_field_along_any_axis_turns_the_body_in_any_unit_of_time(ratio: float,
         ((0.8, [1, 1], [1.3, 1.3, 1.3]), (1, 0, 1), (1, 0.2, 1)),
     ],
 )
-def test_ragged_inputs_are_refused_in_one_line(given: Any) -> None:
+def test_ragged_inputs_are_refused_in_one_line(inputs: Any) -> None:
     """Ragged lists and components that do not broadcast are AtlasErrors."""
     with pytest.raises(atlas.AtlasError, match=r"^The [^\n]*$"):
-        atlas.motion(*given)
+        atlas.motion(*inputs)

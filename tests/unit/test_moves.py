@@ -39,18 +39,18 @@ def test_the_script_carries_a_scene_as_the_paths_do(name: str) -> None:
     scene = recipes.load(name).scene()
     u = 0.37123
     data = moves.data(scene)
-    given = json.dumps({"data": data, "scene": viewer.data(scene), "u": u})
+    data_json = json.dumps({"data": data, "scene": viewer.data(scene), "u": u})
     done = subprocess.run(
-        [str(node), "-e", PROGRAM, str(SCRIPT)], input=given, capture_output=True, text=True, check=True
+        [str(node), "-e", PROGRAM, str(SCRIPT)], input=data_json, capture_output=True, text=True, check=True
     )
-    later, held = movement.scene_at(scene, u * scene.lasts), data["wide"]["spaces"]
-    for panel, (frame, riders), found in zip(later.panels, held, json.loads(done.stdout), strict=False):
-        compare(viewed(panel, frame), riders, found)
+    later, spaces = movement.scene_at(scene, u * scene.lasts), data["wide"]["spaces"]
+    for panel, (frame, riders), layers_script in zip(later.panels, spaces, json.loads(done.stdout), strict=False):
+        compare(viewed(panel, frame), riders, layers_script)
 
 
 def viewed(panel: Any, frame: list[float]) -> dict[str, list[Any]]:
     """Return what the viewer has of a panel, in the view that another one has."""
-    found: dict[str, list[Any]] = {"surfaces": [], "arrows": [], "dots": []}
+    layers_seen: dict[str, list[Any]] = {"surfaces": [], "arrows": [], "dots": []}
     centre, size = np.array(frame[:3]), frame[3]
     for layer in panel.layers:
         if hasattr(layer, "quadric"):
@@ -58,38 +58,38 @@ def viewed(panel: Any, frame: list[float]) -> dict[str, list[Any]]:
             move[:3, 3] = centre
             form = (move.T @ layer.quadric @ move)[np.triu_indices(4)]
             clip = [[*n, (d - np.array(n) @ centre) / size] for *n, d in layer.clip]
-            found["surfaces"].append((form / np.abs(form).max(), np.ravel(clip)))
+            layers_seen["surfaces"].append((form / np.abs(form).max(), np.ravel(clip)))
         elif hasattr(layer, "tail"):
-            found["arrows"].append(((layer.tail - centre) / size, (layer.tip - centre) / size))
+            layers_seen["arrows"].append(((layer.tail - centre) / size, (layer.tip - centre) / size))
         elif type(layer).__name__ == "Points":
-            found["dots"] += [((point - centre) / size, []) for point in np.atleast_2d(layer.points)]
-    return found
+            layers_seen["dots"] += [((point - centre) / size, []) for point in np.atleast_2d(layer.points)]
+    return layers_seen
 
 
-def compare(true: dict[str, list[Any]], riders: list[Any], found: list[Any]) -> None:
+def compare(true: dict[str, list[Any]], riders: list[Any], layers_script: list[Any]) -> None:
     """Compare what rides, in the order of the riders: to a thousandth of a panel, a fraction of a pixel."""
-    wanted = [(kind, true[kind][i]) for kind, first, last, _ in riders for i in range(first, last) if kind in true]
-    carried = [one for one in found if one[0] in true]
-    assert len(wanted) == len(carried) > 0
-    for (kind, (first, second)), (_, one, b) in zip(wanted, carried, strict=True):
-        a = np.array(one)
-        same = np.sign(a @ first) / np.abs(a).max() if kind == "surfaces" else 1.0
-        assert np.allclose(same * a, first, atol=3e-3)
+    layers_moving = [(kind, true[kind][i]) for kind, start, end, _ in riders for i in range(start, end) if kind in true]
+    layers_carried = [layer for layer in layers_script if layer[0] in true]
+    assert len(layers_moving) == len(layers_carried) > 0
+    for (kind, (form, second)), (_, vector, b) in zip(layers_moving, layers_carried, strict=True):
+        a = np.array(vector)
+        same = np.sign(a @ form) / np.abs(a).max() if kind == "surfaces" else 1.0
+        assert np.allclose(same * a, form, atol=3e-3)
         assert np.allclose(b, second, atol=1e-3)
 
 
 def test_marks_start_where_the_figure_has_them() -> None:
     """The first place of each mark, a part of the figure, is that of its point; all stay in the figure."""
     scene = recipes.load("tipping_disk").scene()
-    found = moves.data(scene)
+    scene_moves = moves.data(scene)
     for layout in ("wide", "narrow"):
-        assert len(found[layout]["marks"]) == 8
-        for _, diameter, packed in found[layout]["marks"]:
+        assert len(scene_moves[layout]["marks"]) == 8
+        for _, diameter, packed in scene_moves[layout]["marks"]:
             table = np.frombuffer(b64decode(packed), "<i2").reshape(-1, 2) / moves.TABLE_STEPS
             assert diameter > 0.0
             assert (np.abs(table - 0.5) <= 0.5).all()
             assert np.ptp(table[:, 0]) > 0.2
-    starts = np.array([np.frombuffer(b64decode(m[2]), "<i2")[:2] for m in found["wide"]["marks"]])
+    starts = np.array([np.frombuffer(b64decode(m[2]), "<i2")[:2] for m in scene_moves["wide"]["marks"]])
     assert (np.diff(starts[:, 0]) > 0).all()
     assert (np.diff(starts[:, 1]) < 0).all()
 
@@ -98,11 +98,11 @@ def test_marks_start_where_the_figure_has_them() -> None:
 def test_moving_layers_exist_on_both_screens(name: str) -> None:
     """The entries that are to be moved are among those that the viewer has for each screen."""
     scene = recipes.load(name).scene()
-    given, found = viewer.data(scene), moves.data(scene)
+    scene_data, scene_moves = viewer.data(scene), moves.data(scene)
     for layout in ("wide", "narrow"):
-        shown = {**given["wide"], **given[layout]}["panels"]
-        for panel, (_, riders) in zip(shown, found[layout]["spaces"], strict=True):
-            assert all(last <= len(panel[kind]) for kind, _, last, _ in riders)
+        panels_shown = {**scene_data["wide"], **scene_data[layout]}["panels"]
+        for panel, (_, riders) in zip(panels_shown, scene_moves[layout]["spaces"], strict=True):
+            assert all(end <= len(panel[kind]) for kind, _, end, _ in riders)
 
 
 @pytest.mark.slow

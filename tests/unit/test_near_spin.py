@@ -60,9 +60,9 @@ def test_a_slender_body_has_the_moments_and_axes_of_its_tensor(least: float) -> 
     """Elements of 3e-17 beside a diagonal of ones split the two large moments, and turn the axis of a rod by 4e-17."""
     J = np.array([[1.0, 3e-17, 2e-17], [3e-17, 1.0, -4e-17], [2e-17, -4e-17, least]])
     B, w = np.array([0.3, -0.4, 0.8]), np.array([0.2, 0.5, 0.9])
-    m, several = atlas.motion(J, B, w), atlas.motion(np.array([J, J]), B, w)
+    m, motions = atlas.motion(J, B, w), atlas.motion(np.array([J, J]), B, w)
     assert abs(m.rotation(7.5) - _by_series(J, B, w, 7.5)).max() < 2e-15
-    assert np.array_equal(several.rotation(7.5), [m.rotation(7.5)] * 2)
+    assert np.array_equal(motions.rotation(7.5), [m.rotation(7.5)] * 2)
     six = [fmpq(*float(J[i]).as_integer_ratio()) for i in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
     exact = [[fmpq(*x.as_integer_ratio()) for x in v.tolist()] for v in (B, w)]
     with workprec(200):
@@ -117,8 +117,12 @@ def test_principal_moments_of_a_tensor_have_all_digits(moments: tuple[float, flo
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 def test_moments_that_differ_as_given_stay_different() -> None:
     """By one digit of the last place, as moments and as a tensor, along the axes and beside them."""
-    near = 1.0 + 2.0**-52
-    for J in ((1.0, near, 1.3), np.diag((1.0, near, 1.3)), np.array([[near, 0, 0], [0, 1.2, 0.2], [0, 0.2, 1.2]])):
+    moment_next = 1.0 + 2.0**-52
+    for J in (
+        (1.0, moment_next, 1.3),
+        np.diag((1.0, moment_next, 1.3)),
+        np.array([[moment_next, 0, 0], [0, 1.2, 0.2], [0, 0.2, 1.2]]),
+    ):
         assert len(set(body_of(J).moments.tolist())) == 3
 
 

@@ -31,23 +31,23 @@ def plates(digits: int, count: int) -> Any:
 @pytest.mark.parametrize("digits", [3, 4, 8])
 def test_printed_plates_are_bodies(digits: int) -> None:
     """Those that rounding puts beyond all bodies are plates again, each moment by less than the unit of its digits."""
-    told = 0
-    for typed in plates(digits, 12):
-        outcome = run("--inertia", *typed, *FREE)
-        assert outcome.exit_code == 0, (typed, outcome.output)
+    count = 0
+    for moments in plates(digits, 12):
+        outcome = run("--inertia", *moments, *FREE)
+        assert outcome.exit_code == 0, (moments, outcome.output)
         line = re.search(r"taken is the plane body next to them, (\S+) (\S+) (\S+)", outcome.stderr)
         if line:
-            told += 1
-            taken = np.array([*map(float, line.groups())])
-            assert np.all(abs(taken - [*map(float, typed)]) < 10.0**-digits)
-            assert max(taken) == pytest.approx(taken.sum() / 2, rel=1e-9)
+            count += 1
+            moments_taken = np.array([*map(float, line.groups())])
+            assert np.all(abs(moments_taken - [*map(float, moments)]) < 10.0**-digits)
+            assert max(moments_taken) == pytest.approx(moments_taken.sum() / 2, rel=1e-9)
         else:
-            assert max(map(float, typed)) <= sum(map(float, typed)) / 2 * (1 + 1e-14)
-    assert told
+            assert max(map(float, moments)) <= sum(map(float, moments)) / 2 * (1 + 1e-14)
+    assert count
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
         (("--inertia", ".281", ".563"), "taken is the plane body next to them, .*0.2813333333 0.5626666667"),
         (("--ratio", "2.0000001"), "taken is the largest, 2"),
@@ -55,11 +55,11 @@ def test_printed_plates_are_bodies(digits: int) -> None:
         (("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071"), "of the length 0.99999, .* divided by it"),
     ],
 )
-def test_inputs_off_by_their_last_digits_are_corrected_with_a_warning(words: tuple[str, ...], told: str) -> None:
+def test_inputs_off_by_their_last_digits_are_corrected_with_a_warning(words: tuple[str, ...], message: str) -> None:
     """A disk, a ratio, a tensor, a quaternion."""
     outcome = run(*words, *FREE)
     assert outcome.exit_code == 0, outcome.output
-    assert re.search(told, outcome.stderr)
+    assert re.search(message, outcome.stderr)
     assert json.loads(outcome.stdout)
 
 
@@ -89,15 +89,15 @@ def test_the_error_names_a_possible_value() -> None:
 
 def test_a_tensor_of_single_precision_is_a_body() -> None:
     """A plate in any axes, in float32 and printed with all its digits."""
-    rng, told = np.random.default_rng(4), 0
+    rng, count = np.random.default_rng(4), 0
     for _ in range(8):
         A = Rotation.random(random_state=rng).as_matrix()
         tensor = (A * [1 / 12, 1 / 3, 5 / 12] @ A.T).astype(np.float32)
-        typed = [repr(float(tensor[i, j])) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
-        outcome = run("--tensor", *typed, *FREE)
+        entries = [repr(float(tensor[i, j])) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+        outcome = run("--tensor", *entries, *FREE)
         assert outcome.exit_code == 0, outcome.output
-        told += "taken is the plane body next to it" in outcome.stderr
-    assert told
+        count += "taken is the plane body next to it" in outcome.stderr
+    assert count
 
 
 @pytest.mark.slow
@@ -109,18 +109,18 @@ def test_uncertain_bodies_are_no_printed_digits(body: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("typed", "asked", "meant"),
+    ("entries", "question", "meant"),
     [
         ("1 0.1 0.2 1.2 0.15 1.4", "URDF", "1 1.2 1.4 0.1 0.2 0.15"),
         ("2.76 1.56 -1.58 5.82 -1.36 5.55", "izz, with products", "2.76 5.82 5.55 -1.56 1.58 1.36"),
         ("1.0 1.1 1.2 0.35 -0.4 -.35", "SolidWorks", "1.0 1.1 1.2 -0.35 0.4 .35"),
     ],
 )
-def test_a_tensor_in_another_order_is_asked_about(typed: str, asked: str, meant: str) -> None:
+def test_a_tensor_in_another_order_is_asked_about(entries: str, question: str, meant: str) -> None:
     """The command that the error names is one of a body."""
-    outcome = run("--tensor", *typed.split(), *FREE)
+    outcome = run("--tensor", *entries.split(), *FREE)
     assert outcome.exit_code == 2
-    assert asked in outcome.stderr
+    assert question in outcome.stderr
     assert outcome.stderr.rstrip().endswith(f"--tensor {meant}")
     assert run("--tensor", *meant.split(), *FREE).exit_code == 0
 

@@ -76,9 +76,9 @@ def test_omega_names_its_frame() -> None:
     outside = TURN @ OMEGA
     for body in (1.5, (1.0, 1.5, 2.0)):
         inside = atlas.motion(body, FIELD, OMEGA, TURN)
-        other = atlas.motion(body, FIELD, attitude=TURN, omega_laboratory=outside)
-        assert np.abs(inside.rotation(2.0) - other.rotation(2.0)).max() < 1e-14
-        assert copy.deepcopy(other) == other != inside
+        motion_outside = atlas.motion(body, FIELD, attitude=TURN, omega_laboratory=outside)
+        assert np.abs(inside.rotation(2.0) - motion_outside.rotation(2.0)).max() < 1e-14
+        assert copy.deepcopy(motion_outside) == motion_outside != inside
     new = atlas.GeneralMotion.in_laboratory(1.5, FIELD, TURN, omega_laboratory=outside)
     with pytest.warns(DeprecationWarning, match="is now omega_laboratory="):
         old = atlas.GeneralMotion.in_laboratory(1.5, FIELD, TURN, angular_velocity=outside)

@@ -62,43 +62,43 @@ ONE: list[Any] = [
     SymmetricBody.disk(1.0, 2.0),
 ]
 STRAIGHT = ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
-TABLED = [one for one in ONE if getattr(one, "family", "") not in {"", "asymmetric"} and not one.made_by]
+TABLED = [motion for motion in ONE if getattr(motion, "family", "") not in {"", "asymmetric"} and not motion.made_by]
 """What the register has a table of; the balls of a body with three moments take seconds."""
 
 
-def name(one: Any) -> str:
+def name(instance: Any) -> str:
     """Return what a case is called."""
-    return getattr(one, "made_by", "") or type(one).__name__
+    return getattr(instance, "made_by", "") or type(instance).__name__
 
 
-@pytest.mark.parametrize("one", ONE, ids=name)
-def test_a_repr_is_one_line_that_makes_the_same_again(one: Any) -> None:
+@pytest.mark.parametrize("instance", ONE, ids=name)
+def test_a_repr_is_one_line_that_makes_the_same_again(instance: Any) -> None:
     """Typed in, it gives an object that says the same of itself."""
-    said = repr(one)
-    again = eval(said, vars(atlas) | {public: getattr(atlas, public) for public in atlas.__all__})  # noqa: S307
-    assert "\n" not in said
-    assert type(again) is type(one)
-    assert repr(again) == said
+    text = repr(instance)
+    again = eval(text, vars(atlas) | {public: getattr(atlas, public) for public in atlas.__all__})  # noqa: S307
+    assert "\n" not in text
+    assert type(again) is type(instance)
+    assert repr(again) == text
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("one", [*ONE, ONE[2].closed(2, 3)], ids=name)
-def test_it_can_be_copied_and_sent_to_another_process(one: Any) -> None:
+@pytest.mark.parametrize("instance", [*ONE, ONE[2].closed(2, 3)], ids=name)
+def test_it_can_be_copied_and_sent_to_another_process(instance: Any) -> None:
     """A copy and what pickle makes of it are the same object, with the same matrices to the last bit."""
-    for again in (copy.deepcopy(one), pickle.loads(pickle.dumps(one))):  # noqa: S301  our own bytes
-        assert type(again) is type(one)
-        assert repr(again) == repr(one)
-        if hasattr(one, "rotation"):
-            assert np.array_equal(again.rotation(2.5), one.rotation(2.5))
+    for again in (copy.deepcopy(instance), pickle.loads(pickle.dumps(instance))):  # noqa: S301  our own bytes
+        assert type(again) is type(instance)
+        assert repr(again) == repr(instance)
+        if hasattr(instance, "rotation"):
+            assert np.array_equal(again.rotation(2.5), instance.rotation(2.5))
 
 
-@pytest.mark.parametrize("one", [one for one in ONE if isinstance(one, Shown)], ids=name)
-def test_inputs_of_an_object_cannot_be_changed(one: Any) -> None:
+@pytest.mark.parametrize("instance", [instance for instance in ONE if isinstance(instance, Shown)], ids=name)
+def test_inputs_of_an_object_cannot_be_changed(instance: Any) -> None:
     """Another value would stand beside numbers of the old one: it is refused, by the name that was typed."""
-    said, argument = repr(one), next(iter(one.arguments))
+    text, argument = repr(instance), next(iter(instance.arguments))
     with pytest.raises(AttributeError, match=f"^{argument} of .* can't be changed"):
-        setattr(one, argument, 0.5)
-    assert repr(one) == said
+        setattr(instance, argument, 0.5)
+    assert repr(instance) == text
 
 
 def test_computed_values_of_an_object_cannot_be_changed() -> None:
@@ -111,7 +111,7 @@ def test_computed_values_of_an_object_cannot_be_changed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("one", "kind"),
+    ("instance", "kind"),
     [
         (ONE[0], "two-sheet hyperboloid"),
         (ONE[4], "precession"),
@@ -122,22 +122,22 @@ def test_computed_values_of_an_object_cannot_be_changed() -> None:
     ],
     ids=lambda value: str(value)[:30],
 )
-def test_a_repr_says_of_which_kind_it_is(one: Any, kind: str) -> None:
+def test_a_repr_says_of_which_kind_it_is(instance: Any, kind: str) -> None:
     """Behind a #, in the words of its attribute; of an array how many there are of each; of a large one its shape."""
-    assert repr(one).endswith(f"  # {kind}")
+    assert repr(instance).endswith(f"  # {kind}")
 
 
-@pytest.mark.parametrize("one", TABLED, ids=name)
-def test_html_shows_all_registered_quantities(one: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("instance", TABLED, ids=name)
+def test_html_shows_all_registered_quantities(instance: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each quantity that has a value stands in the table, by its name or those of its components."""
-    monkeypatch.setattr("atlas.notebook.show.picture", lambda shown: f"<img {type(shown).__name__}>")
-    shown, table = one._repr_html_(), one._repr_latex_()
-    for q in FAMILIES[one.family].quantities:
-        assert any(f"<code>{part}" in shown for part in (q.name, *q.columns, *(x for x, _ in q.lines))), q.name
-    assert f"<img {type(one).__name__}>" in shown
-    assert "://" not in shown
+    monkeypatch.setattr("atlas.notebook.show.picture", lambda instance: f"<img {type(instance).__name__}>")
+    html, table = instance._repr_html_(), instance._repr_latex_()
+    for q in FAMILIES[instance.family].quantities:
+        assert any(f"<code>{code}" in html for code in (q.name, *q.columns, *(x for x, _ in q.lines))), q.name
+    assert f"<img {type(instance).__name__}>" in html
+    assert "://" not in html
     assert table.count("{") == table.count("}")
-    assert table.count(r"\\") + 1 >= len(FAMILIES[one.family].quantities)
+    assert table.count(r"\\") + 1 >= len(FAMILIES[instance.family].quantities)
 
 
 @pytest.mark.slow
@@ -148,8 +148,8 @@ def test_html_has_proven_digits() -> None:
     period = 2 * arb.pi() * arb(1) / (arb("0.75") * arb(5).sqrt())
     digits = period.str(10, radius=False)
     ctx.prec = with_precision
-    shown = ElementaryMotion(1.5, (1.0, 2.0), 0.75)._repr_html_()
-    (line,) = re.findall("<tr>(?:(?!</tr>).)*<code>period</code>.*?</tr>", shown.replace("\xa0", " "))
+    html = ElementaryMotion(1.5, (1.0, 2.0), 0.75)._repr_html_()
+    (line,) = re.findall("<tr>(?:(?!</tr>).)*<code>period</code>.*?</tr>", html.replace("\xa0", " "))
     sides, cells = zip(*re.findall(r'<td style="text-align:(\w+)">(.*?)</td>', line), strict=True)
     assert cells[1:] == ("<code>period</code>", digits, "time", "", "10 digits")
     assert sides == ("left", "left", "right", "left", "left", "left")
@@ -161,8 +161,8 @@ def test_html_has_proven_digits() -> None:
 def test_a_panel_alone_is_as_large_as_in_its_figure(count: int, columns: int, size: tuple[float, float]) -> None:
     """The figure is divided into its columns and as many rows as its panels fill."""
     panels = tuple(Plane((), f"x{k}", "y") for k in range(1, count + 1))
-    one = alone(Scene("t", "c", "a", panels, columns=columns, size=(100.0, 80.0)), count)
-    assert (one.size, one.panels, one.columns) == (size, panels[-1:], 1)
+    scene = alone(Scene("t", "c", "a", panels, columns=columns, size=(100.0, 80.0)), count)
+    assert (scene.size, scene.panels, scene.columns) == (size, panels[-1:], 1)
 
 
 def pixels(html: str) -> tuple[int, int]:
@@ -176,24 +176,24 @@ def pixels(html: str) -> tuple[int, int]:
 def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
     """One panel, as a picture in the text, with twice the pixels of the width that it is shown in; none of an array."""
     assert picture(Quadric([1.5, 0.5], (1, 2))) == ""
-    shown = picture(Hyperbola(1.5, (1, 2)))
-    assert re.match(r'<img width="300" alt="" src="data:image/png;base64,[\w+/=]+">$', shown)
-    assert pixels(shown)[0] in {599, 600}
+    html = picture(Hyperbola(1.5, (1, 2)))
+    assert re.match(r'<img width="300" alt="" src="data:image/png;base64,[\w+/=]+">$', html)
+    assert pixels(html)[0] in {599, 600}
 
 
 def test_arrays_and_objects_without_family_have_a_line() -> None:
     """The table is of one object of the register."""
-    for one in (Quadric([1.5, 0.5], (1, 2)), ONE[1], ONE[6]):
-        assert "<table>" not in one._repr_html_()
-        assert one._repr_latex_() is None
+    for instance in (Quadric([1.5, 0.5], (1, 2)), ONE[1], ONE[6]):
+        assert "<table>" not in instance._repr_html_()
+        assert instance._repr_latex_() is None
 
 
 def test_a_figure_shows_itself() -> None:
     """Its picture has twice the pixels of the size that it is shown in."""
-    png, shown = atlas.figure("hyperbola")._repr_png_()  # type: ignore[attr-defined]
+    png, metadata = atlas.figure("hyperbola")._repr_png_()  # type: ignore[attr-defined]
     size = struct.unpack(">2I", png[16:24])
-    assert np.abs(np.subtract(size, (2 * shown["width"], 2 * shown["height"]))).max() <= 2
-    assert shown["width"] > 200
+    assert np.abs(np.subtract(size, (2 * metadata["width"], 2 * metadata["height"]))).max() <= 2
+    assert metadata["width"] > 200
 
 
 @pytest.mark.slow
@@ -215,7 +215,7 @@ def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("one", "figure", "axis"),
+    ("motion", "figure", "axis"),
     [
         (ONE[5], "general_motion", (0.0, 1.0, 2.0)),
         (ONE[7], "top_motion", (0.0, 0.6, 0.8)),
@@ -226,23 +226,23 @@ def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_the_picture_of_a_motion_is_the_way_of_its_axis(one: Any, figure: str, axis: tuple[float, ...]) -> None:
+def test_the_picture_of_a_motion_is_the_way_of_its_axis(motion: Any, figure: str, axis: tuple[float, ...]) -> None:
     """On the unit sphere; heights along the upright vector are those of R_3(t), and Omega(t) is the motion's own."""
-    own = {p.name: one.arguments[p.name] for p in FAMILIES[one.family].parameters}
-    own |= {"turns": 2.0} if figure == "asymmetric_motion" else {"periods": 0.5}
-    sphere, course = recipes.load(figure).scene(**own).panels
+    parameters = {p.name: motion.arguments[p.name] for p in FAMILIES[motion.family].parameters}
+    parameters |= {"turns": 2.0} if figure == "asymmetric_motion" else {"periods": 0.5}
+    sphere, course = recipes.load(figure).scene(**parameters).panels
     (trace,) = (layer.points for layer in sphere.layers if isinstance(layer, Curve) and layer.role == "trace")
     assert np.abs(np.linalg.norm(trace, axis=1) - 1.0).max() < 1e-14
     upright = np.array(axis) / np.linalg.norm(axis)
     assert abs(trace[0, 2] - upright[2]) < 1e-14
     lines = [layer.points for layer in course.layers if isinstance(layer, Curve) and layer.role != "guide"]
     times = lines[0][[len(lines[0]) // 3, -1], 0]
-    Omega = one.angular_velocity(times)
+    Omega = motion.angular_velocity(times)
     for i, line in enumerate(lines):
         assert np.abs(line[[len(line) // 3, -1], 1] - Omega[:, i]).max() < 1e-6
-    assert abs(trace[-1, 2] - one.third_axis(course.x_limits[1]) @ upright) < 1e-6
+    assert abs(trace[-1, 2] - motion.third_axis(course.x_limits[1]) @ upright) < 1e-6
     low, high = trace[:, 2].min() - 1e-4, trace[:, 2].max() + 1e-4
-    heights = one.third_axis(times) @ upright
+    heights = motion.third_axis(times) @ upright
     assert low < heights.min() <= heights.max() < high
 
 
@@ -250,10 +250,10 @@ def test_the_picture_of_a_particle_is_its_path() -> None:
     """From its own fields, whose names in the recipe are others."""
     fields = ((0.0, 0.5, 0.0), (0.0, 0.0, 2.0), (1.0, 2.0, 3.0), (0.4, 0.0, 0.1))
     particle = ParticleMotion(1.0, *fields)
-    mine = particle.plot(turns=2.0)
-    given = dict(zip(("electric", "magnetic", "position", "velocity"), fields, strict=True))
-    scene = recipes.load("particle_motion").scene(**given, turns=2.0)
-    assert mine.axes[1].get_xlim()[1] == pytest.approx(2.0 * particle.period)
+    picture = particle.plot(turns=2.0)
+    fields_named = dict(zip(("electric", "magnetic", "position", "velocity"), fields, strict=True))
+    scene = recipes.load("particle_motion").scene(**fields_named, turns=2.0)
+    assert picture.axes[1].get_xlim()[1] == pytest.approx(2.0 * particle.period)
     (path,) = (x.points for x in scene.panels[0].layers if isinstance(x, Curve) and x.role == "trajectory")
     y = particle.position(np.linspace(0.0, 2.0 * particle.period, 2000))
     span = np.ptp(y, axis=0)
@@ -267,37 +267,38 @@ def test_the_picture_of_a_flight_is_the_way_of_its_point() -> None:
     field = Field((0.0, 1.0, 2.0), mu=1.0, E=(-1.0, 0.3, 0.0))
     frame = field.frame((0.2, 0.1, 1.0))
     particle = ParticleMotion.in_field(field, (1.0, 2.0, 3.0), (1.0, 0.5, 0.5))
-    one = Flight(particle, GeneralMotion(1.5, frame.field, (0.3, 0.7, 0.2)), (0.0, 0.3, 0.2), frame)
-    scene = scene_of(one, None, {"turns": 2.0})
+    flight = Flight(particle, GeneralMotion(1.5, frame.field, (0.3, 0.7, 0.2)), (0.0, 0.3, 0.2), frame)
+    scene = scene_of(flight, None, {"turns": 2.0})
     lines = {layer.role: layer.points for layer in scene.panels[0].layers if isinstance(layer, Curve)}
     assert scene.lasts == 2.0 * particle.period
-    assert np.abs(lines["trajectory"][[0, -1]] - one.position(np.array([0.0, scene.lasts]))).max() < 1e-12
+    assert np.abs(lines["trajectory"][[0, -1]] - flight.position(np.array([0.0, scene.lasts]))).max() < 1e-12
     assert np.abs(lines["fourth"][[0, -1]] - particle.position(np.array([0.0, scene.lasts]))).max() < 1e-12
     R, s = scene.paths["arm"](np.array([1.3]))
-    arm = particle.position(0.0), one.position(0.0)
+    arm = particle.position(0.0), flight.position(0.0)
     assert (
-        np.abs(R[0] @ np.transpose(arm) + s.T - np.transpose([particle.position(1.3), one.position(1.3)])).max() < 1e-13
+        np.abs(R[0] @ np.transpose(arm) + s.T - np.transpose([particle.position(1.3), flight.position(1.3)])).max()
+        < 1e-13
     )
-    assert one.plot(turns=2.0).axes[1].get_xlabel().startswith("along")
-    assert "<img" in one._repr_html_()
+    assert flight.plot(turns=2.0).axes[1].get_xlabel().startswith("along")
+    assert "<img" in flight._repr_html_()
 
 
 @pytest.mark.slow
 def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
     """The panel asked for, into one of two axes; the figure that comes back is theirs."""
     figure = Figure((8, 4))
-    first, second = figure.subplots(1, 2)
+    axes_left, second = figure.subplots(1, 2)
     motion = ONE[5]
-    assert motion.plot(ax=first) is figure
+    assert motion.plot(ax=axes_left) is figure
     assert motion.plot(panel=2, ax=second, periods=2.0) is figure
-    assert first.get_title(loc="left") == "(a) third axis"
+    assert axes_left.get_title(loc="left") == "(a) third axis"
     assert second.get_xlim()[1] == pytest.approx(2.0 * motion.period)
     assert len(motion.plot().axes) == 2
     assert len(motion.plot(panel=2).axes) == 1
 
 
 @pytest.mark.parametrize(
-    ("wrong", "says"),
+    ("refused_call", "says"),
     [
         (lambda: ONE[5].plot(ratio=2.0), "ratio is that of the GeneralMotion"),
         (lambda: ONE[5].plot("hyperbola"), "no figure 'hyperbola' of GeneralMotion"),
@@ -327,22 +328,22 @@ def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
         (ONE[13].to_dataframe, "no table of a Flight"),
     ],
 )
-def test_objects_that_cannot_be_shown_give_a_reason(wrong: Any, says: str) -> None:
+def test_objects_that_cannot_be_shown_give_a_reason(refused_call: Any, says: str) -> None:
     """In one line, with what would be right."""
-    with pytest.raises(AtlasError, match=re.escape(says)) as told:
-        wrong()
-    assert "\n" not in str(told.value)
+    with pytest.raises(AtlasError, match=re.escape(says)) as refused:
+        refused_call()
+    assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("one", [ONE[4], ONE[5], ONE[7]], ids=name)
-def test_a_trace_is_the_way_of_the_axis(one: Any) -> None:
+@pytest.mark.parametrize("motion", [ONE[4], ONE[5], ONE[7]], ids=name)
+def test_a_trace_is_the_way_of_the_axis(motion: Any) -> None:
     """From the start to the last period, its points those of R_3, each chord's middle within the tolerance."""
-    t, axis = one.trace(10, tolerance=1e-3)
-    frame = one.to_dataframe()
+    t, axis = motion.trace(10, tolerance=1e-3)
+    frame = motion.to_dataframe()
     assert t[0] == 0.0
     assert t[-1] == pytest.approx(10 * frame["period"][0], rel=1e-15, abs=0.0)
-    assert np.array_equal(axis, one.third_axis(t))
-    way, chord = one.third_axis((t[1:] + t[:-1]) / 2) - axis[:-1], axis[1:] - axis[:-1]
+    assert np.array_equal(axis, motion.third_axis(t))
+    way, chord = motion.third_axis((t[1:] + t[:-1]) / 2) - axis[:-1], axis[1:] - axis[:-1]
     share = np.sum(way * chord, axis=1, keepdims=True) / np.sum(chord * chord, axis=1, keepdims=True)
     assert np.linalg.norm(way - share * chord, axis=1).max() < 1e-3
 
@@ -398,17 +399,17 @@ def test_without_pandas_one_line_names_the_extra(monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize(
-    "one",
+    "instance",
     [
-        pytest.param(one, id=name(one), marks=[pytest.mark.slow] * (k % 3 > 0))
-        for k, one in enumerate([SymmetricBody.ring(1.0, 2.0), *TABLED])
+        pytest.param(instance, id=name(instance), marks=[pytest.mark.slow] * (k % 3 > 0))
+        for k, instance in enumerate([SymmetricBody.ring(1.0, 2.0), *TABLED])
     ],
 )
-def test_html_is_light_and_needs_no_tex(one: Any) -> None:
+def test_html_is_light_and_needs_no_tex(instance: Any) -> None:
     """A notebook shows each object within 40 kB, its picture among them, and no formula waits for MathJax."""
-    shown = one._repr_html_()
-    assert len(shown) < 40_000
-    words = re.sub('base64,[^"]*', "", shown)
+    html = instance._repr_html_()
+    assert len(html) < 40_000
+    words = re.sub('base64,[^"]*', "", html)
     assert "$" not in words
     assert "\\" not in words
     assert "<img" in words

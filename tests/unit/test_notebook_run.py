@@ -36,8 +36,10 @@ def outputs(ran: Any) -> list[tuple[str, list[Any], str]]:
 def test_cells_print_the_output_below_them(ran: Any) -> None:
     """A block of text below a cell is what it prints."""
     printed = 0
-    for source, given, below in outputs(ran)[:-1]:
-        text = "".join(one.text for one in given if one.output_type == "stream" and one.name == "stdout")
+    for source, outputs_given, below in outputs(ran)[:-1]:
+        text = "".join(
+            output.text for output in outputs_given if output.output_type == "stream" and output.name == "stdout"
+        )
         assert bool(text) == below.startswith("```text\n"), source
         if text:
             assert text.split() == below.removeprefix("```text\n").partition("```")[0].split()
@@ -48,12 +50,14 @@ def test_cells_print_the_output_below_them(ran: Any) -> None:
 @pytest.mark.slow
 def test_objects_and_figures_show_themselves(ran: Any) -> None:
     """A motion as a table and as LaTeX, a figure as a picture: without %matplotlib, and without pyplot."""
-    shown = {source.splitlines()[-1]: given for source, given, _ in outputs(ran)}
-    assert {*shown["motion"][0].data} >= {"text/plain", "text/html", "text/latex"}
-    assert "<table>" in shown["motion"][0].data["text/html"]
-    assert "image/png" in shown["motion.plot(turns=10)"][0].data
-    (last,) = (one.text for one in outputs(ran)[-1][1] if one.output_type == "stream" and one.name == "stdout")
-    assert last == "False\n"
+    outputs_of = {source.splitlines()[-1]: outputs_given for source, outputs_given, _ in outputs(ran)}
+    assert {*outputs_of["motion"][0].data} >= {"text/plain", "text/html", "text/latex"}
+    assert "<table>" in outputs_of["motion"][0].data["text/html"]
+    assert "image/png" in outputs_of["motion.plot(turns=10)"][0].data
+    (text_last,) = (
+        output.text for output in outputs(ran)[-1][1] if output.output_type == "stream" and output.name == "stdout"
+    )
+    assert text_last == "False\n"
 
 
 def test_the_guide_holds_it() -> None:

@@ -51,7 +51,7 @@ def one_figure() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Make the page of an elementary motion, once."""
     return Path(page(MOTION, tmp_path_factory.mktemp("pages"))[0])
 
@@ -63,23 +63,25 @@ def page(words: str, out: Path) -> list[str]:
     return result.stdout.splitlines()
 
 
-def test_the_pdf_begins_with_its_title_and_its_numbers(made: Path) -> None:
+def test_the_pdf_begins_with_its_title_and_its_numbers(page_file: Path) -> None:
     """No cover, no contents, no lists: the first pages have the title, the card, what is given and omega3."""
-    pages = [one.extract_text() for one in PdfReader(made.with_suffix(".pdf")).pages]
-    first = " ".join(" ".join(pages[:2]).split())
-    assert first.startswith("A body with I = 1.3 turns about the field once in 4.014 units of time; precession, stable")
-    assert all(words in first for words in ("--ratio 1.3 --field 1 2 --omega2 0.7", "omega3 0.886", "Table 2"))
+    pages = [page.extract_text() for page in PdfReader(page_file.with_suffix(".pdf")).pages]
+    text_first = " ".join(" ".join(pages[:2]).split())
+    assert text_first.startswith(
+        "A body with I = 1.3 turns about the field once in 4.014 units of time; precession, stable"
+    )
+    assert all(words in text_first for words in ("--ratio 1.3 --field 1 2 --omega2 0.7", "omega3 0.886", "Table 2"))
     numbered = re.compile(r"^Contents|^Figures 1|^\d(\.\d)? (Properties|Neighbours)", re.MULTILINE)
     assert not any(numbered.search(text) for text in pages)
     assert "How this was made" in pages[-1]
-    *_, last = re.finditer(r"^(Figure|Table) \d+", text := "\n".join(pages), re.MULTILINE)
-    assert last.start() < text.index("How this was made")
+    *_, match_last = re.finditer(r"^(Figure|Table) \d+", text := "\n".join(pages), re.MULTILINE)
+    assert match_last.start() < text.index("How this was made")
 
 
 def rows(file: Path, table: str) -> dict[str, list[str]]:
     """Return the rows of a table of a page by the name in their second cell, the cells as plain text."""
-    found = reader.fromstring(file.read_bytes()).get_element_by_id(f"tab-{table}").xpath(".//tbody/tr")
-    texts = [[cell.text_content().strip() for cell in row.xpath("./td")] for row in found]
+    elements = reader.fromstring(file.read_bytes()).get_element_by_id(f"tab-{table}").xpath(".//tbody/tr")
+    texts = [[cell.text_content().strip() for cell in row.xpath("./td")] for row in elements]
     return {cells[1]: cells for cells in texts}
 
 
@@ -88,9 +90,9 @@ def number(text: str) -> mpmath.mpf:
     return mpmath.mpf(re.sub(r"[\s\u202f]", "", text).replace("\N{MINUS SIGN}", "-").replace("×10", "e"))
 
 
-def test_its_numbers_agree_with_the_formulas(made: Path) -> None:
+def test_its_numbers_agree_with_the_formulas(page_file: Path) -> None:
     """Eight numbers of the page agree with the formulas at 40 digits, to the last one shown."""
-    found = rows(made, "properties-elementary")
+    cells = rows(page_file, "properties-elementary")
     with mpmath.workdps(40):
         I, B2, B3, w2 = (mpmath.mpf(x) for x in (1.3, 1, 2, 0.7))
         w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
@@ -106,16 +108,16 @@ def test_its_numbers_agree_with_the_formulas(made: Path) -> None:
             "along_field": w2 * B2 + I * w3 * B3,
         }
         for name, value in expected.items():
-            assert abs(number(found[name][2]) - value) <= abs(value) * mpmath.mpf("6e-10"), name
-            assert found[name][5] == "10\N{NO-BREAK SPACE}digits"
-    assert found["case"][2] == "precession"
-    assert found["nutation"][2] == "stable"
-    assert [found[name][5] for name in ("case", "nutation", "ratio")] == ["exactly", "exactly", "given"]
+            assert abs(number(cells[name][2]) - value) <= abs(value) * mpmath.mpf("6e-10"), name
+            assert cells[name][5] == "10\N{NO-BREAK SPACE}digits"
+    assert cells["case"][2] == "precession"
+    assert cells["nutation"][2] == "stable"
+    assert [cells[name][5] for name in ("case", "nutation", "ratio")] == ["exactly", "exactly", "given"]
 
 
-def test_the_nearest_closed_motions_are_convergents(made: Path) -> None:
+def test_the_nearest_closed_motions_are_convergents(page_file: Path) -> None:
     """Each fraction is a convergent of phi/k, and the motion at its omega2 has that ratio of frequencies."""
-    table = reader.fromstring(made.read_bytes()).get_element_by_id("tab-closed-elementary")
+    table = reader.fromstring(page_file.read_bytes()).get_element_by_id("tab-closed-elementary")
     with mpmath.workdps(40):
         for row in table.xpath(".//tbody/tr"):
             cells = [cell.text_content().strip() for cell in row.xpath("./td")]
@@ -126,13 +128,13 @@ def test_the_nearest_closed_motions_are_convergents(made: Path) -> None:
             assert abs(number(cells[2]) - (w2 - mpmath.mpf(0.7))) < mpmath.mpf("1e-9")
 
 
-def test_it_stands_in_one_file(made: Path) -> None:
+def test_it_stands_in_one_file(page_file: Path) -> None:
     """Nothing is fetched: what is shown or saved is inside, links are anchors, and each script is allowed."""
-    tree = reader.fromstring(made.read_bytes())
-    shown = [*tree.xpath("//@src"), *tree.xpath("//@srcset"), *tree.xpath("//link/@href")]
-    assert shown
-    assert all(place.startswith("data:") for place in shown)
-    assert not re.findall(r"url\((?!\"data:)", made.read_text("utf-8"))
+    tree = reader.fromstring(page_file.read_bytes())
+    addresses = [*tree.xpath("//@src"), *tree.xpath("//@srcset"), *tree.xpath("//link/@href")]
+    assert addresses
+    assert all(place.startswith("data:") for place in addresses)
+    assert not re.findall(r"url\((?!\"data:)", page_file.read_text("utf-8"))
     anchors = {node.get("id") for node in tree.xpath("//*[@id]")}
     for link in tree.xpath("//a"):
         place = link.get("href")
@@ -168,22 +170,22 @@ def test_a_body_without_a_start_has_all_parts(tmp_path: Path) -> None:
     assert "The figure stability: With B2 = 0" in left_out
 
 
-def test_the_code_of_a_page_gives_its_numbers(made: Path) -> None:
+def test_the_code_of_a_page_gives_its_numbers(page_file: Path) -> None:
     """The lines of Python print doubles that round to the digits of the table."""
-    (code,) = reader.fromstring(made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
+    (code,) = reader.fromstring(page_file.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
     with redirect_stdout(StringIO()) as out:
         exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
-    found = rows(made, "properties-elementary")
+    cells = rows(page_file, "properties-elementary")
     printed = dict(zip(("case", "omega3", "k", "phi", "period"), out.getvalue().splitlines(), strict=True))
     for name in ("omega3", "k", "phi", "period"):
-        assert float(printed[name]) == pytest.approx(float(number(found[name][2])), rel=1e-9)
+        assert float(printed[name]) == pytest.approx(float(number(cells[name][2])), rel=1e-9)
 
 
 @pytest.mark.slow
 def test_the_code_of_a_page_asks_for_no_number_that_there_is_not(tmp_path: Path) -> None:
     """At rest the mean rates are zero; there are no angles of a period, no modulus and no nome."""
-    made = Path(page("--ratio 1.5 --field 0 0 --omega 0 0 0", tmp_path)[0])
-    (code,) = reader.fromstring(made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
+    page_made = Path(page("--ratio 1.5 --field 0 0 --omega 0 0 0", tmp_path)[0])
+    (code,) = reader.fromstring(page_made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
     with redirect_stdout(StringIO()) as out:
         exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
     assert out.getvalue().splitlines() == ["at rest", "(0.0, 0.0)", "inf", "0.0", "0.0"]
@@ -194,20 +196,20 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
     ball: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The page says what to do instead, in one line with status 2, and the good page stays."""
-    made = shutil.copytree(ball[0].parent, tmp_path, dirs_exist_ok=True) / ball[0].name
-    good, file = made.read_bytes(), made.parent / f"{made.name.removesuffix('.html')}.md"
+    page_copy = shutil.copytree(ball[0].parent, tmp_path, dirs_exist_ok=True) / ball[0].name
+    content, file = page_copy.read_bytes(), page_copy.parent / f"{page_copy.name.removesuffix('.html')}.md"
     assert file.read_text("utf-8").startswith("+++\n# Made by `atlas page --larmor 0.5 --momentum 0.3 -0.7`")
     file.write_text(file.read_text("utf-8").replace("This report is that of", "This is my ball,"), "utf-8")
     with pytest.raises(SystemExit) as ended:
         main(["page", *BALL.split(), "--out", str(tmp_path)])
     assert ended.value.code == 2
-    told = capsys.readouterr()
-    assert "was changed since it was made" in told.err
-    assert told.err.count("\n") == 1
-    assert made.read_bytes() == good
+    captured = capsys.readouterr()
+    assert "was changed since it was made" in captured.err
+    assert captured.err.count("\n") == 1
+    assert page_copy.read_bytes() == content
     words = ["report", str(file), "--format", "single", "--out", str(tmp_path)]
     assert CliRunner().invoke(command, words, catch_exceptions=False).exit_code == 0
-    assert b"my ball" in made.read_bytes()
+    assert b"my ball" in page_copy.read_bytes()
 
 
 @pytest.mark.slow
@@ -225,9 +227,9 @@ def test_several_reports_are_built_at_once(tmp_path: Path) -> None:
         "--format",
         "html",
     ]
-    found = CliRunner().invoke(command, words, catch_exceptions=False)
-    assert found.exit_code == 0
-    assert found.stdout.split() == [str(tmp_path / name / "index.html") for name in ("two", "one")]
+    outcome = CliRunner().invoke(command, words, catch_exceptions=False)
+    assert outcome.exit_code == 0
+    assert outcome.stdout.split() == [str(tmp_path / name / "index.html") for name in ("two", "one")]
 
 
 @pytest.mark.parametrize(
@@ -306,8 +308,8 @@ def test_a_point_charge_has_the_units_that_it_was_given_in(
     """Each parameter has its own unit, and the velocity in the figure."""
     record = unbuilt(f"particle --mu 5 --electric 0.1 0 0 --magnetic 0 0 2 --velocity 1 0 0 --units {units}")
     table, figure = (block["parameters"] for block in record["pages"][0]["blocks"] if "parameters" in block)
-    shown = {row[1]: row[3] for row in compute("properties", Request([body_and_field(None, None)], table, 8)).rows}
-    assert [shown[f"`{name}`"] for name in ("mu", "E1", "B1", "y1", "v1", "c")] == names.split()
+    units_of = {row[1]: row[3] for row in compute("properties", Request([body_and_field(None, None)], table, 8)).rows}
+    assert [units_of[f"`{name}`"] for name in ("mu", "E1", "B1", "y1", "v1", "c")] == names.split()
     assert f"{figure['length']}/{figure['unit']}" == names.split()[4]
 
 
@@ -355,13 +357,13 @@ def test_a_precession_too_slow_to_draw_is_reported(
     """A cylinder that spins at 2 MHz precesses at 2 mHz: eight minutes a turn, and nutates within a microsecond."""
     body = "--shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e"
     monkeypatch.chdir(tmp_path)
-    made = unbuilt(f"motion {body} --magnetic 0.4T 0.6928T --spin 2MHz")
-    prose = "".join(block.get("text", "") for block in made["pages"][0]["blocks"])
+    report = unbuilt(f"motion {body} --magnetic 0.4T 0.6928T --spin 2MHz")
+    prose = "".join(block.get("text", "") for block in report["pages"][0]["blocks"])
     assert "followed for the precession" in prose
     assert "a whole turn takes 492 s" in prose
     assert r"$7.71 \times 10^{-7}$ s" in prose
-    (listing,) = (block for block in made["pages"][0]["blocks"] if block.get("id") == "neighbours")
-    assert made["parameters"]["fields"]["field"]["title"] == "field of (0.4, 0.6928) T"
+    (listing,) = (block for block in report["pages"][0]["blocks"] if block.get("id") == "neighbours")
+    assert report["parameters"]["fields"]["field"]["title"] == "field of (0.4, 0.6928) T"
     for _, line in listing["rows"]:  # no start stands twice, and no density without its shape
         words = re.sub(r"^`atlas page |`$", "", line).split()
         assert not {"--omega", "--omega2"} & set(words) or "--spin" not in words
@@ -374,10 +376,10 @@ def test_neighbours_agree_with_their_description(unbuilt: Callable[[str], dict[s
     """The pair turns with phi of the other sign, (80); the one that turns as a whole has phi = 0; at rest R is 1."""
     record = unbuilt("--ratio 1.3 --field 1 2 --omega2 0.7")
     (rows,) = (block["rows"] for block in record["pages"][0]["blocks"] if block.get("id") == "neighbours")
-    found = {words.split()[1 if words.startswith("the") else 0]: cells for words, cells in rows}
+    neighbours = {words.split()[1 if words.startswith("the") else 0]: cells for words, cells in rows}
     motions = {
         word: ElementaryMotion(1.3, (1, 2), float(cells.split("--omega2 ")[1].strip("`")))
-        for word, cells in found.items()
+        for word, cells in neighbours.items()
         if word in {"pair", "at", "$\\phi=0$:"}
     }
     assert motions["pair"].phi == pytest.approx(-ElementaryMotion(1.3, (1, 2), 0.7).phi, rel=1e-14, abs=0.0)
@@ -387,9 +389,9 @@ def test_neighbours_agree_with_their_description(unbuilt: Callable[[str], dict[s
 
 def test_the_figures_of_a_family_draw_it() -> None:
     """Each recipe of the register is there, and takes parameters of its family."""
-    for one in FAMILIES.values():
-        for name in one.figures:
-            assert set(load(name).parameters) & {p.name for p in one.parameters}
+    for family in FAMILIES.values():
+        for name in family.figures:
+            assert set(load(name).parameters) & {p.name for p in family.parameters}
 
 
 @pytest.mark.parametrize(
@@ -432,9 +434,9 @@ def test_a_field_at_an_angle_stands_as_it_was_typed() -> None:
     words = "--ratio 1.5 --magnetic 0.8T --angle 30deg --mu 1C/kg --omega2 0.3"
     context = COMMANDS["motion"].make_context("motion", words.split())
     with context:
-        wanted = asked(FAMILIES["elementary"], context.params)
-    assert wanted.command == f"atlas report your_body {words}"
-    assert wanted.field["title"] == "field of 0.8T at 30deg"
+        request = asked(FAMILIES["elementary"], context.params)
+    assert request.command == f"atlas report your_body {words}"
+    assert request.field["title"] == "field of 0.8T at 30deg"
 
 
 def test_properties_mark_unproven_numbers() -> None:
@@ -444,21 +446,21 @@ def test_properties_mark_unproven_numbers() -> None:
     assert {row[5].replace("\\ ", " ") for row in data.rows} == {"8 digits", "exactly"}
     data = compute("properties", Request(case, {"family": "elementary", "omega2": -2.0}, 8))
     assert {row[1]: row[5] for row in data.rows}["`phi`"] == "exactly"
-    for wrong, tells in (({}, "lacks 'omega2'"), ({"omega2": 1.0, "omega4": 1.0}, "omega4")):
+    for parameters, tells in (({}, "lacks 'omega2'"), ({"omega2": 1.0, "omega4": 1.0}, "omega4")):
         with pytest.raises(AtlasError, match=tells):
-            compute("properties", Request(case, {"family": "elementary", **wrong}, 8))
+            compute("properties", Request(case, {"family": "elementary", **parameters}, 8))
     with pytest.raises(AtlasError, match="nix"):
         compute("properties", Request(case, {"family": "nix"}, 8))
 
 
 def test_why_a_quantity_has_no_value_stands_below() -> None:
     """A spin about the middle axis has no frequencies: a dash in the table, the reason among its notes."""
-    given = {"inertia": [0.8, 1.0, 1.3], "field": [0.0, 0.0, 0.0], "omega": [0.0, 3.0, 0.0]}
-    data = compute("properties", Request([body_and_field(None, None)], {"family": "asymmetric", **given}, 6))
+    inputs = {"inertia": [0.8, 1.0, 1.3], "field": [0.0, 0.0, 0.0], "omega": [0.0, 3.0, 0.0]}
+    data = compute("properties", Request([body_and_field(None, None)], {"family": "asymmetric", **inputs}, 6))
     assert {row[1]: (row[2], row[5]) for row in data.rows}["`frequencies`"] == ("–", "")
     assert any("frequencies" in note and "separatrix" in note for note in data.notes)
-    given = {"inertia": [1.0, 0.5], "direction": [0.0, 1.0], "omega": [0.0, 0.0, 0.2], "linear": 3.0}
-    data = compute("properties", Request([body_and_field(None, None)], {"family": "top", **given}, 6))
+    inputs = {"inertia": [1.0, 0.5], "direction": [0.0, 1.0], "omega": [0.0, 0.0, 0.2], "linear": 3.0}
+    data = compute("properties", Request([body_and_field(None, None)], {"family": "top", **inputs}, 6))
     without = "`precession_per_period`, `spin_per_period`, `precession_rate`, `spin_rate`: "
     assert [note.startswith(without) for note in data.notes if "no period" in note] == [True]
 
@@ -476,10 +478,10 @@ def test_each_root_has_a_row_of_its_own() -> None:
 
 def test_a_neighbour_has_no_negative_zero() -> None:
     """What a link to it says is what would be typed."""
-    near = Asked(FAMILIES["general"], {"ratio": ("1.5",), "omega": ("1", "2", "3")}, {}).changed(
+    neighbour = Asked(FAMILIES["general"], {"ratio": ("1.5",), "omega": ("1", "2", "3")}, {}).changed(
         "general", omega=(-0.0, -1.0, 2.0)
     )
-    assert near.options["omega"] == ("0", "-1", "2")
+    assert neighbour.options["omega"] == ("0", "-1", "2")
 
 
 def test_convergents_are_best_fractions() -> None:

@@ -33,10 +33,10 @@ TWICE = {"mf61a": "mf61", "mf61b": "mf61"}
 
 def test_every_labelled_equation_of_the_paper_is_in_the_ledger() -> None:
     """No label is missing, and what has none is a claim in words or a theorem of our own."""
-    found = [alias for entry in EQUATIONS.values() if (alias := entry.alias)]
-    assert Counter(found) == Counter([*(TWICE.get(label, label) for label in LABELS), "Aff100"])
-    others = [name for name, entry in EQUATIONS.items() if not entry.alias]
-    assert all(name.startswith(("text-", "theorem-")) for name in others)
+    aliases = [alias for entry in EQUATIONS.values() if (alias := entry.alias)]
+    assert Counter(aliases) == Counter([*(TWICE.get(label, label) for label in LABELS), "Aff100"])
+    unlabelled = [name for name, entry in EQUATIONS.items() if not entry.alias]
+    assert all(name.startswith(("text-", "theorem-")) for name in unlabelled)
 
 
 def test_the_numbers_are_those_in_print() -> None:
@@ -81,7 +81,7 @@ def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
 
 
 @pytest.mark.parametrize(
-    ("word", "said"),
+    ("word", "answer"),
     [
         ("mf77x", r"'mf77x' in the ledger \(did you mean 'mf77'\?\)"),
         ("theorem-pear", r"'theorem-pear' in the ledger \(did you mean 'theorem-pair'\?\)"),
@@ -92,9 +92,9 @@ def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
         ("\N{SUPERSCRIPT TWO}", "there is no equation"),
     ],
 )
-def test_a_misspelt_name_is_answered_with_the_nearest(word: str, said: str) -> None:
+def test_a_misspelt_name_is_answered_with_the_nearest(word: str, answer: str) -> None:
     """An unknown number, name or label is an error that says the nearest one."""
-    with pytest.raises(AtlasError, match=said):
+    with pytest.raises(AtlasError, match=answer):
         find(word)
 
 
@@ -102,7 +102,7 @@ WORST = json.loads((folder("reports") / "data" / "worst_errors.json").read_text(
 TEXTS = [
     *(text for entry in EQUATIONS.values() for text in (entry.says, *entry.assumptions)),
     *(text for verdict in recorded.load().values() for text in (verdict.method, verdict.follows, verdict.note)),
-    *(title(name) for one in FAMILIES.values() for name in one.promises),
+    *(title(name) for family in FAMILIES.values() for name in family.promises),
     *(title(name) for pair in WORST.items() for name in (pair[0], pair[1][1])),
 ]
 LETTER = re.compile(r"alpha|beta|gamma|lambda|omega|Omega|theta|tau|phi|psi|^sqrt|^hat|[A-Z]'?\d|[a-z]\d|[_^<>=]")
@@ -128,20 +128,20 @@ def test_every_citation_is_one_of_the_ledger() -> None:
 def test_nothing_of_a_text_is_lost_on_a_terminal() -> None:
     """No TeX is left, and every letter, digit and sign of a formula is still there."""
     for text in TEXTS:
-        shown = plain(text)
-        assert not re.search(r"[\\$@]", shown), text
-        kept = re.sub(r"\\[A-Za-z]+|[@${}\\,\s]", "", text)
-        assert [sign for sign in kept if sign not in shown] == [], text
+        terminal_text = plain(text)
+        assert not re.search(r"[\\$@]", terminal_text), text
+        signs = re.sub(r"\\[A-Za-z]+|[@${}\\,\s]", "", text)
+        assert [sign for sign in signs if sign not in terminal_text] == [], text
 
 
 @pytest.mark.parametrize(
-    ("tex", "shown"),
+    ("tex", "unicode_text"),
     [
         (r"$\omega_2\ne-B'_2$, see @(71).", "ω_2≠-B'_2, see (71)."),
         (r"$[\mathbf{E}_\bot,\mathbf{B}]$", "[E_⊥,B]"),
         (r"$\operatorname{tr}(g)-g$, $\det R=1$, $e^{i\xi}$", "tr(g)-g, det R=1, e^{iξ}"),
     ],
 )
-def test_tex_is_shown_in_unicode(tex: str, shown: str) -> None:
+def test_tex_is_shown_in_unicode(tex: str, unicode_text: str) -> None:
     """Letters, relations and citations as one would type them."""
-    assert plain(tex) == shown
+    assert plain(tex) == unicode_text

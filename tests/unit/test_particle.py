@@ -39,9 +39,9 @@ def sizes(p: ParticleMotion, t: float) -> tuple[float, float]:
     """Return the sizes of the terms of y(t) and y'(t)."""
     x, a, v = abs(p.cyclotron_frequency * t), np.hypot.reduce(p.mu * p.E), np.hypot.reduce(p.v0)
     direction = p.B / np.abs(p.B).max() if p.B.any() else p.B
-    along = abs(p.mu * p.E @ direction) / np.hypot.reduce(direction) if p.B.any() else a
+    speed = abs(p.mu * p.E @ direction) / np.hypot.reduce(direction) if p.B.any() else a
     drift = abs(t) * a / max(x, 1)
-    return np.hypot.reduce(p.y0) + abs(t) * (v + drift + along * abs(t) / 2), v + drift + along * abs(t)
+    return np.hypot.reduce(p.y0) + abs(t) * (v + drift + speed * abs(t) / 2), v + drift + speed * abs(t)
 
 
 @pytest.mark.slow
@@ -110,8 +110,8 @@ def test_without_a_charge_there_is_no_frequency() -> None:
 )
 def test_each_path_and_field_has_its_name(E: Any, B: Any, v: Any, kind: str, case: str) -> None:
     """Kinds and cases are decided exactly on the inputs, whichever axis is called the first."""
-    for first in range(3):
-        p = ParticleMotion(1, *(np.roll(x, first) for x in (E, B)), ORIGIN, np.roll(v, first))
+    for shift in range(3):
+        p = ParticleMotion(1, *(np.roll(x, shift) for x in (E, B)), ORIGIN, np.roll(v, shift))
         assert (p.kind, p.case) == (kind, case)
 
 
@@ -135,9 +135,9 @@ def test_the_phase_is_exact_over_many_turns() -> None:
     with mp.workdps(60):
         b = mpmath.matrix([mp.mpf(float(x)) for x in B])
         omega, n, v = mp.mpf(mu) / mp.mpf(c) * mp.norm(b), b / mp.norm(b), mpmath.matrix([1, 0.5, 0.25])
-        along = (n.T * v)[0] * n
-        turned = mpmath.matrix([n[1] * v[2] - n[2] * v[1], n[2] * v[0] - n[0] * v[2], n[0] * v[1] - n[1] * v[0]])
-        true = along + mp.cos(omega * t) * (v - along) - mp.sin(omega * t) * turned
+        parallel = (n.T * v)[0] * n
+        rotated = mpmath.matrix([n[1] * v[2] - n[2] * v[1], n[2] * v[0] - n[0] * v[2], n[0] * v[1] - n[1] * v[0]])
+        true = parallel + mp.cos(omega * t) * (v - parallel) - mp.sin(omega * t) * rotated
         assert max(abs(float(g) - w) for g, w in zip(p.velocity(t), true, strict=True)) < 4 * EPS
 
 
@@ -189,11 +189,11 @@ def test_arrays_of_particles_broadcast() -> None:
     position, velocity, centre = many.position(t), many.velocity(t), many.guiding_centre(t)
     assert position.shape == (4, 2, 3, 3)
     for i, j in np.ndindex(2, 3):
-        one = ParticleMotion(mu[i, 0], E[j], B[i, 0], y, v[j], c[j])
-        assert np.array_equal(position[:, i, j], one.position(t[:, 0, j]))
-        assert np.array_equal(velocity[:, i, j], one.velocity(t[:, 0, j]))
-        assert np.array_equal(centre[:, i, j], one.guiding_centre(t[:, 0, j]))
-        assert (many.kind[i, j], many.case[i, j], many.radius[i, j]) == (one.kind, one.case, one.radius)
+        particle = ParticleMotion(mu[i, 0], E[j], B[i, 0], y, v[j], c[j])
+        assert np.array_equal(position[:, i, j], particle.position(t[:, 0, j]))
+        assert np.array_equal(velocity[:, i, j], particle.velocity(t[:, 0, j]))
+        assert np.array_equal(centre[:, i, j], particle.guiding_centre(t[:, 0, j]))
+        assert (many.kind[i, j], many.case[i, j], many.radius[i, j]) == (particle.kind, particle.case, particle.radius)
     trochoids = ParticleMotion.trochoid(mu, [0, 1, 0], [0, 0, 1], np.array([0.5, 1.0, 2.0]))
     small, large = ["curtate trochoid", "cycloid", "prolate trochoid"], ["cycloid", *["prolate trochoid"] * 2]
     assert trochoids.kind.tolist() == [small, large]
@@ -210,9 +210,9 @@ def test_the_unit_of_time_changes_no_bit(power: int) -> None:
         2.7,
         2.0**power,
     )
-    one = ParticleMotion(-1.1, E, B, ORIGIN, v).position(t)
-    other = ParticleMotion(-1.1, E * scale**2, B * scale, ORIGIN, v * scale).position(t / scale)
-    assert np.array_equal(one, other)
+    path = ParticleMotion(-1.1, E, B, ORIGIN, v).position(t)
+    path_scaled = ParticleMotion(-1.1, E * scale**2, B * scale, ORIGIN, v * scale).position(t / scale)
+    assert np.array_equal(path, path_scaled)
 
 
 @pytest.mark.parametrize("name", ["drift", "period", "radius", "axes"])

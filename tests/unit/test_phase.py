@@ -32,7 +32,7 @@ def circle(phases: Phases, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
     return 2 * cos[0], 2 * sin[0], 2 * versine
 
 
-def worst(phases: Phases, f: float, times: np.ndarray) -> float:
+def largest_error(phases: Phases, f: float, times: np.ndarray) -> float:
     """Return the largest error of cos and sin of f t, in units of 2^-53."""
     cos, sin, _ = circle(phases, times)
     with mp.workprec(300):
@@ -53,7 +53,7 @@ def phases_of(f: float) -> Phases:
 def test_cosine_and_sine_are_true_to_four_ulp_up_to_phase_2_to_50(f: float, digits: int, seed: int) -> None:
     """Cosine and sine of f t are within the proven 8 units of 2^-53 for any |f t| <= 2^50."""
     t = np.random.default_rng(seed).uniform(-1, 1, 20) * 2.0**digits / f
-    assert worst(phases_of(f), f, t) <= PROVEN
+    assert largest_error(phases_of(f), f, t) <= PROVEN
 
 
 @settings(max_examples=60)
@@ -61,7 +61,7 @@ def test_cosine_and_sine_are_true_to_four_ulp_up_to_phase_2_to_50(f: float, digi
 def test_odd_quarter_turns_are_no_worse(f: float, digits: int, seed: int) -> None:
     """Where the half turns change, at odd quarter turns, the error is largest, and within the bound."""
     turns = np.random.default_rng(seed).integers(2 ** (digits - 1), 2**digits, 20) + 0.5
-    assert worst(phases_of(f), f, np.minimum(turns * np.pi, 2.0**50) / f * (1 - 2.0**-52)) <= PROVEN
+    assert largest_error(phases_of(f), f, np.minimum(turns * np.pi, 2.0**50) / f * (1 - 2.0**-52)) <= PROVEN
 
 
 @pytest.mark.slow
@@ -73,25 +73,25 @@ def test_odd_quarter_turns_are_no_worse(f: float, digits: int, seed: int) -> Non
     st.integers(1, 2**32),
     st.sampled_from((0.0, 0.25, 0.5, 0.75, 1.0)),
 )
-def test_one_time_is_as_true_as_many(f: float, power: int, digits: int, seed: int, near: float) -> None:
+def test_one_time_is_as_true_as_many(f: float, power: int, digits: int, seed: int, phase_shift: float) -> None:
     """At one time cos and sin are within 2 units, sin and the versine within 4 ulp of themselves; the array agrees."""
     rng, f = np.random.default_rng(seed), float(np.ldexp(f, power))
     with mp.workprec(3000):
         phase = mpf(2) ** digits * rng.uniform(0.5, 1)
         if digits > 3:
-            phase = (mp.floor(phase / (2 * mp.pi)) + near) * 2 * mp.pi
+            phase = (mp.floor(phase / (2 * mp.pi)) + phase_shift) * 2 * mp.pi
         t = float(phase / mpf(f))
         x = mpf(f) * mpf(t)
         if not 0 < abs(t) < 1e300 or abs(x) > 2**50:
             return
         ((c, s, versine),) = phases_of(f).circle_of_one(t)
-        wanted = mp.cos(x), mp.sin(x), 2 * mp.sin(x / 2) ** 2
-        assert max(abs(2 * c - wanted[0]), abs(2 * s - wanted[1])) <= 2 * UNIT
-        for found, value in ((s, wanted[1]), (versine, wanted[2])):
+        values = mp.cos(x), mp.sin(x), 2 * mp.sin(x / 2) ** 2
+        assert max(abs(2 * c - values[0]), abs(2 * s - values[1])) <= 2 * UNIT
+        for value_found, value in ((s, values[1]), (versine, values[2])):
             if abs(value) > 1e-300 and abs(value) < 0.1:
-                assert abs(2 * found / value - 1) <= 8 * UNIT
-        several = circle(phases_of(f), np.array([t]))
-        assert max(abs(2 * c - several[0][0]), abs(2 * s - several[1][0])) <= (PROVEN + 2) * UNIT
+                assert abs(2 * value_found / value - 1) <= 8 * UNIT
+        values_array = circle(phases_of(f), np.array([t]))
+        assert max(abs(2 * c - values_array[0][0]), abs(2 * s - values_array[1][0])) <= (PROVEN + 2) * UNIT
 
 
 def test_one_time_of_no_and_of_extreme_frequencies() -> None:
@@ -117,11 +117,11 @@ def test_half_a_phase_is_rounded_once(digits: int, origins: list[Any] | None) ->
     f = [in_turns(1.2345), in_turns(0.7)]
     t = np.random.default_rng(digits % 64).uniform(-1, 1, 40) * 2.0**digits
     work = np.empty((8, 2, 50))
-    found = Phases(f, origins).halves_of(t, work)
+    halves = Phases(f, origins).halves_of(t, work)
     with mp.workprec(300):
         for i, rate in enumerate((1.2345, 0.7)):
             start = 2 * mp.pi * mpf(float(origins[i])) if origins else mpf(0)
-            for x, time in zip(found[i].tolist(), t.tolist(), strict=True):
+            for x, time in zip(halves[i].tolist(), t.tolist(), strict=True):
                 off = (mpf(x) - (mpf(rate) * mpf(time) + start) / 2) / (mp.pi / 2)
                 assert abs(off - mp.nint(off)) * mp.pi / 2 <= 4 * UNIT
                 assert abs(x) <= 0.9
@@ -144,10 +144,12 @@ def test_a_time_in_two_words_is_taken_whole() -> None:
     phases = Phases([fmpq(1, 3)])
     for start in (1e14, 1e4):
         t, low = np.arange(start, start + 50), np.full(50, 3e-17 * start)
-        half, rest, *_ = phases.reduced(t, np.empty((8, 1, 50)), low)
+        half, low_words, *_ = phases.reduced(t, np.empty((8, 1, 50)), low)
         with mp.workprec(300):
-            for x, e, time, more in zip(half[0].tolist(), rest[0].tolist(), t.tolist(), low.tolist(), strict=True):
-                off = 2 * (mpf(time) + mpf(more)) / 3 - (mpf(x) + mpf(e)) / (mp.pi / 2)
+            for x, e, time, low_time in zip(
+                half[0].tolist(), low_words[0].tolist(), t.tolist(), low.tolist(), strict=True
+            ):
+                off = 2 * (mpf(time) + mpf(low_time)) / 3 - (mpf(x) + mpf(e)) / (mp.pi / 2)
                 assert abs(off - mp.nint(off)) * mp.pi / 2 <= 0.4 * UNIT
 
 
@@ -156,8 +158,8 @@ def test_a_power_of_two_in_the_frequency_moves_to_the_time(exponent: int) -> Non
     """A frequency f 2^n at t 2^-n gives the bits of f at t, also where f is scaled inside."""
     t = np.array([0.0, 1e-7, 0.3, 1.7, 1e5, -3e12])
     plain = circle(Phases([rational(1.2345)]), t)
-    moved = circle(Phases([rational(1.2345) * fmpq(2) ** exponent]), np.ldexp(t, -exponent))
-    for a, b in zip(plain, moved, strict=True):
+    values_scaled = circle(Phases([rational(1.2345) * fmpq(2) ** exponent]), np.ldexp(t, -exponent))
+    for a, b in zip(plain, values_scaled, strict=True):
         assert np.array_equal(a, b)
 
 

@@ -58,9 +58,9 @@ def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkey
     from atlas.book.building.figures import build_figures
 
     monkeypatch.chdir(tmp_path)
-    (first,) = build_figures(["magn"], ("svg",), Path())
+    (build,) = build_figures(["magn"], ("svg",), Path())
     (again,) = build_figures(["magn"], ("svg",), Path("elsewhere"))
-    assert first.reason.startswith("drawn")
+    assert build.reason.startswith("drawn")
     assert again.reason.startswith("taken")
     assert sorted(path.name for path in tmp_path.iterdir()) == [".written", "elsewhere", "magn.svg"]
 
@@ -71,16 +71,16 @@ def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, c
     """No process says a word about it, nor of a backend and a date that are none."""
     folder = tmp_path / "no" / "home" if cache is None else tmp_path
     environment = {key: value for key, value in os.environ.items() if key not in {"MPLCONFIGDIR", "XDG_CACHE_HOME"}}
-    more = {"MPLBACKEND": "none", "SOURCE_DATE_EPOCH": "none"} | ({"XDG_CACHE_HOME": cache} if cache else {})
+    variables = {"MPLBACKEND": "none", "SOURCE_DATE_EPOCH": "none"} | ({"XDG_CACHE_HOME": cache} if cache else {})
     done = subprocess.run(
         [sys.executable, "-m", "atlas", "figure", "magn", "lssc", "--format", "pdf", "--out", str(tmp_path / "out")],
-        env=environment | more | {"HOME": str(folder), "PYTHONPATH": str(ROOT)},
+        env=environment | variables | {"HOME": str(folder), "PYTHONPATH": str(ROOT)},
         capture_output=True,
         text=True,
         check=False,
     )
-    told = [line for line in done.stderr.splitlines() if not re.search(r" after \d+ s$", line)]  # on a busy machine
-    assert (done.returncode, told) == (0, [])
+    lines = [line for line in done.stderr.splitlines() if not re.search(r" after \d+ s$", line)]  # on a busy machine
+    assert (done.returncode, lines) == (0, [])
     assert len(list((tmp_path / "out").glob("*.pdf"))) == 2
 
 
@@ -98,7 +98,7 @@ def test_no_letter_fails(encoding: str) -> None:
         check=True,
     )
     expected = {"ascii": "-x->? e5", "latin-1": "-×->? é5", "utf-8": "−×→ω é⁵"}[encoding]
-    line, written = done.stdout.decode(encoding).splitlines()
+    line, output = done.stdout.decode(encoding).splitlines()
     assert line == expected
-    assert written == ('{"a": "ω"}' if encoding == "utf-8" else r'{"a": "\u03c9"}')
-    assert all(near.isascii() for near in NEAR.values())
+    assert output == ('{"a": "ω"}' if encoding == "utf-8" else r'{"a": "\u03c9"}')
+    assert all(neighbour.isascii() for neighbour in NEAR.values())

@@ -47,9 +47,9 @@ def test_the_precision_of_flint_outside_changes_nothing(
     make: Callable[[], Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """With 12 binary digits, with 53 and with 500 every double is the same to its last bit."""
-    found = []
+    values = []
     for bits in (12, 53, 500):
         monkeypatch.setattr(ctx, "prec", bits)
-        found.append(doubles(make))
+        values.append(doubles(make))
         assert ctx.prec == bits
-    assert found[0] == found[1] == found[2]
+    assert values[0] == values[1] == values[2]

@@ -44,11 +44,11 @@ def test_a_signal_to_the_group_ends_a_sweep(tmp_path: Path, number: signal.Signa
         time.sleep(wait)
         os.killpg(process.pid, number)
         try:
-            _, told = process.communicate(timeout=120)
+            _, message = process.communicate(timeout=120)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             raise
-    assert (process.returncode, told.split("\n", 1)) == (128 + number, ["", "atlas: interrupted\n"])
+    assert (process.returncode, message.split("\n", 1)) == (128 + number, ["", "atlas: interrupted\n"])
     assert not [*temporary.iterdir()]
     assert {path.name for path in tmp_path.iterdir()} <= {"temporary", "t.csv.parts"}
 
@@ -144,18 +144,18 @@ def test_a_program_that_is_run_reads_names_in_any_locale(
     folder.mkdir()
     (folder / "é.bib").write_text("@misc{a, title = {Thé}, author = {Ünal, É.}, year = {2001}}", encoding="utf-8")
     assert "Ünal" in bibliography.read(folder / "é.bib").named["a"]
-    told = "import locale; print(locale.setlocale(locale.LC_CTYPE, ''), locale.nl_langinfo(locale.CODESET))"
-    assert programs.run([sys.executable, "-I", "-c", told], 20).stdout.split()[-1] == "UTF-8"
+    program = "import locale; print(locale.setlocale(locale.LC_CTYPE, ''), locale.nl_langinfo(locale.CODESET))"
+    assert programs.run([sys.executable, "-I", "-c", program], 20).stdout.split()[-1] == "UTF-8"
 
 
 def test_names_are_read_in_utf8_where_python_is_told_not_to(tmp_path: Path) -> None:
     """With PYTHONUTF8=0 in the locale C, a file of letters that ASCII lacks is found and named in errors."""
     (tmp_path / "é.csv").write_text("t\n", encoding="utf-8")
     ascii_alone = os.environ | {"PYTHONUTF8": "0", "LC_ALL": "C"}
-    told = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-m", "atlas", "fit", "é.csv"], cwd=tmp_path, env=ascii_alone, capture_output=True, check=False
     )
-    assert (told.returncode, told.stderr.decode()[:13]) == (2, "atlas: é.csv,")
+    assert (process.returncode, process.stderr.decode()[:13]) == (2, "atlas: é.csv,")
 
 
 def test_the_first_line_of_pandocs_error_is_reported() -> None:

@@ -67,7 +67,10 @@ def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
     """What of a record needs no proof stands in the trial or in the ledger, word for word."""
     for name in trials(stem):
         entry, case = EQUATIONS[name], trial(name)
-        lines = ["; ".join(part.line for part in parts) for parts in (case.parts, case.corrected_parts)]
+        lines = [
+            "; ".join(line_of_case.line for line_of_case in lines_of_case)
+            for lines_of_case in (case.parts, case.corrected_parts)
+        ]
         assert RECORDED[name] == replace(
             RECORDED[name],
             name=name,
@@ -89,8 +92,8 @@ def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
 def test_every_verdict_is_sound() -> None:
     """Each entry is proved as printed, a definition, or refuted; what needs an erratum has a form that is proved."""
     for name, verdict in RECORDED.items():
-        settled = "proved definition".split() + ["refuted"] * bool(verdict.grade)
-        assert verdict.verdict in settled, name
+        decisions = "proved definition".split() + ["refuted"] * bool(verdict.grade)
+        assert verdict.verdict in decisions, name
         assert not verdict.grade or verdict.corrected_verdict == "proved", name
         assert not verdict.false or verdict.false_verdict == "refuted", name
 
@@ -103,9 +106,9 @@ def test_definitions_are_not_called_proved() -> None:
 def test_a_counterexample_names_its_numbers_and_its_time() -> None:
     """At t = 0 the particle is at a e2 of its circle; the sign of the charge and the field along B are told."""
     for name in ("(99)", "(101)", "text-ball-centre"):
-        found = RECORDED[name].counterexample
-        assert (found["t"], found["yperp"]) == ("0", f"[0, {found['a']}, 0]")
-        assert found["left"] != found["right"]
+        counterexample = RECORDED[name].counterexample
+        assert (counterexample["t"], counterexample["yperp"]) == ("0", f"[0, {counterexample['a']}, 0]")
+        assert counterexample["left"] != counterexample["right"]
     assert RECORDED["text-along-field"].counterexample["mu"] == "-1"
     assert RECORDED["text-parallel-acceleration"].counterexample["Epar"] == "[0, 0, 0]"
 
@@ -115,9 +118,9 @@ def test_slips_are_graded_and_counted_once() -> None:
     graded = {name: verdict for name, verdict in RECORDED.items() if verdict.grade}
     assert set(graded) == {*REFUTED, *UNFINISHED}
     assert all(graded[verdict.slip].slip == "" for verdict in graded.values() if verdict.slip)
-    found = slips(RECORDED.values())
-    assert tuple(found) == GRADES
-    assert {grade: len(names) for grade, names in found.items()} == {
+    counts = slips(RECORDED.values())
+    assert tuple(counts) == GRADES
+    assert {grade: len(names) for grade, names in counts.items()} == {
         "sign of the charge": 1,
         "gap in the argument": 1,
         "missing case": 11,
@@ -130,9 +133,9 @@ def test_slips_are_graded_and_counted_once() -> None:
 
 def test_an_exception_that_the_paper_does_not_state_leaves_a_claim_proved() -> None:
     """One policy for all: proved where it has a meaning, a missing case, and the whole form is proved."""
-    missing = {name for name, verdict in RECORDED.items() if verdict.grade == "missing case"}
-    assert {"(29)", "(42)", "(45)", "(52)", "(78)", "(83)", "text-rigid", "text-cubic-degree"} <= missing
-    assert missing == {*UNFINISHED} - {"(5)"}
+    names_missing = {name for name, verdict in RECORDED.items() if verdict.grade == "missing case"}
+    assert {"(29)", "(42)", "(45)", "(52)", "(78)", "(83)", "text-rigid", "text-cubic-degree"} <= names_missing
+    assert names_missing == {*UNFINISHED} - {"(5)"}
 
 
 def test_every_claim_in_words_has_a_false_sentence_beside_it() -> None:
@@ -165,12 +168,12 @@ def test_the_shown_correction_marks_the_changes(name: str) -> None:
     """Something is marked, but not all of it."""
     tex = RECORDED[name].corrected_tex
     assert r"\boxed{" in tex
-    depth, left = 0, ""
+    depth, remaining = 0, ""
     for piece in re.split(r"(\\boxed\{|\{|\})", tex):
         opens = piece.endswith("{") and (depth or piece != "{")
         depth += opens - bool(depth and piece == "}")
-        left += "" if depth else piece
-    assert len(left) > 4
+        remaining += "" if depth else piece
+    assert len(remaining) > 4
 
 
 def test_incomplete_equations_are_true_and_their_complete_form_is_proved() -> None:
@@ -191,15 +194,15 @@ def test_a_recorded_verdict_is_found_again(name: str) -> None:
 @pytest.mark.parametrize("name", SLIPS)
 def test_the_slips_of_the_paper_are_found(name: str) -> None:
     """Each is refuted as printed, with the values on record that show it, and its corrected form is proved."""
-    found = try_one(name)
-    assert replace(found, seconds=RECORDED[name].seconds) == RECORDED[name]
-    assert found.verdict == "refuted"
-    assert found.corrected_verdict == "proved"
-    assert found.corrected_tex
-    assert found.note
-    shown = found.counterexample
-    breaks = "!=" in shown.get("relation", "")
-    assert breaks or shown["left"] != shown["right"] or "no value" in shown["left"]
+    verdict = try_one(name)
+    assert replace(verdict, seconds=RECORDED[name].seconds) == RECORDED[name]
+    assert verdict.verdict == "refuted"
+    assert verdict.corrected_verdict == "proved"
+    assert verdict.corrected_tex
+    assert verdict.note
+    counterexample = verdict.counterexample
+    breaks = "!=" in counterexample.get("relation", "")
+    assert breaks or counterexample["left"] != counterexample["right"] or "no value" in counterexample["left"]
 
 
 @pytest.mark.parametrize("name", REFUTED)
@@ -212,9 +215,12 @@ def test_a_corrected_form_refutes_the_printed_one(name: str) -> None:
 
 def test_counterexample_of_the_cubic_by_hand() -> None:
     """The second derivative (46) agrees with the cubic (48) if that has (2-I)^2, not if (2-1)^2."""
-    shown = RECORDED["(48)"].counterexample
-    spin, field = [Fraction(shown[f"Omega{n}"]) for n in (1, 2, 3)], [Fraction(shown[f"K{n}"]) for n in (1, 2, 3)]
-    ratio = Fraction(shown["I3"]) / Fraction(shown["I2"])
+    counterexample = RECORDED["(48)"].counterexample
+    spin, field = (
+        [Fraction(counterexample[f"Omega{n}"]) for n in (1, 2, 3)],
+        [Fraction(counterexample[f"K{n}"]) for n in (1, 2, 3)],
+    )
+    ratio = Fraction(counterexample["I3"]) / Fraction(counterexample["I2"])
     c3 = field[2] + spin[2]
     energy = spin[0] ** 2 + spin[1] ** 2 + ratio * spin[2] ** 2
     c5 = spin[0] * field[0] + spin[1] * field[1] - spin[2] ** 2 + (2 - ratio) * c3 * spin[2]
@@ -227,19 +233,19 @@ def test_counterexample_of_the_cubic_by_hand() -> None:
         a1 = -2 * c5 + (ratio - (2 - slip) ** 2) * c3**2 - energy - ratio * square
         return ((2 - ratio) * c5 + energy) * c3 + a1 * u + 6 * (1 - ratio) * c3 * u**2 - 2 * (1 - ratio) * u**3
 
-    assert cubic(ratio) == true == Fraction(shown["left"])
-    assert cubic(Fraction(1)) == Fraction(shown["right"]) != true
+    assert cubic(ratio) == true == Fraction(counterexample["left"])
+    assert cubic(Fraction(1)) == Fraction(counterexample["right"]) != true
 
 
 def test_counterexample_of_the_multipliers_by_hand() -> None:
     """1.38: one multiplier between particles 4 and 6, particle 1 at (1, 0, 0), all others at the origin."""
-    shown = RECORDED["(9)"].counterexample
-    assert shown["lam[4,6]"] == "1"
-    assert shown["x[1]"] == "[1, 0, 0]"
+    counterexample = RECORDED["(9)"].counterexample
+    assert counterexample["lam[4,6]"] == "1"
+    assert counterexample["x[1]"] == "[1, 0, 0]"
     # forces of L = lam/2 (x4 - x1, x6 - x1): on 1 it is -(x4 + x6 - 2 x1)/2 = x1; lambda_kj = -sum of force_k x_j
     force_on_1 = -Fraction(1, 2) * (0 + 0 - 2 * 1)
-    assert -force_on_1 * 1 == Fraction(shown["left"]) == -1
-    assert -Fraction(1, 2) * (-2 * 1 * 1) == Fraction(shown["right"]) == 1
+    assert -force_on_1 * 1 == Fraction(counterexample["left"]) == -1
+    assert -Fraction(1, 2) * (-2 * 1 * 1) == Fraction(counterexample["right"]) == 1
 
 
 def test_the_lines_that_equation_52_leaves_out_by_hand() -> None:
@@ -268,9 +274,9 @@ def test_the_end_of_the_unstable_band_by_hand() -> None:
 
 def test_counterexample_of_the_combined_conditions_by_hand() -> None:
     """A point off omega1 = 0 obeys both (65) and (66)."""
-    shown = RECORDED["text-combining"].counterexample
+    counterexample = RECORDED["text-combining"].counterexample
     w1, w2, w3, B2, ratio, B3 = (
-        *(Fraction(shown[name]) for name in ("omega1", "omega2", "omega3", "B2", "I")),
+        *(Fraction(counterexample[name]) for name in ("omega1", "omega2", "omega3", "B2", "I")),
         Fraction(2),
     )
     common = B3 * (w1**2 + w2**2) - ratio * B2 * w2 * w3 + (2 - ratio) * B2 * B3 * w2
@@ -279,7 +285,7 @@ def test_counterexample_of_the_combined_conditions_by_hand() -> None:
     assert w1 != 0
 
 
-def _wrong(name: str, **changes: str) -> run.Verdict:
+def _verdict_of(name: str, **changes: str) -> run.Verdict:
     """Try an entry with something else in its place."""
     broken = replace(trial(name), **changes)
     outcome = broken.of_printed()
@@ -287,7 +293,7 @@ def _wrong(name: str, **changes: str) -> run.Verdict:
 
 
 @pytest.mark.parametrize(
-    ("name", "right", "wrong"),
+    ("name", "term", "term_changed"),
     [
         ("(72)", "2B'_2", "3B'_2"),
         ("(91)", "+", "-"),
@@ -301,12 +307,12 @@ def _wrong(name: str, **changes: str) -> run.Verdict:
         ("text-inertia-axes", r"=I_i", r"=I_j"),
     ],
 )
-def test_a_broken_entry_turns_the_run_red(name: str, right: str, wrong: str) -> None:
+def test_a_broken_entry_turns_the_run_red(name: str, term: str, term_changed: str) -> None:
     """A formula of the ledger that is changed is refuted, and that differs from what is recorded."""
-    assert right in EQUATIONS[name].tex
-    found = _wrong(name, tex=EQUATIONS[name].tex.replace(right, wrong, 1))
-    assert found.verdict == "refuted"
-    assert [changed[0] for changed in recorded.differs([found], RECORDED)] == [name]
+    assert term in EQUATIONS[name].tex
+    verdict = _verdict_of(name, tex=EQUATIONS[name].tex.replace(term, term_changed, 1))
+    assert verdict.verdict == "refuted"
+    assert [changed[0] for changed in recorded.differs([verdict], RECORDED)] == [name]
 
 
 def test_a_correction_that_is_wrong_too_turns_the_run_red() -> None:
@@ -325,17 +331,17 @@ def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(run, "LIMIT", 0.05)
     monkeypatch.setattr(run, "trial", lambda name: replace(trials(topic(name))[name], model=forever))
-    found = run.try_one("(72)")
-    assert found.verdict == "undecided"
-    assert "out of time" in found.method
+    verdict = run.try_one("(72)")
+    assert verdict.verdict == "undecided"
+    assert "out of time" in verdict.method
 
 
 def test_sampling_proves_nothing() -> None:
     """What was only sampled is supported, with the count."""
     x = sympy.Symbol("x", real=True)
-    found = decide("x = 2*x - x", Model({"x": x}), sample_only=True)
-    assert found.decision == "supported"
-    assert "5 exact points" in found.method
+    outcome = decide("x = 2*x - x", Model({"x": x}), sample_only=True)
+    assert outcome.decision == "supported"
+    assert "5 exact points" in outcome.method
 
 
 def test_unrefuted_and_unproved_claims_are_undecided() -> None:
@@ -354,9 +360,9 @@ def test_a_line_that_checks_nothing_is_not_proved() -> None:
     """Definitions alone, or one on which nothing that is checked depends, hold whatever they say."""
     letters = {"I": sympy.Symbol("I"), "x": sympy.Symbol("x")}
     assert decide("a2 = 17; a3 = 42", Model(letters), defines=("a2", "a3")).decision == "undecided"
-    found = decide("a2 = 17; x = 2*x - x", Model(letters), defines=("a2",))
-    assert found.decision == "undecided"
-    assert "a2" in found.method
+    outcome = decide("a2 = 17; x = 2*x - x", Model(letters), defines=("a2",))
+    assert outcome.decision == "undecided"
+    assert "a2" in outcome.method
     assert decide("a2 = 17; x*a2 = 17*x", Model(letters), defines=("a2",)).decision == "proved"
     assert decide("a2 = 17; a3 = 2*a2; a3*x = 34*x", Model(letters), defines=("a2", "a3")).decision == "proved"
 
@@ -364,25 +370,25 @@ def test_a_line_that_checks_nothing_is_not_proved() -> None:
 def test_a_chain_that_defines_a_letter_is_checked_from_its_second_side_on() -> None:
     """In R = a product = another one the second side defines, and the third one must be the same."""
     x = sympy.Symbol("x", real=True)
-    found = decide("a2 = x + 1 = x + 2; a2 - 1 = x", Model({"x": x}), defines=("a2",))
-    assert (found.decision, found.counterexample["relation"]) == ("refuted", "x + 1 = x + 2")
+    outcome = decide("a2 = x + 1 = x + 2; a2 - 1 = x", Model({"x": x}), defines=("a2",))
+    assert (outcome.decision, outcome.counterexample["relation"]) == ("refuted", "x + 1 = x + 2")
     assert decide("a2 = x + x = 2*x; a2 - x = x", Model({"x": x}), defines=("a2",)).decision == "proved"
 
 
 def test_a_letter_that_is_defined_twice_is_refused() -> None:
     """The second definition doesn't silently replace the first."""
     letters = {"I": sympy.Symbol("I")}
-    found = decide("a2 = 17*I; a2 = 2*I; a2 = 2*I", Model(letters), defines=("a2",))
-    assert found.decision == "refuted"
-    assert "defined twice" in found.counterexample["reason"]
+    outcome = decide("a2 = 17*I; a2 = 2*I; a2 = 2*I", Model(letters), defines=("a2",))
+    assert outcome.decision == "refuted"
+    assert "defined twice" in outcome.counterexample["reason"]
 
 
 def test_a_letter_that_is_compared_with_itself_is_refused() -> None:
     """A definition is not checked by the letter that it defines; it may be by a function of that."""
     x = sympy.Symbol("x", real=True)
-    found = decide("a2 = 17 = a2", Model({"x": x}), defines=("a2",))
-    assert found.decision == "undecided"
-    assert "itself" in found.method
+    outcome = decide("a2 = 17 = a2", Model({"x": x}), defines=("a2",))
+    assert outcome.decision == "undecided"
+    assert "itself" in outcome.method
     assert decide("a2 = x - 1 = abs(a2)", Model({"x": 1 + x**2}), defines=("a2",)).decision != "refuted"
 
 
@@ -391,35 +397,37 @@ def test_a_definition_may_be_used_through_another_letter() -> None:
     z, s = sympy.Symbol("z", positive=True), sympy.Symbol("s", positive=True)
     model = Model({"z": z, "s": s, "square": z**2})
     assert decide("a = 2*s; z = a; square = 4*s^2", model, defines=("a", "z")).decision == "proved"
-    found = decide("a = 2*s; b = s; z = a; square = 4*s^2", model, defines=("a", "b", "z"))
-    assert found.decision == "undecided"
-    assert found.method.endswith(" b")
+    outcome = decide("a = 2*s; b = s; z = a; square = 4*s^2", model, defines=("a", "b", "z"))
+    assert outcome.decision == "undecided"
+    assert outcome.method.endswith(" b")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "right", "wrong"),
+    ("name", "term", "term_changed"),
     [
         ("theorem-band", "8*t2 = 1 + gain", "8*t2 = 1 - gain"),
         ("theorem-steady", "M3*w - nu0", "M3*w + nu0"),
         ("text-inertia-axes", "R*I*T(R)", "T(R)*I*R"),
     ],
 )
-def test_the_other_half_of_a_theorem_is_tried_too(name: str, right: str, wrong: str) -> None:
+def test_the_other_half_of_a_theorem_is_tried_too(name: str, term: str, term_changed: str) -> None:
     """The sign beyond the band's ends, the converse about steady precessions, the inertia tensor in the laboratory."""
     case = trial(name)
     further = case.parts[-len(case.also) :]
-    assert [part.line.count(right) for part in further].count(1) == 1
-    parts = tuple(replace(part, line=part.line.replace(right, wrong)) for part in further)
-    assert replace(case, also=parts).of_printed().decision == "refuted"
+    assert [line_further.line.count(term) for line_further in further].count(1) == 1
+    lines_changed = tuple(
+        replace(line_further, line=line_further.line.replace(term, term_changed)) for line_further in further
+    )
+    assert replace(case, also=lines_changed).of_printed().decision == "refuted"
 
 
 def test_a_further_line_must_hold_too() -> None:
     """An entry is proved only if all its lines are."""
     case = trial("(51)")
     assert case.also
-    wrong = replace(case.parts[1], line=case.parts[1].line.replace("(1 - I)*B2^2", "(2 - I)*B2^2"))
-    assert replace(case, also=(wrong,)).of_printed().decision == "refuted"
+    line_changed = replace(case.parts[1], line=case.parts[1].line.replace("(1 - I)*B2^2", "(2 - I)*B2^2"))
+    assert replace(case, also=(line_changed,)).of_printed().decision == "refuted"
 
 
 def test_every_case_must_hold() -> None:
@@ -427,8 +435,8 @@ def test_every_case_must_hold() -> None:
     s = sympy.Symbol("s", positive=True)
     cases = [Model({"x": s, "size": s}), Model({"x": -s, "size": s})]
     assert decide("x = size", cases[:1]).decision == "proved"
-    found = decide("x = size", cases)
-    assert found.decision == "refuted"
+    outcome = decide("x = size", cases)
+    assert outcome.decision == "refuted"
     assert decide("abs(x) = size", cases).decision == "proved"
 
 
@@ -459,17 +467,19 @@ def test_signs_are_decided_term_by_term() -> None:
 
 def test_verify_reports_progress_and_uses_its_cache(tmp_path: Path) -> None:
     """Labels come back in the ledger's order; a second run reads what the first has written."""
-    seen: list[tuple[str, int, int]] = []
+    progress: list[tuple[str, int, int]] = []
     store = Cache(tmp_path)
-    first = verify(["(77)", "(39)"], lambda *call: seen.append(call), store=store)
-    assert [verdict.name for verdict in first] == ["(39)", "(77)"]
-    assert seen == [("(39)", 1, 2), ("(77)", 2, 2)]
-    assert verify(["(77)", "(39)"], lambda *call: seen.append(call), store=store) == first
-    assert len(seen) == 2
-    one, other = store.folder.glob("??/*")
-    one.rename(tmp_path / "one")
-    other.rename(one)
-    (tmp_path / "one").rename(other)
-    again = verify(["(77)", "(39)"], lambda *call: seen.append(call), store=store)
-    assert [(one.name, one.printed) for one in again] == [(one.name, one.printed) for one in first]
-    assert len(seen) == 4  # entries that were exchanged are made anew
+    verdicts = verify(["(77)", "(39)"], lambda *call: progress.append(call), store=store)
+    assert [verdict.name for verdict in verdicts] == ["(39)", "(77)"]
+    assert progress == [("(39)", 1, 2), ("(77)", 2, 2)]
+    assert verify(["(77)", "(39)"], lambda *call: progress.append(call), store=store) == verdicts
+    assert len(progress) == 2
+    file_a, file_b = store.folder.glob("??/*")
+    file_a.rename(tmp_path / "one")
+    file_b.rename(file_a)
+    (tmp_path / "one").rename(file_b)
+    again = verify(["(77)", "(39)"], lambda *call: progress.append(call), store=store)
+    assert [(verdict.name, verdict.printed) for verdict in again] == [
+        (verdict.name, verdict.printed) for verdict in verdicts
+    ]
+    assert len(progress) == 4  # entries that were exchanged are made anew

@@ -35,7 +35,7 @@ TRUE_OUTSIDE = {
 
 
 @pytest.mark.parametrize(
-    ("name", "right", "wrong"),
+    ("name", "clause", "clause_changed"),
     [
         ("theorem-quadric-lines", "$0 < I < 1$", "$I > 1$"),
         ("theorem-band", "$0<I<1$", "$1<I<2$"),
@@ -58,12 +58,16 @@ TRUE_OUTSIDE = {
         ("theorem-splitting", "I_1I_2+I_1I_3+I_2I_3", "I_1I_2+I_1I_3-I_2I_3"),
     ],
 )
-def test_a_changed_assumption_is_not_proved(name: str, right: str, wrong: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_changed_assumption_is_not_proved(
+    name: str, clause: str, clause_changed: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A domain that the model does not cover, or a definition that it does not have, leaves the entry undecided."""
     entry = EQUATIONS[name]
-    other = replace(entry, assumptions=tuple(words.replace(right, wrong, 1) for words in entry.assumptions))
-    assert other != entry
-    monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: other})
+    entry_changed = replace(
+        entry, assumptions=tuple(words.replace(clause, clause_changed, 1) for words in entry.assumptions)
+    )
+    assert entry_changed != entry
+    monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: entry_changed})
     assert trial(name).of_printed().decision == "undecided"
 
 
@@ -77,22 +81,22 @@ def test_a_definition_that_is_changed_does_not_hold(name: str) -> None:
         if "=" not in formula or any(mark in formula for mark in ANY):
             continue
         if compare([clause], case.signs, models, case.excluded).satisfied:
-            for other, what in changes(formula, most=3, seed=name):
-                again = compare([f"${other}$"], case.signs, models, case.excluded)
-                assert again.broken or not again.satisfied, (formula, what)
+            for form, change in changes(formula, most=3, seed=name):
+                again = compare([f"${form}$"], case.signs, models, case.excluded)
+                assert again.broken or not again.satisfied, (formula, change)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if DOMAIN.search(str(entry.assumptions))])
 def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each domain that is read, turned round, leaves the entry undecided, but where the claim is true there, too."""
-    entry, left = EQUATIONS[name], trial(name).assumed.unread
+    entry, unread = EQUATIONS[name], trial(name).assumed.unread
     clauses = [clause for words in entry.assumptions for clause, formula in formulas(words) if formula]
     for clause in clauses:
-        if clause in left or not DOMAIN.search(clause) or (name, clause) in TRUE_OUTSIDE:
+        if clause in unread or not DOMAIN.search(clause) or (name, clause) in TRUE_OUTSIDE:
             continue
-        other = replace(entry, assumptions=(DOMAIN.sub(lambda mark: OPPOSITE[mark[0]], clause),))
-        monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: other})
+        entry_changed = replace(entry, assumptions=(DOMAIN.sub(lambda mark: OPPOSITE[mark[0]], clause),))
+        monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: entry_changed})
         case = trial(name)
         assert case.assumed.broken or case.of_printed().decision == "undecided", clause
 
@@ -101,9 +105,9 @@ def test_the_opposite_domain_is_not_proved(name: str, monkeypatch: pytest.Monkey
 def test_unread_assumptions_are_recorded() -> None:
     """Clauses of an entry that are not held against its model stand in its record, and no others do."""
     for name, entry in EQUATIONS.items():
-        left = trial(name).assumed.unread
-        assert recorded.load()[name].not_read == "; ".join(left)
-        assert set(left) <= {clause for words in entry.assumptions for clause, _ in formulas(words)}
+        unread = trial(name).assumed.unread
+        assert recorded.load()[name].not_read == "; ".join(unread)
+        assert set(unread) <= {clause for words in entry.assumptions for clause, _ in formulas(words)}
     assert r"$1 < I \le 2$" not in recorded.load()["(55)"].not_read
 
 
@@ -111,8 +115,10 @@ def test_unread_assumptions_are_recorded() -> None:
 def test_nothing_is_proved_in_the_false_domain_beside_an_entry(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The false domain takes the place of an assumption, is read, and leaves the whole trial undecided."""
     entry = EQUATIONS[name]
-    right, wrong = entry.outside
-    false = replace(entry, assumptions=tuple(clause.replace(right, wrong) for clause in entry.assumptions), outside=())
+    domain_true, domain_false = entry.outside
+    false = replace(
+        entry, assumptions=tuple(clause.replace(domain_true, domain_false) for clause in entry.assumptions), outside=()
+    )
     assert recorded.load()[name].outside == trial(name).outside != ""
     monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: false})
     assert trial(name).of_printed().decision == "undecided"
@@ -130,7 +136,7 @@ def test_each_theorem_with_a_domain_has_a_false_domain_beside() -> None:
 def test_a_false_domain_that_changes_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """A domain that no assumption has, or in which the proof holds as well, is no false domain."""
     for outside in (("$I > 7$", "$I < 7$"), ("$0<I<1$", "$0<I<1/2$"), ("$0<I<1$", "$I$ is small")):
-        other = replace(EQUATIONS["theorem-band"], outside=outside)
-        monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, "theorem-band": other})
+        entry_changed = replace(EQUATIONS["theorem-band"], outside=outside)
+        monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, "theorem-band": entry_changed})
         with pytest.raises(ValueError, match="changes nothing"):
             _ = trial("theorem-band").outside

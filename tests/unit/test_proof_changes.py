@@ -18,7 +18,7 @@ COUNT = 40
 @cache
 def sample() -> list[str]:
     """Return names of formulas that are proved quickly, COUNT of them, each by its own number, whatever the others."""
-    quick = [name for name, found in recorded.load().items() if found.seconds < 0.5 and found.verdict == "proved"]
+    quick = [name for name, verdict in recorded.load().items() if verdict.seconds < 0.5 and verdict.verdict == "proved"]
     return sorted(quick, key=lambda name: random.Random(name).random())[:COUNT]  # noqa: S311  same in every run
 
 
@@ -27,8 +27,8 @@ def test_a_changed_formula_is_refuted_or_unreadable(place: int) -> None:
     """The trial reads the TeX that is shown: none of its signs can be changed and the verdict stay."""
     name = sample()[place]
     case = trial(name)
-    for other, what in changes(EQUATIONS[name].tex, most=8, seed=name):
-        assert replace(case, tex=other).of_printed().decision != "proved", (name, what)
+    for form, change in changes(EQUATIONS[name].tex, most=8, seed=name):
+        assert replace(case, tex=form).of_printed().decision != "proved", (name, change)
 
 
 @pytest.mark.parametrize("place", range(0, COUNT, 3))
@@ -36,12 +36,12 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
     """Letters exchanged, a term dropped, another bracket, a lost dot or prime: other mistakes are noticed too."""
     name = sample()[place]
     case = trial(name)
-    for other, what in rewritings(EQUATIONS[name].tex, most=5, seed=name):
-        assert replace(case, tex=other).of_printed().decision != "proved", (name, what)
+    for form, change in rewritings(EQUATIONS[name].tex, most=5, seed=name):
+        assert replace(case, tex=form).of_printed().decision != "proved", (name, change)
 
 
 @pytest.mark.parametrize(
-    ("name", "right", "wrong"),
+    ("name", "term", "term_changed"),
     [
         ("theorem-bracket", r"\{K_i,K_j\}", r"\{K_i,K_i\}"),
         ("theorem-bracket", r"\{K_i,K_j\}", r"\{K_1,K_j\}"),
@@ -75,11 +75,11 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
         ("text-ball-limit", r"\implies", r"\iff"),
     ],
 )
-def test_weakened_equations_are_not_proved(name: str, right: str, wrong: str) -> None:
+def test_weakened_equations_are_not_proved(name: str, term: str, term_changed: str) -> None:
     """A bracket of something with itself, one index for all, a denied equation, a lost mark: none is proved."""
-    assert right in EQUATIONS[name].tex
-    other = replace(trial(name), tex=EQUATIONS[name].tex.replace(right, wrong, 1))
-    assert other.of_printed().decision not in {"proved", "definition"}
+    assert term in EQUATIONS[name].tex
+    trial_changed = replace(trial(name), tex=EQUATIONS[name].tex.replace(term, term_changed, 1))
+    assert trial_changed.of_printed().decision not in {"proved", "definition"}
 
 
 @pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if "\\iff" in entry.tex])
@@ -96,8 +96,8 @@ def test_an_equivalence_is_tried_in_both_directions(name: str) -> None:
 def test_changes_are_of_one_sign_number_letter_or_index() -> None:
     """Every kind occurs, and each formula differs from the first."""
     formula = r"\dot K_1=\Omega_3 K_2-2\sin\phi t"
-    found = dict(changes(formula))
-    assert {what.split()[1] for what in found.values()} == {"sign", "number", "letter", "index", "function"}
-    assert formula not in found
-    assert r"\dot K_1=\Omega_3 K_2+2\sin\phi t" in found
-    assert r"\dot K_1=\Omega_2 K_2-2\sin\phi t" in found
+    changes_of = dict(changes(formula))
+    assert {change.split()[1] for change in changes_of.values()} == {"sign", "number", "letter", "index", "function"}
+    assert formula not in changes_of
+    assert r"\dot K_1=\Omega_3 K_2+2\sin\phi t" in changes_of
+    assert r"\dot K_1=\Omega_2 K_2-2\sin\phi t" in changes_of

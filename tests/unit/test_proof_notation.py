@@ -20,9 +20,11 @@ LETTERS = {
 }
 
 
-def _both(line: str, **ranges: tuple[int, ...]) -> list[tuple[object, object]]:
+def _sides(line: str, **ranges: tuple[int, ...]) -> list[tuple[object, object]]:
     return [
-        pair for found in Reader(LETTERS, ranges).relations(line) for pair in zip(found.lhs, found.rhs, strict=True)
+        pair
+        for relation in Reader(LETTERS, ranges).relations(line)
+        for pair in zip(relation.lhs, relation.rhs, strict=True)
     ]
 
 
@@ -45,8 +47,8 @@ def _both(line: str, **ranges: tuple[int, ...]) -> list[tuple[object, object]]:
 )
 def test_index_formulas_follow_the_summation_convention(line: str) -> None:
     """Repeated indices are summed, free ones run over all values, matrices multiply."""
-    for left, right in _both(line, N=(1, 2)):
-        assert sympy.expand(left - right) == 0
+    for side, side_expected in _sides(line, N=(1, 2)):
+        assert sympy.expand(side - side_expected) == 0
 
 
 @pytest.mark.parametrize("line", ["R[i,j] = v[i]", "v[i] = v[i] + w[j]", "x = v", "R = v", "x"])

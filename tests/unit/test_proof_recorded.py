@@ -28,14 +28,14 @@ def test_saved_records_are_read_back(tmp_path: Path) -> None:
 
 def test_the_command_saves_its_verdicts(monkeypatch: pytest.MonkeyPatch) -> None:
     """``atlas verify --record`` saves all that the trial gave."""
-    kept, found = list[Any](), [*recorded.load().values()]
-    monkeypatch.setattr(run, "verify", lambda *_labels, **_options: found)
-    monkeypatch.setattr(recorded, "save", lambda *saved: kept.extend(saved))
-    monkeypatch.setattr(recorded, "save_scripts", lambda written: kept.append([*written]))
-    monkeypatch.setattr(proof, "script_of", lambda one: one.name)
+    scripts_saved, verdicts = list[Any](), [*recorded.load().values()]
+    monkeypatch.setattr(run, "verify", lambda *_labels, **_options: verdicts)
+    monkeypatch.setattr(recorded, "save", lambda *saved: scripts_saved.extend(saved))
+    monkeypatch.setattr(recorded, "save_scripts", lambda scripts: scripts_saved.append([*scripts]))
+    monkeypatch.setattr(proof, "script_of", lambda verdict: verdict.name)
     result = CliRunner().invoke(command, ["verify", "--record"], catch_exceptions=False)
     assert result.exit_code == 0
-    assert kept == [found, [one.name for one in found]]
+    assert scripts_saved == [verdicts, [verdict.name for verdict in verdicts]]
 
 
 def test_scripts_of_some_entries_keep_the_others(tmp_path: Path) -> None:
@@ -71,8 +71,8 @@ def test_a_verdict_goes_stale_with_all_that_its_entry_says(field: str, monkeypat
     """Its formula, its words and each of its assumptions are in the fingerprint."""
     before, entry = recorded.source("(72)"), recorded.equation("(72)")
     value = getattr(entry, field)
-    other = replace(entry, **{field: ("$B'_2 < 0$", *value[1:]) if isinstance(value, tuple) else f"{value} "})
-    monkeypatch.setattr(recorded, "equation", lambda _name: other)
+    entry_changed = replace(entry, **{field: ("$B'_2 < 0$", *value[1:]) if isinstance(value, tuple) else f"{value} "})
+    monkeypatch.setattr(recorded, "equation", lambda _name: entry_changed)
     assert recorded.source("(72)") != before
 
 
@@ -94,9 +94,9 @@ def test_the_fingerprint_follows_the_dependencies_of_a_proof(monkeypatch: pytest
     def changed_in(stem: str) -> dict[str, str]:
         recorded._fingerprint.cache_clear()
         monkeypatch.setattr(recorded, "_normal", lambda name: normal(name) + ("\nx = 1" if name == stem else ""))
-        found = {name: recorded.source(name) for name in before}
+        sources_found = {name: recorded.source(name) for name in before}
         recorded._fingerprint.cache_clear()
-        return found
+        return sources_found
 
     touched = {
         stem: {name for name, source in changed_in(stem).items() if source != before[name]}

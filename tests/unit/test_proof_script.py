@@ -33,11 +33,11 @@ def run(script: str) -> tuple[int, str]:
 @pytest.mark.parametrize("name", SAMPLE)
 def test_a_script_repeats_the_recorded_verdict(name: str) -> None:
     """It exits with 0, and its last line has the recorded verdict on the printed form and on the corrected one."""
-    found = RECORDED[name]
-    status, last = run(SCRIPTS[name])
+    verdict = RECORDED[name]
+    status, line_last = run(SCRIPTS[name])
     says = {"definition": "is a definition that holds", "refuted": "as printed is refuted", "proved": "is proved"}
-    corrected = ", its corrected form is proved" if found.corrected else ""
-    assert (status, last) == (0, f"{name} {says[found.verdict]}{corrected}")
+    corrected = ", its corrected form is proved" if verdict.corrected else ""
+    assert (status, line_last) == (0, f"{name} {says[verdict.verdict]}{corrected}")
 
 
 def test_a_script_runs_without_atlas() -> None:
@@ -57,9 +57,9 @@ def test_a_changed_sign_makes_it_say_otherwise(name: str) -> None:
     signs = [start + sign.start() for sign in re.finditer(r"(?<= )[+-](?= )", script[start:end])]
     assert signs
     for place in signs:
-        other = {"+": "-", "-": "+"}[script[place]]
-        status, last = run(script[:place] + other + script[place + 1 :])
-        assert (status, last[:7]) == (1, "not so:"), script[place - 20 : place + 20]
+        sign_opposite = {"+": "-", "-": "+"}[script[place]]
+        status, line_last = run(script[:place] + sign_opposite + script[place + 1 :])
+        assert (status, line_last[:7]) == (1, "not so:"), script[place - 20 : place + 20]
 
 
 def test_a_point_that_refutes_nothing_is_found_out() -> None:
@@ -97,15 +97,15 @@ def test_the_command_prints_the_script_and_nothing_else() -> None:
 
 def test_the_command_shows_both_sides() -> None:
     """Of an equation that is named, the sides stand as one function of free parameters."""
-    shown = CliRunner().invoke(command, ["verify", "(39)"]).stdout
-    assert "d(K1) = Omega3*K2 - Omega2*K3: each side is K2*Omega3 - K3*Omega2" in shown
+    output = CliRunner().invoke(command, ["verify", "(39)"]).stdout
+    assert "d(K1) = Omega3*K2 - Omega2*K3: each side is K2*Omega3 - K3*Omega2" in output
 
 
 def test_the_command_shows_no_tex() -> None:
     """What a formula says beside its relations stands in plain letters, and what became of it."""
-    shown = CliRunner().invoke(command, ["verify", "71"]).stdout
-    assert "also says:      if ω_2≠-B'_2: supposed, or tried in a further line" in shown
-    assert "\\" not in shown
+    output = CliRunner().invoke(command, ["verify", "71"]).stdout
+    assert "also says:      if ω_2≠-B'_2: supposed, or tried in a further line" in output
+    assert "\\" not in output
 
 
 def test_the_command_keeps_its_trials_in_the_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

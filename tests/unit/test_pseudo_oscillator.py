@@ -29,9 +29,9 @@ def exact_cubic(I: float, field: tuple[float, float], omega: tuple[float, ...]) 
     def product(a: list[Fraction], b: list[Fraction]) -> list[Fraction]:
         return [sum((a[i] * b[n - i] for i in range(3) if 0 <= n - i < 3), Fraction(0)) for n in range(5)]
 
-    first = product([E, Fraction(0), -I_], [K2 - c3**2, 2 * c3, Fraction(-1)])
+    product_first = product([E, Fraction(0), -I_], [K2 - c3**2, 2 * c3, Fraction(-1)])
     square = product([c5, -(2 - I_) * c3, Fraction(1)], [c5, -(2 - I_) * c3, Fraction(1)])
-    Q = [x - y for x, y in zip(first, square, strict=True)]
+    Q = [x - y for x, y in zip(product_first, square, strict=True)]
     return [n * Q[n] / 2 for n in range(1, 5)]
 
 
@@ -51,8 +51,8 @@ def test_the_start_is_met_without_cancellation(I: float, field: tuple[float, flo
     """At u = omega3, Q is (omega1 B2)^2 and p the left-hand side of (50), to their last digits."""
     oscillator, (B2, B3), (w1, w2, w3) = PseudoOscillator(I, field, omega), field, omega
     assert oscillator.quartic(w3) == (w1 * B2) ** 2
-    left = B3 * (w1**2 + w2**2) - I * B2 * w2 * w3 + (2 - I) * B2 * B3 * w2 - I * B2**2 * w3
-    assert abs(oscillator.acceleration(w3) - left) <= 16 * EPS * size(*omega, *field)
+    expression = B3 * (w1**2 + w2**2) - I * B2 * w2 * w3 + (2 - I) * B2 * B3 * w2 - I * B2**2 * w3
+    assert abs(oscillator.acceleration(w3) - expression) <= 16 * EPS * size(*omega, *field)
 
 
 def test_arrays_broadcast() -> None:
@@ -63,9 +63,9 @@ def test_arrays_broadcast() -> None:
     for name in ("acceleration", "quartic", "stiffness"):
         table = getattr(together, name)(u)
         assert table.shape == (5, 4)
-        alone = PseudoOscillator(1.5, (1.0, together.B3[2]), omega[2])
-        assert getattr(alone, name)(u[1, 0]) == pytest.approx(table[1, 2], rel=8 * EPS)
-        assert isinstance(getattr(alone, name)(0.3), float)
+        oscillator = PseudoOscillator(1.5, (1.0, together.B3[2]), omega[2])
+        assert getattr(oscillator, name)(u[1, 0]) == pytest.approx(table[1, 2], rel=8 * EPS)
+        assert isinstance(getattr(oscillator, name)(0.3), float)
 
 
 def test_impossible_fields_are_refused_in_one_sentence() -> None:

@@ -17,29 +17,29 @@ import atlas
 from atlas.places import folder
 
 
-def taken(call: Callable[..., Any]) -> str:
+def signature_of(call: Callable[..., Any]) -> str:
     """Return what a function takes, without the types."""
-    given = inspect.signature(call).parameters.values()
-    return str(inspect.Signature([one.replace(annotation=inspect.Parameter.empty) for one in given]))
+    parameters = inspect.signature(call).parameters.values()
+    return str(inspect.Signature([parameter.replace(annotation=inspect.Parameter.empty) for parameter in parameters]))
 
 
 def public() -> Iterator[tuple[str, Callable[..., Any]]]:
     """Yield the functions and classes of `atlas`, and public methods with the class that has them, each once."""
     for name in sorted(atlas.__all__):
-        one = getattr(atlas, name)
-        if not callable(one) or (inspect.isclass(one) and issubclass(one, BaseException)):
+        member = getattr(atlas, name)
+        if not callable(member) or (inspect.isclass(member) and issubclass(member, BaseException)):
             continue
-        yield name, one
-        for of in reversed(inspect.getmro(one) if inspect.isclass(one) else ()):
-            for key, value in sorted(vars(of).items()):
+        yield name, member
+        for base in reversed(inspect.getmro(member) if inspect.isclass(member) else ()):
+            for key, value in sorted(vars(base).items()):
                 method = getattr(value, "__func__", value)
-                if inspect.isfunction(method) and not key.startswith("_") and of.__module__.startswith("atlas"):
-                    yield f"{of.__name__}.{key}", method
+                if inspect.isfunction(method) and not key.startswith("_") and base.__module__.startswith("atlas"):
+                    yield f"{base.__name__}.{key}", method
 
 
 def test_public_signatures_are_unchanged(snapshot: SnapshotAssertion) -> None:
     """A line for each: a change here is one for every user."""
-    assert [name + taken(call) for name, call in dict(public()).items()] == snapshot.use_extension(lines.Lines)
+    assert [name + signature_of(call) for name, call in dict(public()).items()] == snapshot.use_extension(lines.Lines)
 
 
 ROOT = folder("figures").parent
@@ -72,7 +72,7 @@ def said_of(path: Path) -> str:
 def test_each_public_name_has_the_type_of_its_home() -> None:
     """The stub names all that `atlas` exports, each from the module that it is loaded from."""
     nodes = ast.parse((ROOT / "atlas" / "__init__.pyi").read_text("utf-8")).body
-    stub = {one.name: node.module for node in nodes if isinstance(node, ast.ImportFrom) for one in node.names}
+    stub = {alias.name: node.module for node in nodes if isinstance(node, ast.ImportFrom) for alias in node.names}
     assert stub == atlas._HOMES
 
 
@@ -80,9 +80,11 @@ def test_each_public_name_has_the_type_of_its_home() -> None:
 def test_a_type_checker_takes_right_calls_and_refuses_each_wrong_one() -> None:
     """Every statement of `wrong` is an error, and no statement of `right` is."""
     text = CALLS.read_text("utf-8")
-    wrong = next(one for one in ast.parse(text).body if isinstance(one, ast.FunctionDef) and one.name == "wrong")
+    refused_calls = next(
+        node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == "wrong"
+    )
     refused = {int(line) for line in re.findall(r"^[^:]+:(\d+): error:", said_of(CALLS), re.MULTILINE)}
-    assert refused == {statement.lineno for statement in wrong.body[1:]}
+    assert refused == {statement.lineno for statement in refused_calls.body[1:]}
 
 
 def test_no_public_parameter_or_result_is_of_any_type() -> None:
@@ -98,8 +100,8 @@ def test_no_public_parameter_or_result_is_of_any_type() -> None:
 @pytest.mark.slow
 def test_a_type_checker_tells_one_run_from_several_and_columns_from_a_file(tmp_path: Path) -> None:
     """One run gives a `Check`, several a `Convergence`, a sweep without a file its columns."""
-    said = [line.partition("Revealed type is ")[2] for line in checked(tmp_path / "mine.py", RUNS).splitlines()[:5]]
+    types = [line.partition("Revealed type is ")[2] for line in checked(tmp_path / "mine.py", RUNS).splitlines()[:5]]
     check, order = '"atlas.checking.check.Check"', '"atlas.checking.order.Convergence"'
-    assert said[:3] == [check, check, order]
-    assert said[3].startswith('"dict[str, ')
-    assert said[4] == '"pathlib.Path | str"'
+    assert types[:3] == [check, check, order]
+    assert types[3].startswith('"dict[str, ')
+    assert types[4] == '"pathlib.Path | str"'

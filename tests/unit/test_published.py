@@ -76,8 +76,10 @@ def test_published_values_are_met(case: str) -> None:
     (row,) = [row for row in tables[0].rows if case in row[0]]
     assert_allclose(computed, numbers(row[2]), rtol=0, atol=tolerance)
     for value, printed in zip(computed, re.findall(r"−?\d+\.\d+(?:e-?\d+)?", row[3]), strict=True):
-        shown = Decimal(printed.replace("−", "-"))
-        assert abs(shown - Decimal(float(value))) <= Decimal((0, (6,), int(shown.as_tuple().exponent) - 1))
+        value_printed = Decimal(printed.replace("−", "-"))
+        assert abs(value_printed - Decimal(float(value))) <= Decimal(
+            (0, (6,), int(value_printed.as_tuple().exponent) - 1)
+        )
 
 
 def test_the_free_body_of_kane_is_met() -> None:
@@ -102,12 +104,12 @@ def test_two_of_five_simulators_are_right() -> None:
     rates, angles = (
         [layer for layer in panel.layers if isinstance(layer, Curve)] for panel in recipe("simulators").scene().panels
     )
-    worst = {
+    errors_of = {
         rate.label[-1]: (rate.points[:, 1].max(), angle.points[:, 1].max())
         for rate, angle in zip(rates, angles, strict=True)
     }
-    for right in "14":
-        assert np.less(worst[right], [4e-10, 6e-9]).all()
-    of_rates, of_angles = np.transpose([worst[wrong] for wrong in "562"])
+    for simulator in "14":
+        assert np.less(errors_of[simulator], [4e-10, 6e-9]).all()
+    of_rates, of_angles = np.transpose([errors_of[simulator] for simulator in "562"])
     assert_allclose(of_rates, [5.0e-5, 4.7e-3, 1.3e-3], rtol=0.05)
     assert_allclose(of_angles, [8.7e-5, 1.04e-2, 3.71], rtol=0.01)

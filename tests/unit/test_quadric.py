@@ -97,17 +97,17 @@ def test_the_axes_are_a_rotation_and_the_centre_is_minus_the_field() -> None:
 @pytest.mark.parametrize("direction", [(1.0, 0.3), (-1.0, 0.3), (1.0, -0.3), (-1.0, -0.3), (-1.0, 0.0)])
 def test_the_axes_agree_with_a_stronger_field(direction: tuple[float, float]) -> None:
     """Their signs, too, depend on the direction of the field alone."""
-    axes, *others = (Quadric([1.5], tuple([2.0**n * B] for B in direction)).axes for n in (0, 7, -7, 900, -900))
-    for other in others:
-        assert (axes == other).all()
+    axes, *axes_scaled = (Quadric([1.5], tuple([2.0**n * B] for B in direction)).axes for n in (0, 7, -7, 900, -900))
+    for axes_of_field in axes_scaled:
+        assert (axes == axes_of_field).all()
 
 
 def test_coordinates_at_the_far_end_are_finite_or_infinite() -> None:
     """Near the largest float the coordinates are those of a smaller copy, and inf beyond it; none is NaN."""
-    near, copy = Quadric(1.5, (1e308, 1e308)), Quadric(1.5, (1.0, 1.0))
+    quadric, copy = Quadric(1.5, (1e308, 1e308)), Quadric(1.5, (1.0, 1.0))
     point, small = np.array([0.0, 1e308, -1e308]), np.array([0.0, 1.0, -1.0])
-    assert near.canonical(point) == pytest.approx(copy.canonical(small) * 1e308, rel=4 * 2.0**-52)
-    assert near.canonical((0.0, 1.7e308, 1.7e308))[:2].tolist() == [0.0, np.inf]
+    assert quadric.canonical(point) == pytest.approx(copy.canonical(small) * 1e308, rel=4 * 2.0**-52)
+    assert quadric.canonical((0.0, 1.7e308, 1.7e308))[:2].tolist() == [0.0, np.inf]
     with pytest.raises(AtlasError, match="do not broadcast"):
         Quadric(np.ones(2), (1.0, 1.0)).canonical(np.zeros((3, 3)))
     with pytest.raises(AtlasError, match="do not broadcast"):

@@ -43,7 +43,7 @@ EVERY = pytest.mark.parametrize(
 )
 
 
-def of(q: Any) -> Any:
+def matrix_of(q: Any) -> Any:
     """Return the matrices of quaternions, by SciPy."""
     return Rotation.from_quat(q.reshape(-1, 4)).as_matrix().reshape(*q.shape[:-1], 3, 3)
 
@@ -56,17 +56,17 @@ def test_quaternion_is_that_of_the_matrix_and_follows_the_equation_of_motion(nam
     t = np.linspace(-9.0, 14.0, 7 if name == "without a closed form" else 47)
     t = t / 5 if name == "slow nutation" else t  # it spins fast
     q = m.quaternion(t)
-    assert np.abs(of(q) - m.rotation(t)).max() <= 20 * 2.0**-52
+    assert np.abs(matrix_of(q) - m.rotation(t)).max() <= 20 * 2.0**-52
     assert np.abs((q * q).sum(-1) - 1).max() <= 8 * 2.0**-52
     if name == "without a closed form":
         t, q = t[:0], q[:0]
     for side in (t[t >= 0], t[t < 0][::-1]):
         if side.size:
-            found = solve_ivp(
+            solution = solve_ivp(
                 lambda t, q: product(q, np.append(m.angular_velocity(t) / 2, 0.0)), (0.0, side[-1]),
                 [0.0, 0.0, 0.0, 1.0], t_eval=side, rtol=1e-9, atol=1e-9,
             )  # fmt: skip
-            assert np.abs(found.y.T - m.quaternion(side)).max() <= 1e-6
+            assert np.abs(solution.y.T - m.quaternion(side)).max() <= 1e-6
 
 
 @EVERY
@@ -80,8 +80,8 @@ def test_quaternion_does_not_jump(name: str, start: float) -> None:
     q = m.quaternion(t)
     assert np.linalg.norm(np.diff(q, axis=0), axis=-1).max() <= 1.5 * 45 / 2 / 50
     assert (q.min(axis=0) < -0.1).any() or name == "slow nutation"
-    some = np.random.default_rng(1).permutation(t.size)
-    assert np.abs(m.quaternion(t[some]) - q[some]).max() <= 4 * 2.0**-52
+    order = np.random.default_rng(1).permutation(t.size)
+    assert np.abs(m.quaternion(t[order]) - q[order]).max() <= 4 * 2.0**-52
 
 
 def test_a_sign_without_a_closed_form_has_a_stated_time_limit() -> None:
@@ -96,23 +96,23 @@ def test_a_sign_without_a_closed_form_has_a_stated_time_limit() -> None:
 @pytest.mark.parametrize("name", ["elementary", "free", "ball", "general", "charged top", "elliptic"])
 def test_arrays_of_motions_have_the_quaternions_of_each(name: str) -> None:
     """Times broadcast with the motions; few times and many give the same."""
-    one = MOTIONS[name]()
+    motion_single = MOTIONS[name]()
     rng = np.random.default_rng(5)
     spread = 1 + 0.01 * rng.uniform(-1, 1, 12)
-    last = list(one.arguments)[-1] if name != "charged top" else "omega"
-    last = "z" if name == "elliptic" else "omega2" if name == "elementary" else last
-    value = one.arguments[last]
+    parameter = list(motion_single.arguments)[-1] if name != "charged top" else "omega"
+    parameter = "z" if name == "elliptic" else "omega2" if name == "elementary" else parameter
+    value = motion_single.arguments[parameter]
     vary = tuple(x * spread for x in value) if isinstance(value, tuple) else value * spread
-    made = type(one)(**(one.arguments | {last: vary}))
+    motion_array = type(motion_single)(**(motion_single.arguments | {parameter: vary}))
     t = rng.uniform(-40, 40, 12)
-    q = made.quaternion(t)
+    q = motion_array.quaternion(t)
     assert q.shape == (12, 4)
-    assert made.quaternion(t[:3, None]).shape == (3, 12, 4)
-    assert np.abs(of(q) - made.rotation(t)).max() <= 40 * 2.0**-52
+    assert motion_array.quaternion(t[:3, None]).shape == (3, 12, 4)
+    assert np.abs(matrix_of(q) - motion_array.rotation(t)).max() <= 40 * 2.0**-52
     for i in range(12):
         chosen = tuple(x[i] for x in vary) if isinstance(vary, tuple) else vary[i]
-        alone = type(one)(**(one.arguments | {last: chosen}))
-        assert np.abs(alone.quaternion(t[i]) - q[i]).max() <= 40 * 2.0**-52
+        motion_alone = type(motion_single)(**(motion_single.arguments | {parameter: chosen}))
+        assert np.abs(motion_alone.quaternion(t[i]) - q[i]).max() <= 40 * 2.0**-52
 
 
 def test_scalar_first_is_the_order_of_spice() -> None:
@@ -129,8 +129,8 @@ def test_angular_velocity_in_the_laboratory_is_the_turned_one() -> None:
     t = np.linspace(-5, 5, 11)
     w = m.angular_velocity_in_laboratory(t)
     assert np.abs(w - np.matvec(m.rotation(t), m.angular_velocity(t))).max() == 0
-    along = w @ np.array([0.3, 0.7, 0.66])
-    assert np.ptp(along) <= 16 * 2.0**-52 * abs(along).max()
+    component = w @ np.array([0.3, 0.7, 0.66])
+    assert np.ptp(component) <= 16 * 2.0**-52 * abs(component).max()
 
 
 @pytest.mark.parametrize(
@@ -147,9 +147,9 @@ def test_components_zero_at_all_times_are_exactly_zero(field: Any, omega: Any, z
 def test_a_motion_begins_exactly_as_given() -> None:
     """Of classes whose formulas turn a frame there and back: one motion and an array, of any time and at zero."""
     tops = atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), (0.1, 0.0, 5.0), linear=3.0)
-    several = atlas.GeneralMotion(np.linspace(0.3, 1.9, 20), (-1.0, -0.7), (0.0, -0.7, 0.0))
+    motion_array = atlas.GeneralMotion(np.linspace(0.3, 1.9, 20), (-1.0, -0.7), (0.0, -0.7, 0.0))
     elliptic = atlas.EllipticMotion((0.8, 1.0, 1.3), (1.0, 0.5, 0.0), 0.9)
-    for motion in (atlas.GeneralMotion(2.0, (-1.0, -0.7), (0.0, -0.7, 0.0)), tops, several, elliptic):
+    for motion in (atlas.GeneralMotion(2.0, (-1.0, -0.7), (0.0, -0.7, 0.0)), tops, motion_array, elliptic):
         omega = np.stack(np.broadcast_arrays(*motion.omega), -1)
         assert (motion.rotation(0.0) == np.eye(3)).all()
         assert (motion.quaternion(0.0) == (0, 0, 0, 1)).all()

@@ -67,10 +67,12 @@ def calls() -> Iterator[Any]:
 @pytest.mark.parametrize(("call", "docstring"), list(calls()))
 def test_errors_of_wrong_inputs_are_documented(call: Callable[..., Any], docstring: str) -> None:
     """With words in the place of numbers each raises an AtlasError, and says that or its kind where it is described."""
-    taken = list(inspect.signature(call).parameters.values())
-    needed = [x.name for x in taken if x.default is x.empty and x.kind is not x.VAR_KEYWORD] or [taken[0].name]
+    parameters = list(inspect.signature(call).parameters.values())
+    names_required = [x.name for x in parameters if x.default is x.empty and x.kind is not x.VAR_KEYWORD] or [
+        parameters[0].name
+    ]
     with pytest.raises(atlas.AtlasError) as raised:
-        call(**{name: OBJECTS.get((call.__qualname__, name), "nonsense") for name in needed})
+        call(**{name: OBJECTS.get((call.__qualname__, name), "nonsense") for name in names_required})
     kinds = [kind.__name__ for kind in type(raised.value).__mro__ if issubclass(kind, atlas.AtlasError)]
     assert any(kind in docstring for kind in kinds), f"{raised.value!r} is not announced"
 
@@ -81,8 +83,8 @@ TABLE = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.5, 0.7]}
 
 def swept(**changed: Any) -> Any:
     """Return what a table would be made of."""
-    given = {"parameters": TABLE, "quantities": ["k"]} | changed
-    return Plan.of("elementary", **given)
+    arguments = {"parameters": TABLE, "quantities": ["k"]} | changed
+    return Plan.of("elementary", **arguments)
 
 
 def placed(attitude: Any) -> Any:
@@ -206,11 +208,11 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
 @pytest.mark.parametrize(("make", "says"), REFUSED, ids=[says for _, says in REFUSED])
 def test_refusals_give_a_reason(make: Callable[[], Any], says: str) -> None:
     """One sentence, with the number or the name that is wrong."""
-    with pytest.raises(AtlasError) as told:
+    with pytest.raises(AtlasError) as refused:
         make()
-    assert says in str(told.value)
-    assert "\n" not in str(told.value)
-    assert len(str(told.value)) < 300
+    assert says in str(refused.value)
+    assert "\n" not in str(refused.value)
+    assert len(str(refused.value)) < 300
 
 
 @pytest.mark.parametrize("off", [1 + 0.4e-9, 1 - 0.4e-9])

@@ -40,11 +40,11 @@ def followed(I: Vector, K: Vector, omega: Vector, T: float) -> np.ndarray:
     return solve_ivp(rates, (0, T), start, "DOP853", np.linspace(0, T, 1001), rtol=1e-13, atol=1e-14).y.T
 
 
-def turned(vectors: np.ndarray, axis: np.ndarray) -> float:
+def rate_about(vectors: np.ndarray, axis: np.ndarray) -> float:
     """Angle by which vectors (n, 3) go round an axis."""
     n = axis / np.linalg.norm(axis)
-    across = np.linalg.svd(n[None])[2][1]
-    angles = np.unwrap(np.arctan2(vectors @ np.cross(n, across), vectors @ across))
+    transverse = np.linalg.svd(n[None])[2][1]
+    angles = np.unwrap(np.arctan2(vectors @ np.cross(n, transverse), vectors @ transverse))
     return float(angles[-1] - angles[0])
 
 
@@ -53,9 +53,9 @@ def observed(I: Vector, K: Vector, omega: Vector, T: float) -> tuple[int, float,
     y = followed(I, K, omega, T)
     R, Omega = y[:, 6:].reshape(-1, 3, 3), y[:, :3] - y[:, 3:6]
     inside, outside = (y[:, 3:6], np.array(K)) if any(K) else (Omega * I, np.multiply(I, omega))
-    windings = [turned(inside, e) / (2 * np.pi) for e in np.eye(3)]
+    windings = [rate_about(inside, e) / (2 * np.pi) for e in np.eye(3)]
     (c,) = np.flatnonzero(np.abs(windings) > 0.5)
-    return int(c), turned(R[:, :, c], outside) / T, -2 * np.pi * windings[c] / T
+    return int(c), rate_about(R[:, :, c], outside) / T, -2 * np.pi * windings[c] / T
 
 
 @pytest.mark.slow
@@ -91,13 +91,13 @@ def test_rates_of_a_free_body_go_on_where_two_moments_become_equal(I3: float, om
     """Whichever class answers; for moments that are equal precession goes with |m|/I1."""
     symmetric = atlas.motion((1, 1, I3), (0, 0, 0), omega)
     assert symmetric.precession_rate == pytest.approx(np.linalg.norm(np.multiply((1, 1, I3), omega)), rel=1e-14)
-    near = atlas.motion((1, 1.000001, I3), (0, 0, 0), omega)
+    motion_asymmetric = atlas.motion((1, 1.000001, I3), (0, 0, 0), omega)
     direct = atlas.AsymmetricMotion((1, 1, I3), (0, 0, 0), omega)
-    assert (symmetric.family, near.family) == ("free", "asymmetric")
+    assert (symmetric.family, motion_asymmetric.family) == ("free", "asymmetric")
     for name in NAMES:
-        assert getattr(near, name) == pytest.approx(getattr(symmetric, name), rel=1e-5)
+        assert getattr(motion_asymmetric, name) == pytest.approx(getattr(symmetric, name), rel=1e-5)
         assert getattr(direct, name) == pytest.approx(getattr(symmetric, name), rel=1e-15)
-    assert near.mode == symmetric.mode == direct.mode
+    assert motion_asymmetric.mode == symmetric.mode == direct.mode
 
 
 @pytest.mark.slow
@@ -120,12 +120,12 @@ def test_rates_of_an_elliptic_motion_agree_with_the_axis_that_the_field_goes_rou
 def test_rates_of_an_elliptic_motion_go_on_to_the_elementary_one(omega2: float) -> None:
     """Of a body with I1 = I2 they are k and phi."""
     I, B = 1.5, (1.0, 2.0)
-    one = atlas.ElementaryMotion(I, B, omega2)
-    part = -(omega2 + B[0]) / B[0]  # v/(z + D), and v^2 = (z + I)^2 (z + 1)
+    motion_elementary = atlas.ElementaryMotion(I, B, omega2)
+    fraction = -(omega2 + B[0]) / B[0]  # v/(z + D), and v^2 = (z + I)^2 (z + 1)
     for moments, rel in (((1.0, 1.0, I), 1e-13), ((1.0, 1 + 1e-7, I), 1e-5)):
-        motion = atlas.EllipticMotion(moments, (0.0, *B), part * part - 1, int(np.sign(part)))
-        assert motion.precession_rate == pytest.approx(one.k, rel=rel)
-        assert motion.spin_rate == pytest.approx(one.phi, rel=rel)
+        motion = atlas.EllipticMotion(moments, (0.0, *B), fraction * fraction - 1, int(np.sign(fraction)))
+        assert motion.precession_rate == pytest.approx(motion_elementary.k, rel=rel)
+        assert motion.spin_rate == pytest.approx(motion_elementary.phi, rel=rel)
 
 
 @pytest.mark.parametrize("omega", [(0.0, 0.7, 0.0), (0.75, 0.4, 1.0)])
@@ -136,8 +136,8 @@ def test_a_free_body_on_the_separatrix_has_no_period(omega: Vector) -> None:
     for name in ("precession_rate", "spin_rate", "frequencies"):
         with pytest.raises(atlas.DomainError, match=r"separatrix.*no period"):
             getattr(motion, name)
-    both = atlas.AsymmetricMotion((1.0, 2.0, 2.25), (0, 0, 0), tuple(np.add([(0, 0, 0), (0, 0, 0.1)], omega).T))
-    assert np.isnan(both.precession_rate).tolist() == [True, False]
+    motions = atlas.AsymmetricMotion((1.0, 2.0, 2.25), (0, 0, 0), tuple(np.add([(0, 0, 0), (0, 0, 0.1)], omega).T))
+    assert np.isnan(motions.precession_rate).tolist() == [True, False]
 
 
 def test_a_charged_body_on_a_torus_has_no_one_period() -> None:
@@ -161,21 +161,23 @@ def test_derivatives_of_rates_are_limits_of_quotients(make: Any, names: tuple[st
     """By central differences."""
     x = np.array({6: (0.8, 1.0, 1.3, 0.3, 0.7, 0.2), 4: (0.8, 1.0, 1.3, 1.7)}[len(names)])
     x = np.array((0.8, 0.3, 0.7, 0.2)) if names[0] == "ratio" else x
-    for of in NAMES:
-        steps = [(getattr(make(x + e), of) - getattr(make(x - e), of)) / 2e-5 for e in 1e-5 * np.eye(len(x))]
-        np.testing.assert_allclose(make(x).sensitivity(0.0, names, of), steps, rtol=1e-6, atol=1e-8)
+    for rate_name in NAMES:
+        steps = [
+            (getattr(make(x + e), rate_name) - getattr(make(x - e), rate_name)) / 2e-5 for e in 1e-5 * np.eye(len(x))
+        ]
+        np.testing.assert_allclose(make(x).sensitivity(0.0, names, rate_name), steps, rtol=1e-6, atol=1e-8)
 
 
 @pytest.mark.parametrize("omega", [(0.2, 0.3, 1.5), (0.0, 0.0, 1.0), (0.3, 0.4, 0.0), (0.0, 0.0, 0.0)])
 @pytest.mark.parametrize("ratio", [0.6, 1.0, 1.5])
 def test_a_general_motion_without_a_field_has_the_names_of_a_free_body(ratio: float, omega: Any) -> None:
     """Period of Omega, rates about the momentum and the axis: of one motion, in an array, and of three moments."""
-    free = atlas.FreeMotion(ratio, omega)
+    motion_free = atlas.FreeMotion(ratio, omega)
     general, three = atlas.GeneralMotion(ratio, (0, 0), omega), atlas.AsymmetricMotion((1, 1, ratio), (0, 0, 0), omega)
-    several = atlas.GeneralMotion(ratio, (0, np.array([0.0, 1.0])), omega)
+    motion_array = atlas.GeneralMotion(ratio, (0, np.array([0.0, 1.0])), omega)
     for name in ("period", "precession_rate", "spin_rate"):
-        own = getattr(free, name)
-        for found in (getattr(general, name), getattr(three, name), getattr(several, name)[0]):
-            assert found == pytest.approx(own, rel=1e-15)
-    if free.phi:
-        assert general.spin_per_period == pytest.approx(np.sign(free.phi) * 2 * np.pi, rel=1e-15)
+        rate = getattr(motion_free, name)
+        for rate_found in (getattr(general, name), getattr(three, name), getattr(motion_array, name)[0]):
+            assert rate_found == pytest.approx(rate, rel=1e-15)
+    if motion_free.phi:
+        assert general.spin_per_period == pytest.approx(np.sign(motion_free.phi) * 2 * np.pi, rel=1e-15)

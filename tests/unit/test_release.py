@@ -45,12 +45,12 @@ def test_placeholders_stop_a_release(small_checkout: Path, placeholders: tuple[s
         filled = re.sub(r"https://[^/\"]+(?=[/\"])", f"https://{host}", text)
         (small_checkout / name).write_text(filled, encoding="utf-8")
     done = release(small_checkout)
-    made = sorted(path.suffix for path in (small_checkout / "dist").glob("*"))
+    suffixes = sorted(path.suffix for path in (small_checkout / "dist").glob("*"))
     if placeholders:
-        assert (done.returncode, made) == (2, [])
+        assert (done.returncode, suffixes) == (2, [])
         assert re.findall(r"^(\S+?):\d+:.*atlas\.invalid", done.stderr, re.MULTILINE)[0] == placeholders[0]
     else:
-        assert (done.returncode, made) == (0, [".gz", ".whl"]), done.stderr
+        assert (done.returncode, suffixes) == (0, [".gz", ".whl"]), done.stderr
 
 
 def test_the_workflow_runs_the_two_commands_on_the_oldest_and_newest_python() -> None:
@@ -70,14 +70,14 @@ def test_the_workflow_runs_the_two_commands_on_the_oldest_and_newest_python() ->
 
 def test_hooks_before_a_commit_are_the_parts_of_make_lint() -> None:
     """Each part is run by one hook, and nothing else is."""
-    (parts,) = re.findall(r"^lint: (.+)$", (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE)
+    (line_of_lint,) = re.findall(r"^lint: (.+)$", (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE)
     hooks = re.findall(r"^ *entry: make -s (.+)$", (ROOT / ".pre-commit-config.yaml").read_text("utf-8"), re.MULTILINE)
-    assert hooks == parts.split()
+    assert hooks == line_of_lint.split()
 
 
 def test_the_changelog_of_a_release_has_at_most_forty_lines() -> None:
     """CONTRIBUTING says so: the changelog is for users, the rest belongs to commits."""
-    parts = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text("utf-8"), flags=re.MULTILINE)
-    lengths = {part.split()[0]: len(part.splitlines()) for part in parts if part[0].isdigit()}
+    sections = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text("utf-8"), flags=re.MULTILINE)
+    lengths = {section.split()[0]: len(section.splitlines()) for section in sections if section[0].isdigit()}
     assert len(lengths) > 2
     assert max(lengths.values()) <= 40

@@ -125,12 +125,12 @@ def test_pages_that_are_not_printed_come_last(tmp_path: Path) -> None:
 
 def test_figures_stand_in_their_chapter_and_in_order(book: list[str]) -> None:
     """Figures too tall for one page float to the next ones, and the next chapter waits for them."""
-    stands = {int(number): place for place, text in enumerate(book) for number in re.findall(r"Figure (\d)\. ", text)}
+    pages_of = {int(number): place for place, text in enumerate(book) for number in re.findall(r"Figure (\d)\. ", text)}
     chapter = max(place for place, text in enumerate(book) if "A The second chapter" in text)
-    assert sorted(stands) == [1, 2, 3]
-    assert len(set(stands.values())) > 1
-    assert [stands[n] for n in (1, 2, 3)] == sorted(stands.values())
-    assert max(stands.values()) <= chapter
+    assert sorted(pages_of) == [1, 2, 3]
+    assert len(set(pages_of.values())) > 1
+    assert [pages_of[n] for n in (1, 2, 3)] == sorted(pages_of.values())
+    assert max(pages_of.values()) <= chapter
 
 
 def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:
@@ -174,19 +174,22 @@ def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     (tmp_path / "book.toml").write_text(BOOK.removesuffix("]\n") + tables + "]\n", encoding="utf-8")
     records = {f"bench: {name}": Data((), (), name, (f"Only {name}.", "Measured here.")) for name in "AB"}
     document = compose(load(tmp_path / "book.toml"), {}, Appendices({}, records))
-    first, second = document.pages[1].blocks[1:]
-    assert [document.texts[one.note].markdown for one in (first, second)] == ["Only A. Measured here.", "Only B."]
-    assert (first.command, second.command) == ("make bench", "")
+    table_first, second = document.pages[1].blocks[1:]
+    assert [document.texts[table.note].markdown for table in (table_first, second)] == [
+        "Only A. Measured here.",
+        "Only B.",
+    ]
+    assert (table_first.command, second.command) == ("make bench", "")
 
 
 @pytest.mark.slow
 def test_tables_stand_in_their_order(tmp_path: Path) -> None:
     """One of words, which stays in its place, does not overtake one of numbers that floats to the next page."""
-    said = "\n\n".join(["filled " * 90] * 6)
+    filler = "\n\n".join(["filled " * 90] * 6)
     table = '  { kind = "table", table = "quadric", body = "ball", field = "oblique" },\n'
     listing = '  { kind = "listing", id = "words", columns = ["C"], rows = [["d"]], caption = "Listed." },\n'
     (tmp_path / "book.toml").write_text(
-        BOOK.replace("## A section", said).replace(table, table + listing), encoding="utf-8"
+        BOOK.replace("## A section", filler).replace(table, table + listing), encoding="utf-8"
     )
     built = build_report(tmp_path / "book.toml", tmp_path, formats=("pdf",))
     text = "".join(page.extract_text() for page in PdfReader(built.pdf).pages)
@@ -196,8 +199,8 @@ def test_tables_stand_in_their_order(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_an_option_is_not_broken_at_its_hyphens(tmp_path: Path) -> None:
     """No line of the PDF ends with one or two hyphens, however long the words before; in the page it is kept whole."""
-    said = "\n\n".join("a" * n + " b" * 40 + " `--option 1` " + "c " * 9 for n in range(1, 25))
-    (tmp_path / "book.toml").write_text(BOOK.replace("## A section", said), encoding="utf-8")
+    paragraphs = "\n\n".join("a" * n + " b" * 40 + " `--option 1` " + "c " * 9 for n in range(1, 25))
+    (tmp_path / "book.toml").write_text(BOOK.replace("## A section", paragraphs), encoding="utf-8")
     built = build_report(tmp_path / "book.toml", tmp_path, formats=("html", "pdf"))
     lines = "\n".join(page.extract_text() for page in PdfReader(built.pdf).pages).splitlines()
     assert sum("--option" in line for line in lines) == 24
@@ -237,9 +240,11 @@ def test_a_short_report_has_its_title_first_and_no_empty_head(tmp_path: Path) ->
 @pytest.mark.slow
 def test_a_short_report_names_its_authors_and_counts_only_tables_with_a_caption(tmp_path: Path) -> None:
     """The authors stand below the title; a table of the text takes no number from those that have one."""
-    said = 'What it says, @tab:here.\\n\\n| a | b |\\n|---|---|\\n| 1 | 2 |" },\n'
+    sentence = 'What it says, @tab:here.\\n\\n| a | b |\\n|---|---|\\n| 1 | 2 |" },\n'
     listing = '  { kind = "listing", id = "here", columns = ["C"], rows = [["d"]], caption = "Listed." },\n'
-    short = SHORT.replace('What it says." },\n', said + listing).replace("[[", 'authors = ["Ada Roe", "B Doe"]\n[[', 1)
+    short = SHORT.replace('What it says." },\n', sentence + listing).replace(
+        "[[", 'authors = ["Ada Roe", "B Doe"]\n[[', 1
+    )
     (tmp_path / "short.toml").write_text(short, encoding="utf-8")
     built = build_report(tmp_path / "short.toml", tmp_path, formats=("pdf",))
     text = " ".join(PdfReader(built.pdf).pages[0].extract_text().split())
@@ -250,13 +255,13 @@ def test_a_short_report_names_its_authors_and_counts_only_tables_with_a_caption(
 
 def test_a_style_that_there_is_not_is_refused_before_anything_is_written(tmp_path: Path) -> None:
     """Typed or in the file: the report that is there stays."""
-    own = SHORT.replace("[[", 'style = "nope.mplstyle"\n[[', 1)
-    for style, text, said in (
-        (None, own, "style: 'nope.mplstyle' is no file in"),
+    report_style = SHORT.replace("[[", 'style = "nope.mplstyle"\n[[', 1)
+    for style, text, message in (
+        (None, report_style, "style: 'nope.mplstyle' is no file in"),
         ("none", SHORT, "the style 'none' cannot be used"),
     ):
         (tmp_path / "short.toml").write_text(text, encoding="utf-8")
-        with pytest.raises(AtlasError, match=said):
+        with pytest.raises(AtlasError, match=message):
             build_report(tmp_path / "short.toml", tmp_path / "out", style=style)
     assert not list((tmp_path / "out").glob("short*"))
 
@@ -267,16 +272,16 @@ def test_a_report_has_its_style_wherever_it_is_drawn(tmp_path: Path) -> None:
     (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
     (tmp_path / "wide.mplstyle").write_text("axes.linewidth: 3", encoding="utf-8")
 
-    def drawn(style: str | None = None) -> bytes:
+    def pdf_of(style: str | None = None) -> bytes:
         file = tmp_path / "short.toml"
         _, figures, _ = composed(file, tmp_path, lambda _: ("pdf",), lambda *_: None, 1, style=style)
         return bytes(next(iter(figures.values())).contents["pdf"])
 
-    plain, typed = drawn(), drawn(str(tmp_path / "wide.mplstyle"))
-    assert plain != typed
+    plain, pdf_typed = pdf_of(), pdf_of(str(tmp_path / "wide.mplstyle"))
+    assert plain != pdf_typed
     (tmp_path / "short.toml").write_text('style = "wide.mplstyle"\n' + SHORT, encoding="utf-8")
-    assert drawn() == typed
-    assert drawn("default") != typed
+    assert pdf_of() == pdf_typed
+    assert pdf_of("default") != pdf_typed
     build_report(tmp_path / "short.toml", tmp_path, formats=("html",))
     (page,) = (tmp_path / "short").glob("figures/*.pdf")
-    assert page.read_bytes() == typed
+    assert page.read_bytes() == pdf_typed

@@ -28,25 +28,27 @@ MAGNET = Field(title="magnet", B=B, E=E, charge_to_mass=MU)
 POSITION, VELOCITY, POINT = [0.4, -0.1, 0.3], [0.7, 0.2, -0.6], [0.15, -0.25, 0.35]
 
 
-def table(name: str, digits: int = 20, bodies: Sequence[Body] = (BODY,), field: Field = FIELD, **more: Any) -> Data:
+def table(
+    name: str, digits: int = 20, bodies: Sequence[Body] = (BODY,), field: Field = FIELD, **parameters: Any
+) -> Data:
     """Compute a table of bodies in a field."""
-    return compute(name, Request([body_and_field(body, field) for body in bodies], more, digits))
+    return compute(name, Request([body_and_field(body, field) for body in bodies], parameters, digits))
 
 
 def holds(data: Data, *rows: Iterable[Any]) -> None:
     """Assert that the numbers of each row are the true ones, rounded to as many decimals, none more and none less."""
-    found = [[cell for cell in row if isinstance(cell, Number)] for row in data.rows]
-    found = [row for row in found if row]
-    for cells, values in zip(found, rows, strict=True):
+    numbers = [[cell for cell in row if isinstance(cell, Number)] for row in data.rows]
+    numbers = [row for row in numbers if row]
+    for cells, values in zip(numbers, rows, strict=True):
         for cell, value in zip(cells, values, strict=True):
             assert cell.proven
-            assert near(cell.digits, closed_form.exact(value)), (cell, value)
+            assert is_rounding(cell.digits, closed_form.exact(value)), (cell, value)
 
 
-def near(digits: str, true: mpf) -> bool:
+def is_rounding(digits: str, true: mpf) -> bool:
     """Tell whether digits are those of the true value, rounded."""
-    last = mpf(10) ** Decimal(digits).as_tuple().exponent
-    return bool(abs(mpf(digits) - true) <= last * (0.5 + 1e-12))
+    unit_last = mpf(10) ** Decimal(digits).as_tuple().exponent
+    return bool(abs(mpf(digits) - true) <= unit_last * (0.5 + 1e-12))
 
 
 def root(square: mpf) -> mpf:
@@ -56,8 +58,8 @@ def root(square: mpf) -> mpf:
 
 def elementary(omega2: float = OMEGA2, field: tuple[float, float] = (B2, B3)) -> closed_form.Elementary:
     """Return the frequencies of a motion of the body."""
-    found: closed_form.Elementary = closed_form.elementary(1, I, *field, omega2)
-    return found
+    values: closed_form.Elementary = closed_form.elementary(1, I, *field, omega2)
+    return values
 
 
 def test_the_cells_of_named_points() -> None:
@@ -66,9 +68,9 @@ def test_the_cells_of_named_points() -> None:
         i, b2, b3 = mpf(I), mpf(B2), mpf(B3)
         rows = []
         for w in sorted([mpf(0), -2 * b2, -(2 - i) * b2, mpf("0.25"), mpf(-1)]):
-            one, x = closed_form.elementary(1, I, B2, B3, w), (w + b2) / b2
+            motion, x = closed_form.elementary(1, I, B2, B3, w), (w + b2) / b2
             square = ((b2**2 + b3**2) * x**4 + (1 - i) * (2 * b3**2 - b2**2) * x**2 + b3**2 * (1 - i) ** 2) / x**2
-            rows.append((w, one.omega3, one.k, one.phi, square))
+            rows.append((w, motion.omega3, motion.k, motion.phi, square))
         data = table("points", omega2=[0.25, -1.0])
         holds(data, *rows)
         assert [row[-1] for row in data.rows] == ["stable" if row[-1] > 0 else "unstable" for row in rows]
@@ -94,12 +96,12 @@ def test_the_cells_of_the_quadric() -> None:
 
 def of_the_motion(ratio: float) -> tuple[mpf, ...]:
     """Return initial data, frequencies, nutation and the five integrals of a body, from their definitions at t = 0."""
-    one, i, b2, b3 = closed_form.elementary(1, ratio, B2, B3, OMEGA2), mpf(ratio), mpf(B2), mpf(B3)
-    w2, w3 = one.omega2, one.omega3
+    motion, i, b2, b3 = closed_form.elementary(1, ratio, B2, B3, OMEGA2), mpf(ratio), mpf(B2), mpf(B3)
+    w2, w3 = motion.omega2, motion.omega3
     x, c3 = (w2 + b2) / b2, w3 + b3
     square = ((b2**2 + b3**2) * x**4 + (1 - i) * (2 * b3**2 - b2**2) * x**2 + b3**2 * (1 - i) ** 2) / x**2
     c5 = w2 * b2 - w3**2 + (2 - i) * c3 * w3
-    return (w2, w3, one.k, one.phi, square, w2**2 + i * w3**2, b2**2 + b3**2, c3, c5, w2 * b2 + i * w3 * b3)
+    return (w2, w3, motion.k, motion.phi, square, w2**2 + i * w3**2, b2**2 + b3**2, c3, c5, w2 * b2 + i * w3 * b3)
 
 
 def test_the_cells_of_a_motion() -> None:
@@ -120,7 +122,7 @@ def test_the_cells_of_a_data_sheet() -> None:
         rows = [[value for value in same if value is not None] for same in zip(*bodies, strict=True)]
         data = table("sheet", bodies=[Body(title=f"{ratio}", ratio=ratio) for ratio in ratios], omega2=OMEGA2)
         holds(data, *rows)
-    assert [one.head for one in data.columns] == ["Quantity", "Symbol", "1.6", "0.45", "1.0", "Unit"]
+    assert [column.head for column in data.columns] == ["Quantity", "Symbol", "1.6", "0.45", "1.0", "Unit"]
     words = {row[0]: row[2:5] for row in data.rows if isinstance(row[2], str)}
     assert words == {
         "quadric @(51)": ("two-sheet hyperboloid", "one-sheet hyperboloid", "cone"),
@@ -158,7 +160,7 @@ def test_the_cells_of_a_path() -> None:
         drift = [(e[(j + 1) % 3] * b[(j + 2) % 3] - e[(j + 2) % 3] * b[(j + 1) % 3]) / square for j in range(3)]
         (note,) = data.notes
         for number, true in zip(re.findall(r"-?\d+\.\d+", note), [mpf(MU) * mp.sqrt(square), *drift], strict=True):
-            assert near(number, true)
+            assert is_rounding(number, true)
 
 
 def test_the_cells_of_a_flight() -> None:
@@ -166,20 +168,20 @@ def test_the_cells_of_a_flight() -> None:
     with mp.workdps(40):
         rows = []
         field = (MU * mpf(B[1]) / 2, MU * mpf(B[2]) / 2)
-        held = (float(field[0]), float(field[1]))  # the table takes the nearest doubles
+        field_exact = (float(field[0]), float(field[1]))  # the table takes the nearest doubles
         for t in TIMES:
             y = closed_form.particle(MU, E, B, POSITION, VELOCITY, t).y
-            x = closed_form.elementary_rotation(1, I, *held, OMEGA2, t) * mpmath.matrix(POINT)
+            x = closed_form.elementary_rotation(1, I, *field_exact, OMEGA2, t) * mpmath.matrix(POINT)
             rows.append((mpf(t), *y, *(mpf(a) + b for a, b in zip(y, x, strict=True))))
-        asked = {"omega2": OMEGA2, "times": TIMES, "point": POINT, "position": POSITION, "velocity": VELOCITY}
-        holds(table("flight", field=MAGNET, **asked), *rows)
+        parameters = {"omega2": OMEGA2, "times": TIMES, "point": POINT, "position": POSITION, "velocity": VELOCITY}
+        holds(table("flight", field=MAGNET, **parameters), *rows)
 
 
 def test_the_cells_of_the_ball() -> None:
     """m2, m3, alpha as given; gamma and the axis of (29)."""
     with mp.workdps(40):
-        one = closed_form.ball(1, 0.45, 0.3, -0.7)
-        values = (0.3, -0.7, 0.45, one.gamma, one.k2, one.k3)
+        ball = closed_form.ball(1, 0.45, 0.3, -0.7)
+        values = (0.3, -0.7, 0.45, ball.gamma, ball.k2, ball.k3)
         data = compute("ball", Request((), {"omega2": 0.3, "omega3": -0.7, "larmor": 0.45}, 20))
         holds(data, *((value,) for value in values))
 
@@ -211,21 +213,23 @@ def test_the_cells_of_body_and_field() -> None:
         I3 = mpf("0.75") * mpf("0.0625")
         I2 = I3 / 2 + mpf("0.75") * mpf("0.375") ** 2 / 12
         mu = mpf(-0.3 / 0.75)
-        given = (0.75, 0.25, 0.375, -0.3, 0, 3, mpf("4.5"), mpf("0.5"), 0, mpf("-2.5"))
+        values = (0.75, 0.25, 0.375, -0.3, 0, 3, mpf("4.5"), mpf("0.5"), 0, mpf("-2.5"))
         follows = (I2, I3, I3 / I2, mu, mpf(float(-mu * 3 / 2)), mpf(float(mu * mpf("2.25"))))
         with mp.workdps(17):  # what was given is shown as it was given
-            given = tuple(mpf(repr(float(value))) for value in given)
-        holds(table("body_and_field", bodies=[shell], field=magnet), *((value,) for value in (*given, *follows)))
+            values = tuple(mpf(repr(float(value))) for value in values)
+        holds(table("body_and_field", bodies=[shell], field=magnet), *((value,) for value in (*values, *follows)))
 
 
 def test_the_cells_of_charges() -> None:
     """Mass, radius, charge mu m0 and e/(4 pi eps0 r^2), to two digits."""
-    made = [Body(title=name, shape="sphere", mass=m, radius=r) for name, m, r in (("a", 9e-15, 2e-6), ("b", 3.0, 0.4))]
+    bodies = [
+        Body(title=name, shape="sphere", mass=m, radius=r) for name, m, r in (("a", 9e-15, 2e-6), ("b", 3.0, 0.4))
+    ]
     rows = []
-    for body in made:
+    for body in bodies:
         m, r = body.mass or 0.0, body.radius or 0.0
         rows.append((m, r, MU * m, 8.9875517862e9 * MU * m / r**2))
-    holds(table("charges", bodies=made, field=Field(title="m", B=B, charge_to_mass=MU)), *rows)
+    holds(table("charges", bodies=bodies, field=Field(title="m", B=B, charge_to_mass=MU)), *rows)
 
 
 def test_the_cells_of_diamagnetism() -> None:
@@ -236,33 +240,33 @@ def test_the_cells_of_diamagnetism() -> None:
     square = sum(x * x for x in B)
     I2, I3 = 6e-15 * (0.5e-12 + 16e-12 / 12), 6e-15 * 1e-12
     rows = []
-    for difference, mass, along, across in ((I3 - I2, 6e-15, 0, 0.5), (3e-16 * 2e-12, 3e-16, 0.5, 0.25)):
+    for difference, mass, N_along, N_across in ((I3 - I2, 6e-15, 0, 0.5), (3e-16 * 2e-12, 3e-16, 0.5, 0.25)):
         strength = -mpf(chi) * mass / rho * square / (2 * mu0)
-        rows.append((difference * MU**2 * square / 8, strength * ((1 - chi * along) - (1 - chi * across))))
-    made = Field(title="m", B=B, charge_to_mass=MU)
-    holds(table("diamagnetism", bodies=[tube, hoop], field=made, susceptibility=chi, density=rho), *rows)
+        rows.append((difference * MU**2 * square / 8, strength * ((1 - chi * N_along) - (1 - chi * N_across))))
+    magnet = Field(title="m", B=B, charge_to_mass=MU)
+    holds(table("diamagnetism", bodies=[tube, hoop], field=magnet, susceptibility=chi, density=rho), *rows)
 
 
 def test_the_cells_of_bodies_that_could_exist() -> None:
     """Charge, elementary charges, mu, b, its period, the angle between m and B, and J b^2/k_B, to two digits."""
     surface, density, magnet, eps0 = 1e9, 2500.0, 10.0, 8.8541878188e-12
-    more = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
+    parameters = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
     rows = []
     for r in (1e-6, 2e-2):
         charge, mu = 4 * mp.pi * eps0 * r * r * surface, 3 * eps0 * surface / (density * r)
         b = mu * magnet / 2
-        one = closed_form.elementary(1, 1.5, 1, 2, 2 * mp.pi / (b / mp.sqrt(5)) / mp.sqrt(5))
-        m, B = (one.omega2, mpf("1.5") * one.omega3), (1, 2)
+        motion = closed_form.elementary(1, 1.5, 1, 2, 2 * mp.pi / (b / mp.sqrt(5)) / mp.sqrt(5))
+        m, B = (motion.omega2, mpf("1.5") * motion.omega3), (1, 2)
         angle = abs(mp.atan2(m[0] * B[1] - m[1] * B[0], m[0] * B[0] + m[1] * B[1]))
         heat = 8 * mp.pi * density * mpf(r) ** 5 / 15 * b * b / 1.380649e-23
         rows.append((r, charge, charge / 1.602176634e-19, mu, b, 2 * mp.pi / b, angle, heat))
-    holds(compute("sizes", Request((), more, 2)), *rows)
+    holds(compute("sizes", Request((), parameters, 2)), *rows)
 
 
 def test_the_cells_of_radiation() -> None:
     """Energy over power in Julian years: Larmor's formula, a magnetic dipole, an electric quadrupole, in SI units."""
     surface, density, magnet, eps0, c = 1e9, 2500.0, 10.0, 8.8541878188e-12, 299_792_458.0
-    more = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
+    parameters = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
     rows = []
     for r in (1e-6, 2e-2):
         e, mass = 4 * mp.pi * eps0 * r * r * surface, 4 * mp.pi / 3 * density * r**3
@@ -276,7 +280,7 @@ def test_the_cells_of_radiation() -> None:
         # D = mu (I2 - I3)(3 n n - 1) of an axis that runs round a circle: |D'''|^2 = 16 * 18 (mu (I2 - I3) b^3)^2
         electric = energy / (288 * (mu * inertia * 0.5 * b**3) ** 2 / (720 * mp.pi * eps0 * c**5))
         rows.append((r, *(time / 31_557_600 for time in (flight, magnetic, electric))))
-    holds(compute("radiation", Request((), more, 2)), *rows)
+    holds(compute("radiation", Request((), parameters, 2)), *rows)
 
 
 def test_the_cells_of_fits() -> None:
@@ -284,7 +288,7 @@ def test_the_cells_of_fits() -> None:
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     rows = [(row["found"], row["within"], row["seconds"]) for row in record.values()]
     assert len(rows) == 15
-    assert all(found >= 97 and 63 <= within <= 73 for found, within, _ in rows)
+    assert all(share >= 97 and 63 <= within <= 73 for share, within, _ in rows)
     holds(compute("fits", Request((), {}, 2)), *rows)
 
 

@@ -113,8 +113,8 @@ def test_toml_nested_too_deeply_is_a_mistake_in_one_line(tmp_path: Path) -> None
         toml.loads(file.read_text())
     with pytest.raises(AtlasError, match="too deeply"):
         load(file)
-    found = CliRunner().invoke(atlas, ["report", str(file)])
-    assert not isinstance(found.exception, RecursionError)
+    outcome = CliRunner().invoke(atlas, ["report", str(file)])
+    assert not isinstance(outcome.exception, RecursionError)
 
 
 def test_code_is_printed_as_it_stands() -> None:

@@ -71,11 +71,11 @@ def test_inputs_are_in_head_prose_loops_tables_and_captions(paper: Path) -> None
     report = load(paper, values)
     assert report.title == "A body with the ratio 1.5"
     assert report.parameters.bodies["body"].ratio == 1.5
-    first, listing, last = report.pages[0].blocks
-    assert "A height of 1.2 micrometres." in first.text  # type: ignore[attr-defined]
-    assert "The rate 1.0.\n\nThe rate 2.0." in first.text  # type: ignore[attr-defined]
+    text_first, listing, text_last = report.pages[0].blocks
+    assert "A height of 1.2 micrometres." in text_first.text  # type: ignore[attr-defined]
+    assert "The rate 1.0.\n\nThe rate 2.0." in text_first.text  # type: ignore[attr-defined]
     assert (listing.caption, listing.rows) == ("Of the height 1.2.", (("1.2",),))  # type: ignore[attr-defined]
-    assert last.text == "$x<1$ and %."  # type: ignore[attr-defined]
+    assert text_last.text == "$x<1$ and %."  # type: ignore[attr-defined]
     assert len(load(paper, values | {"colour": "blue"}).pages[0].blocks) == 1
 
 
@@ -120,11 +120,11 @@ def test_equal_values_have_one_name(paper: Path) -> None:
 
 def test_inputs_are_listed_and_nothing_is_drawn(paper: Path) -> None:
     """By --help and as JSON."""
-    shown = CliRunner().invoke(command, [str(paper), "--help"]).output
-    assert "ratio=0.5" in shown
-    assert "number, in um, its height" in shown
+    output = CliRunner().invoke(command, [str(paper), "--help"]).output
+    assert "ratio=0.5" in output
+    assert "number, in um, its height" in output
     records = json.loads(CliRunner().invoke(command, [str(paper), "--inputs", "json"]).output)[str(paper)]
-    assert [(one["name"], one["default"]) for one in records][:2] == [("ratio", 0.5), ("height", None)]
+    assert [(record["name"], record["default"]) for record in records][:2] == [("ratio", 0.5), ("height", None)]
     assert [*paper.parent.iterdir()] == [paper]
     of_body = json.loads(CliRunner().invoke(command, ["your_body", "--inputs", "json"]).output)["your_body"]
     assert {one["name"]: (one["kind"], one["unit"], one["count"]) for one in of_body}.items() >= {

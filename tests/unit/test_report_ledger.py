@@ -103,18 +103,18 @@ def entries(pages: dict[str, reader.HtmlElement]) -> Iterator[tuple[str, str, re
 
 def links(element: reader.HtmlElement, page: str) -> list[tuple[str, str]]:
     """Return the file and anchor of each link inside an element."""
-    parts = [unquote(link).partition("#") for link in element.xpath(".//@href")]
-    return [(file or page, anchor) for file, _, anchor in parts]
+    targets = [unquote(link).partition("#") for link in element.xpath(".//@href")]
+    return [(file or page, anchor) for file, _, anchor in targets]
 
 
 def test_every_entry_stands_once_with_its_verdict(pages: dict[str, reader.HtmlElement]) -> None:
     """All entries of the ledger are there, each with the verdict on record and the number in print."""
     verdicts = recorded.load()
-    found = {name: element for name, _, element in entries(pages)}
+    elements = {name: element for name, _, element in entries(pages)}
     assert Counter(name for name, _, _ in entries(pages)) == Counter(list(EQUATIONS))
-    for name, element in found.items():
-        (shown,) = element.xpath(".//h2/span[contains(@class, 'verdict')]")
-        assert shown.text_content() == ", ".join(filter(None, (verdicts[name].verdict, verdicts[name].grade)))
+    for name, element in elements.items():
+        (verdict_span,) = element.xpath(".//h2/span[contains(@class, 'verdict')]")
+        assert verdict_span.text_content() == ", ".join(filter(None, (verdicts[name].verdict, verdicts[name].grade)))
         heading = element.xpath("string(.//h2)")
         assert name in heading
         assert element.xpath(".//*[local-name()='math']")
@@ -127,21 +127,21 @@ def test_every_entry_repeats_the_paper_and_the_record(pages: dict[str, reader.Ht
     """
     verdicts = recorded.load()
     for name, _, element in entries(pages):
-        entry, found = EQUATIONS[name], verdicts[name]
-        how = found.method + (f", from {found.follows}" if found.follows else "")
+        entry, verdict = EQUATIONS[name], verdicts[name]
+        how = verdict.method + (f", from {verdict.follows}" if verdict.follows else "")
         places = {
             "string(./p[@class='says'])": entry.says,
             "string(./p[@class='quote'])": f"“{entry.quote}" if entry.quote else "",
             "string(./dl/dd[1])": "; ".join(entry.assumptions) or "no assumptions of its own.",
             "string(./dl/dd[2])": how,
-            "substring-after(./dl/dd[2], '. ')": found.note,
+            "substring-after(./dl/dd[2], '. ')": verdict.note,
         }
         for place, text in places.items():
-            first = re.split(r"[$*`@\[_^<'\"]", text)[0].strip()
-            assert element.xpath(place).replace("\N{NO-BREAK SPACE}", " ").startswith(first), (name, place)
+            beginning = re.split(r"[$*`@\[_^<'\"]", text)[0].strip()
+            assert element.xpath(place).replace("\N{NO-BREAK SPACE}", " ").startswith(beginning), (name, place)
         corrected = element.xpath("./dl/dt[.='Corrected']/following-sibling::dd[1]")
-        assert len(corrected) == bool(found.corrected_tex), name
-        assert all(one.text.startswith(found.corrected_verdict) for one in corrected), name
+        assert len(corrected) == bool(verdict.corrected_tex), name
+        assert all(paragraph.text.startswith(verdict.corrected_verdict) for paragraph in corrected), name
 
 
 def test_the_script_of_an_entry_stands_under_a_fold(pages: dict[str, reader.HtmlElement]) -> None:
@@ -181,15 +181,15 @@ def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dic
     """
     refuted = {name: verdict for name, verdict in recorded.load().items() if verdict.grade}
     anchors = {f"erratum-{slug(name)}": name for name in refuted}
-    found = {anchors[e.get("id")]: e for e in pages["slips.html"].xpath("//section[@id]")}
-    assert sorted(found) == sorted(refuted)
-    grades = [GRADES.index(refuted[name].grade) for name in found]
+    sections = {anchors[e.get("id")]: e for e in pages["slips.html"].xpath("//section[@id]")}
+    assert sorted(sections) == sorted(refuted)
+    grades = [GRADES.index(refuted[name].grade) for name in sections]
     assert grades == sorted(grades)
     headings = pages["slips.html"].xpath("//h2[@class='grade']/text()")
     assert headings == [grade.capitalize() for grade in GRADES]
-    notes = [" ".join(element.xpath("string(./p[@class='says'])").split(".")[1:]) for element in found.values()]
+    notes = [" ".join(element.xpath("string(./p[@class='says'])").split(".")[1:]) for element in sections.values()]
     assert [note for note in notes if note.strip() and notes.count(note) > 1] == []
-    for name, element in found.items():
+    for name, element in sections.items():
         assert element.xpath("./div[contains(@class, 'sides')]/div[2]//*[@class='changed']"), name
         quote = element.xpath("string(.//p[@class='quote'])")
         assert EQUATIONS[name].quote.partition("$")[0][:20] in quote
@@ -245,9 +245,9 @@ def test_totals_agree_with_the_record(pages: dict[str, reader.HtmlElement]) -> N
 
 def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, toml: Path) -> None:
     """An error on record that breaks a promise says so in its row; one that keeps it does not."""
-    worst = {"R": (5.0, "ordinary"), "beta": (1.25, "I near 1"), "k": (0.5, "ordinary")}
+    errors = {"R": (5.0, "ordinary"), "beta": (1.25, "I near 1"), "k": (0.5, "ordinary")}
     (tmp_path / "data").mkdir()
-    (tmp_path / "data" / "worst_errors.json").write_text(json.dumps({"values": 1, "processors": [], "worst": worst}))
+    (tmp_path / "data" / "worst_errors.json").write_text(json.dumps({"values": 1, "processors": [], "worst": errors}))
     monkeypatch.setattr(appendices, "folder", lambda _: tmp_path)
     data = gather(load(toml)).tables["stress: worst errors"]
     assert isinstance(data, Data)
@@ -258,8 +258,10 @@ def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatc
 def test_an_entry_without_a_verdict_is_undecided(toml: Path) -> None:
     """What the record does not hold is not passed off as proved."""
     document = compose(load(toml), {}, _with(Finding("supported", "1000 samples", "(71)")))
-    shown = [entry for page in document.pages for block in page.blocks for entry in getattr(block, "entries", ())]
-    assert {entry.name: entry.finding.verdict for entry in shown} == dict.fromkeys(EQUATIONS, "undecided") | {
+    entries_shown = [
+        entry for page in document.pages for block in page.blocks for entry in getattr(block, "entries", ())
+    ]
+    assert {entry.name: entry.finding.verdict for entry in entries_shown} == dict.fromkeys(EQUATIONS, "undecided") | {
         "(72)": "supported"
     }
 
@@ -277,14 +279,14 @@ def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "right"),
+    ("line_wrong", "line_right"),
     [('section = "II"', "IIX"), ('table = "totals"', "total"), ('source = "bench"', "benches")],
 )
-def test_a_misspelt_record_is_an_error(tmp_path: Path, wrong: str, right: str) -> None:
+def test_a_misspelt_record_is_an_error(tmp_path: Path, line_wrong: str, line_right: str) -> None:
     """A section, table or source that there is not is told with the nearest name."""
-    key, _, name = wrong.partition(" = ")
+    key, _, name = line_wrong.partition(" = ")
     file = tmp_path / "mine.toml"
-    file.write_text((HEAD + LEDGER + RECORDED).replace(wrong, f'{key} = "{right}"', 1), encoding="utf-8")
+    file.write_text((HEAD + LEDGER + RECORDED).replace(line_wrong, f'{key} = "{line_right}"', 1), encoding="utf-8")
     with pytest.raises(AtlasError, match=name.strip('"')):
         compose(report := load(file), {}, gather(report))
 

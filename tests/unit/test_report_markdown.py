@@ -97,7 +97,7 @@ id = "colours"
 '''
 
 
-def written(folder: Path, text: str, suffix: str = "md") -> Path:
+def report_file(folder: Path, text: str, suffix: str = "md") -> Path:
     """Write a report."""
     file = folder / f"mine.{suffix}"
     file.write_text(text, encoding="utf-8")
@@ -106,9 +106,16 @@ def written(folder: Path, text: str, suffix: str = "md") -> Path:
 
 def test_both_ways_to_write_a_report_say_the_same(tmp_path: Path) -> None:
     """Head, abstract, pages with their titles, texts with code, blocks with a head."""
-    one, other = (load(written(tmp_path, text, suffix)) for text, suffix in ((MARKDOWN, "md"), (TOML, "toml")))
-    assert {**asdict(one), "source": None} == {**asdict(other), "source": None}
-    assert [kind_of(block) for page in one.pages for block in page.blocks] == ["prose", "equation", "note", "figure"]
+    report_markdown, report_toml = (
+        load(report_file(tmp_path, text, suffix)) for text, suffix in ((MARKDOWN, "md"), (TOML, "toml"))
+    )
+    assert {**asdict(report_markdown), "source": None} == {**asdict(report_toml), "source": None}
+    assert [kind_of(block) for page in report_markdown.pages for block in page.blocks] == [
+        "prose",
+        "equation",
+        "note",
+        "figure",
+    ]
 
 
 MISTAKES: dict[str, tuple[str, str, int, str]] = {
@@ -148,32 +155,32 @@ MISTAKES: dict[str, tuple[str, str, int, str]] = {
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_reported_with_its_line(mistake: str, tmp_path: Path) -> None:
     """In one sentence: file, line of the file from its first on, what is wrong, what was meant."""
-    right, wrong, line, said = MISTAKES[mistake]
-    assert MARKDOWN.count(right) == 1 or right == "title = "
-    file = written(tmp_path, MARKDOWN.replace(right, wrong, 1))
+    text, text_wrong, line, message = MISTAKES[mistake]
+    assert MARKDOWN.count(text) == 1 or text == "title = "
+    file = report_file(tmp_path, MARKDOWN.replace(text, text_wrong, 1))
     with pytest.raises(AtlasError) as caught:
         load(file)
     sentence = str(caught.value)
     assert sentence.startswith(f"{file}, line {line}: ")
-    assert said in sentence
+    assert message in sentence
     assert "\n" not in sentence
 
 
 @pytest.mark.parametrize(
-    ("right", "wrong", "line", "said"),
+    ("text", "text_wrong", "line", "message"),
     [
         ('"colours"\nid', '"colour"\nid', 39, "page 'the-second-page', block 1 (figure): there is no recipe 'colour'"),
         ("@(51)", "@(511)", 18, "page 'index', block 1 (prose): there is no equation"),
     ],
 )
 def test_a_mistake_found_in_typesetting_is_reported_with_its_block(
-    right: str, wrong: str, line: int, said: str, tmp_path: Path
+    text: str, text_wrong: str, line: int, message: str, tmp_path: Path
 ) -> None:
     """A recipe that there is not, a citation that leads nowhere."""
-    report = load(written(tmp_path, MARKDOWN.replace(right, wrong)))
+    report = load(report_file(tmp_path, MARKDOWN.replace(text, text_wrong)))
     with pytest.raises(AtlasError) as caught:
         compose(report, pictures(report)).set("html")
-    assert str(caught.value).startswith(f"mine.md, line {line}: {said}")
+    assert str(caught.value).startswith(f"mine.md, line {line}: {message}")
 
 
 SIGNS = (
@@ -194,7 +201,7 @@ SIGNS = (
 @pytest.mark.parametrize("line", SIGNS)
 def test_text_is_text(line: str, tmp_path: Path) -> None:
     """What is neither a heading nor a fence reaches the text letter by letter, separators of lines of Unicode too."""
-    kept: Any = (
-        load(written(tmp_path, MARKDOWN.replace("The data", f"A\u2028B\n\n{line}\n\nThe data"))).pages[0].blocks[0]
+    block: Any = (
+        load(report_file(tmp_path, MARKDOWN.replace("The data", f"A\u2028B\n\n{line}\n\nThe data"))).pages[0].blocks[0]
     )
-    assert kept.text.startswith(f"A\u2028B\n\n{line}\n\nThe data")
+    assert block.text.startswith(f"A\u2028B\n\n{line}\n\nThe data")

@@ -109,10 +109,10 @@ def test_all_mistakes_of_a_report_are_said_at_once(tmp_path: Path) -> None:
     )
     with pytest.raises(AtlasError) as caught:
         load(file)
-    said = ("'title'", "'no.bib'", "'nosuch'", "'hyperbola'", "'guide'", "no.py", "two figures", "'ring'")
+    complaints = ("'title'", "'no.bib'", "'nosuch'", "'hyperbola'", "'guide'", "no.py", "two figures", "'ring'")
     sentences = caught.value.sentences
-    assert len(sentences) == len(said)
-    for words in said:
+    assert len(sentences) == len(complaints)
+    for words in complaints:
         assert sum(words in sentence for sentence in sentences) == 1
     lines = [int(line[1]) for sentence in sentences if (line := re.search(r", line (\d+)", sentence))]
     assert len(lines) == 6
@@ -147,11 +147,11 @@ def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
 def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
-    found = pictures(report)
+    figures = pictures(report)
     works = bibliography.read(folder("reports") / report.bibliography) if report.bibliography else None
-    document = compose(report, found, gather(report), works, outlines(report))
+    document = compose(report, figures, gather(report), works, outlines(report))
     assert report.name == name
-    for picture in found.values():
+    for picture in figures.values():
         assert not picture.failure
         assert recipes.load(picture.recipe).scene(**picture.parameters).alt
     assert len(document.texts.set("html", document.cite("html"))) == len(document.texts.texts)

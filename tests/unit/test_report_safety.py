@@ -85,16 +85,16 @@ def definition(text: str, block: str = "") -> Report:
 
 def document(report: Report) -> Document:
     """Compose a report and set its texts."""
-    made = compose(report, {})
-    made.set("html", "typst")
-    return made
+    document_made = compose(report, {})
+    document_made.set("html", "typst")
+    return document_made
 
 
-def visible(made: Document, folder: Path) -> tuple[reader.HtmlElement, str]:
+def visible(document: Document, folder: Path) -> tuple[reader.HtmlElement, str]:
     """Return the first page, parsed, and the words of the PDF."""
-    page = reader.fromstring(html.pages(made)["index.html"])
-    (folder / "mine.pdf").write_bytes(typesetting.compiled(pdf.source(made), folder, FONTS))
-    return page, " ".join(one.extract_text() for one in PdfReader(folder / "mine.pdf").pages)
+    page = reader.fromstring(html.pages(document)["index.html"])
+    (folder / "mine.pdf").write_bytes(typesetting.compiled(pdf.source(document), folder, FONTS))
+    return page, " ".join(page_pdf.extract_text() for page_pdf in PdfReader(folder / "mine.pdf").pages)
 
 
 def inert(page: reader.HtmlElement) -> bool:
@@ -146,10 +146,10 @@ def test_blocks_of_markdown_are_set_in_page_and_pdf(block: str, tmp_path: Path) 
 
 def test_a_message_shows_forty_characters_of_a_wrong_value() -> None:
     """A longer one is cut, with a mark."""
-    for count, shown in ((38, f"'{'a' * 38}'"), (39, f"'{'a' * 39}…")):
+    for count, quotation in ((38, f"'{'a' * 38}'"), (39, f"'{'a' * 39}…")):
         with pytest.raises(AtlasError) as caught:
             convert("a" * count, float)
-        assert str(caught.value) == f"at the top: must be a number, not {shown}"
+        assert str(caught.value) == f"at the top: must be a number, not {quotation}"
 
 
 def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None:
@@ -160,15 +160,15 @@ def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None
     pieces = texts.set("html", lambda name, _: Link(name))
     assert inert(reader.fromstring("<div>" + "".join(pieces) + "</div>"))
     rule = "#let horizontalrule = line(length: 40%)\n#let leading(indented, body) = body\n"
-    blocks = "".join(f"#block([{one}])\n\n" for one in texts.set("typst", lambda name, _: Link(name)))
+    blocks = "".join(f"#block([{block}])\n\n" for block in texts.set("typst", lambda name, _: Link(name)))
     typesetting.compiled(rule + blocks, tmp_path, FONTS)
 
 
 @pytest.mark.parametrize("link", ["https://a.b/c?d=e#f", "http://a.b", "mailto:a@b.c", "index.html#eq-own", "#eq-own"])
 def test_links_that_are_allowed_are_kept(link: str) -> None:
     """Links lead to http, https, mailto and pages of the report."""
-    made = document(definition(f"[word]({link})"))
-    assert f'href="{link}"' in html.pages(made)["index.html"]
+    document_made = document(definition(f"[word]({link})"))
+    assert f'href="{link}"' in html.pages(document_made)["index.html"]
 
 
 def test_a_doi_becomes_an_address() -> None:
@@ -216,9 +216,9 @@ def test_names_that_become_anchors_and_files_are_letters_digits_and_hyphens(name
 
 def test_the_scripts_of_a_page_agree_with_its_templates() -> None:
     """What the pages ask for lies beside them, as it is in the templates whatever the report says."""
-    made = html.pages(document(definition(MARKUP[0])))
+    files = html.pages(document(definition(MARKUP[0])))
     for script in SCRIPTS:
-        assert made[script["src"]] == (folder("templates") / "html" / script["src"]).read_text(encoding="utf-8")
+        assert files[script["src"]] == (folder("templates") / "html" / script["src"]).read_text(encoding="utf-8")
 
 
 def test_every_page_has_a_policy_under_which_nothing_runs() -> None:
@@ -255,10 +255,10 @@ def test_values_of_a_key_agree_with_the_library(kind: Any) -> None:
     for value in VALUES:
         try:
             msgspec.convert(value, kind)
-            right = True
+            is_valid = True
         except msgspec.ValidationError:
-            right = False
-        if right:
+            is_valid = False
+        if is_valid:
             convert(value, kind)
             continue
         with pytest.raises(AtlasError):
@@ -313,8 +313,8 @@ def test_sets_of_parameters_stand_in_each_block_that_names_them(tmp_path: Path) 
     file = tmp_path / "mine.toml"
     sets = "[parameters.sets]\nbody = { ratio = 0.5, azimuth = 1.0 }\nview = { azimuth = 2.0, elevation = 3.0 }\n"
     block = "[[pages]]\nslug = 'index'\ntitle = ''\n[[pages.blocks]]\nkind = 'figure'\nrecipe = 'quadric'\n"
-    own = "sets = ['body', 'view']\nparameters = { elevation = 4.0 }\n"
-    file.write_text(f"name = 'mine'\ntitle = ''\n{sets}{block}{own}", encoding="utf-8")
+    block_text = "sets = ['body', 'view']\nparameters = { elevation = 4.0 }\n"
+    file.write_text(f"name = 'mine'\ntitle = ''\n{sets}{block}{block_text}", encoding="utf-8")
     assert load(file).pages[0].blocks[0].parameters == {"ratio": 0.5, "azimuth": 2.0, "elevation": 4.0}
     file.write_text(f"name = 'mine'\ntitle = ''\n{sets}{block}sets = ['bodi']\n", encoding="utf-8")
     with pytest.raises(AtlasError, match=r"block 1: there is no set 'bodi' in \[parameters\] \(did you mean 'body'"):
@@ -331,21 +331,21 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("given", WRONG)
-def test_a_parameter_of_another_type_is_reported_with_its_key(given: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("line", WRONG)
+def test_a_parameter_of_another_type_is_reported_with_its_key(line: str, tmp_path: Path) -> None:
     """One line names the block, the key and what would be right."""
     file = tmp_path / "mine.toml"
-    more = f"omega2 = 0.5, {given}" if given and "omega_2" not in given else given
+    lines = f"omega2 = 0.5, {line}" if line and "omega_2" not in line else line
     file.write_text(
         'name = "mine"\ntitle = "T"\n[parameters.bodies.b]\ntitle = "b"\nratio = 1.5\n'
         '[parameters.fields.f]\ntitle = "f"\nprime = [1.0, 2.0]\n'
         '[[pages]]\nslug = "index"\ntitle = "T"\n[[pages.blocks]]\nkind = "table"\ntable = "samples"\n'
-        f'body = "b"\nfield = "f"\nparameters = {{ {more} }}\n',
+        f'body = "b"\nfield = "f"\nparameters = {{ {lines} }}\n',
         encoding="utf-8",
     )
     with pytest.raises(AtlasError) as caught:
         compose(load(file), {})
-    assert WRONG[given] in str(caught.value)
+    assert WRONG[line] in str(caught.value)
     assert "block 1 (table)" in str(caught.value)
     assert "\n" not in str(caught.value)
 
@@ -377,10 +377,10 @@ def test_a_body_of_another_type_is_reported_with_its_key(line: str, words: str, 
 def test_citations_are_found_as_pandoc_finds_them() -> None:
     """What counts as a use and what becomes a link are the same names."""
     text = "See @(50), (@theorem-points); `@(89)`, $x@y$ and a@b.c, @fig:curve and [@tab:points; see @(90), p. 3]."
-    texts, found = Texts(), []
+    texts, citations_found = Texts(), []
     texts.add(text, "here", inline=True)
-    texts.set("html", lambda name, _: found.append(name) or Link(name))
-    assert found == citations(text) == ["(50)", "theorem-points", "fig:curve", "tab:points", "(90)"]
+    texts.set("html", lambda name, _: citations_found.append(name) or Link(name))
+    assert citations_found == citations(text) == ["(50)", "theorem-points", "fig:curve", "tab:points", "(90)"]
 
 
 @pytest.mark.parametrize(

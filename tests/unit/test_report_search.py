@@ -45,7 +45,7 @@ blocks = [
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """Return the pages of a small report."""
     file = tmp_path_factory.mktemp("report") / "mine.toml"
     file.write_text(REPORT)
@@ -55,12 +55,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     return html.pages(document)
 
 
-def test_search_results_lead_to_anchors(made: dict[str, str]) -> None:
+def test_search_results_lead_to_anchors(files: dict[str, str]) -> None:
     """Each row of the index leads to an anchor of a page, and each heading, figure, table and equation has a row."""
-    content = json.loads(made["index.js"].removeprefix("atlasIndex(").removesuffix(");\n"))
+    content = json.loads(files["index.js"].removeprefix("atlasIndex(").removesuffix(");\n"))
     anchors = {(file, anchor) for file, anchor, _, _ in content["sections"]}
     for file, anchor in anchors:
-        assert reader.fromstring(made[file]).get_element_by_id(anchor) is not None
+        assert reader.fromstring(files[file]).get_element_by_id(anchor) is not None
     assert anchors == {
         ("index.html", "page-index"),
         ("index.html", "a-heading-of"),
@@ -112,25 +112,25 @@ def test_titles_have_the_apostrophes_of_print() -> None:
     assert texts.title("Larmor's $B'_2$, or B'") == r"Larmor’s $B'_2$\, or B\'"
 
 
-def test_the_search_box_needs_no_network(made: dict[str, str]) -> None:
+def test_the_search_box_needs_no_network(files: dict[str, str]) -> None:
     """Its library lies beside the page, with its licence, and is loaded before what uses it."""
-    assert "Permission is hereby granted" in made["minisearch.js"]
-    scripts = reader.fromstring(made["index.html"]).xpath("//script/@src")
+    assert "Permission is hereby granted" in files["minisearch.js"]
+    scripts = reader.fromstring(files["index.html"]).xpath("//script/@src")
     assert scripts == ["minisearch.js", "page.js"]
 
 
-def test_an_equation_is_named_where_it_is_cited(made: dict[str, str]) -> None:
+def test_an_equation_is_named_where_it_is_cited(files: dict[str, str]) -> None:
     """Without a script the link of a citation says in words what the equation says."""
-    (link,) = reader.fromstring(made["index.html"]).xpath("//main//a[@href='index.html#eq-71']")
+    (link,) = reader.fromstring(files["index.html"]).xpath("//main//a[@href='index.html#eq-71']")
     assert "hyperbola" in link.get("title").lower()
 
 
-def test_the_front_page_shows_the_report(made: dict[str, str]) -> None:
+def test_the_front_page_shows_the_report(files: dict[str, str]) -> None:
     """The figure that the report names, and a picture of each page that has one."""
-    page = reader.fromstring(made["index.html"])
+    page = reader.fromstring(files["index.html"])
     assert page.xpath("//a[@class='cover']/@href") == ["second.html#fig-curve"]
     assert page.xpath("//nav[@class='cards']/a/@href") == []  # a single picture needs no list
-    assert not reader.fromstring(made["second.html"]).xpath("//header")
+    assert not reader.fromstring(files["second.html"]).xpath("//header")
 
 
 def test_a_cover_must_be_a_figure(tmp_path: Path) -> None:
@@ -143,9 +143,9 @@ def test_a_cover_must_be_a_figure(tmp_path: Path) -> None:
         html.pages(document)
 
 
-def test_tables_are_readable_by_screen_readers(made: dict[str, str]) -> None:
+def test_tables_are_readable_by_screen_readers(files: dict[str, str]) -> None:
     """A head that is a formula is there in plain letters too, and a table that scrolls has a name."""
-    page = reader.fromstring(made["second.html"])
+    page = reader.fromstring(files["second.html"])
     heads = [head.text_content() for head in page.xpath("//th[.//*[local-name()='math']]/span[@class='spoken']")]
     assert "ω_2" in heads
     (box,) = page.xpath("//div[@class='scroll']")
@@ -153,18 +153,18 @@ def test_tables_are_readable_by_screen_readers(made: dict[str, str]) -> None:
     assert page.get_element_by_id(box.get("aria-labelledby")).text_content().startswith("Table 1.")
 
 
-def test_the_head_of_a_column_is_one_line(made: dict[str, str]) -> None:
+def test_the_head_of_a_column_is_one_line(files: dict[str, str]) -> None:
     """Names and units of columns hold no paragraph."""
-    heads = reader.fromstring(made["second.html"]).xpath("//thead//th")
+    heads = reader.fromstring(files["second.html"]).xpath("//thead//th")
     assert len(heads) > 5
     assert not [head for head in heads if head.xpath(".//p")]
 
 
-def test_related_reports_stand_beside(made: dict[str, str], tmp_path: Path) -> None:
+def test_related_reports_stand_beside(files: dict[str, str], tmp_path: Path) -> None:
     """Each page leads to the reports that are named, whose indices its script reads; an unknown name is an error."""
     for name in ("index.html", "second.html"):
-        assert reader.fromstring(made[name]).xpath("//nav//a/@data-beside") == ["../atlas/"]
-        assert "The atlas" in reader.fromstring(made[name]).xpath("//nav//a[@href='../atlas/index.html']/text()")
+        assert reader.fromstring(files[name]).xpath("//nav//a/@data-beside") == ["../atlas/"]
+        assert "The atlas" in reader.fromstring(files[name]).xpath("//nav//a[@href='../atlas/index.html']/text()")
     (tmp_path / "mine.toml").write_text(REPORT.replace("atlas =", "atlass ="))
     with pytest.raises(AtlasError, match=r"related: .*'atlass'"):
         load(tmp_path / "mine.toml")
@@ -180,4 +180,4 @@ def test_the_command_under_a_figure_makes_it(parameters: dict[str, object]) -> N
     context = command_line.commands[name].make_context(name, arguments, click.Context(command_line, info_name="atlas"))
     assert context.params["names"] == ("quadric",)
     assert context.params["renderer"] == "shaded"
-    assert dict(setting(one) for one in context.params["settings"]) == parameters
+    assert dict(setting(word) for word in context.params["settings"]) == parameters

@@ -28,16 +28,16 @@ BODY = Body(title="short solenoid", ratio=1.5)
 OBLIQUE = Field(title="oblique field", prime=(1.0, 2.0))
 
 
-def table(name: str, digits: int = 10, body: Body = BODY, field: Field = OBLIQUE, **more: object) -> Data:
+def table(name: str, digits: int = 10, body: Body = BODY, field: Field = OBLIQUE, **parameters: object) -> Data:
     """Compute a table."""
-    return compute(name, Request((body_and_field(body, field),), more, digits))
+    return compute(name, Request((body_and_field(body, field),), parameters, digits))
 
 
 def agrees(number: Number, true: mpmath.mpf) -> bool:
     """Whether the digits are the true value rounded to as many decimals."""
     printed = Decimal(number.digits)
-    last = mpmath.mpf(10) ** printed.as_tuple().exponent
-    return bool(abs(mpmath.mpf(number.digits) - true) <= last / 2)
+    unit_last = mpmath.mpf(10) ** printed.as_tuple().exponent
+    return bool(abs(mpmath.mpf(number.digits) - true) <= unit_last / 2)
 
 
 def values(data: Data) -> dict[str, Number]:
@@ -78,17 +78,17 @@ def test_the_charge_of_a_body_follows_from_its_mass() -> None:
 
 def test_the_bodies_that_could_exist_have_the_frequencies_of_their_charge() -> None:
     """Frequency 3 eps0 E B/(2 rho r), angle |1-I| B2hat B3hat b/k at its limit; the flight radiates before the turn."""
-    more: dict[str, object] = {"radii": [1e-6, 1e-2], "density": 2500.0, "surface_field": 1e9, "magnet": 10.0}
-    data = compute("sizes", Request((), more, 2))
+    parameters: dict[str, object] = {"radii": [1e-6, 1e-2], "density": 2500.0, "surface_field": 1e9, "magnet": 10.0}
+    data = compute("sizes", Request((), parameters, 2))
     for r, row in zip((1e-6, 1e-2), data.rows, strict=True):
         b = 3 * 8.8541878188e-12 * 1e9 * 10.0 / (2 * 2500.0 * r)
         assert row[4] == Number(f"{b:.1e}")
     assert row[6] == Number(f"{0.5 * 0.4 * b / 6.283185307179586:.1e}")
-    for row in compute("radiation", Request((), more, 2)).rows:
+    for row in compute("radiation", Request((), parameters, 2)).rows:
         flight, magnetic, electric = (float(cell.digits) for cell in row[1:] if isinstance(cell, Number))
         assert 1e20 * flight < min(magnetic, electric)
     with pytest.raises(AtlasError, match="positive"):
-        compute("sizes", Request((), {**more, "density": 0.0}, 2))
+        compute("sizes", Request((), {**parameters, "density": 0.0}, 2))
 
 
 def test_every_number_has_a_unit() -> None:
@@ -103,19 +103,19 @@ def test_every_number_has_a_unit() -> None:
     }
     for name, parameters in more.items():
         data = table(name, **parameters)
-        heads = [one.head for one in data.columns]
-        for place, one in enumerate(data.columns):
+        heads = [column.head for column in data.columns]
+        for place, head in enumerate(data.columns):
             if any(isinstance(row[place], Number) for row in data.rows):
-                assert one.unit or "Unit" in heads, (name, one.head)
+                assert head.unit or "Unit" in heads, (name, head.head)
         if "Unit" in heads:
-            at = heads.index("Unit")
-            assert all(row[at] for row in data.rows if isinstance(row[at - 1], Number)), name
+            unit_column = heads.index("Unit")
+            assert all(row[unit_column] for row in data.rows if isinstance(row[unit_column - 1], Number)), name
 
 
 def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
     """Entries far apart each have their own power; near ones share their decimals."""
-    assert [one.parts()[2] for one in column([1.0, 1e-9], 5)] == ["", "\N{MINUS SIGN}9"]
-    assert {one.parts()[2] for one in column([1.5, 0.25], 5)} == {""}
+    assert [number.parts()[2] for number in column([1.0, 1e-9], 5)] == ["", "\N{MINUS SIGN}9"]
+    assert {number.parts()[2] for number in column([1.5, 0.25], 5)} == {""}
 
 
 @pytest.mark.parametrize(
@@ -143,17 +143,17 @@ def test_where_powers_of_ten_begin(values: str, plain: bool, prefix: int | None)
     exact = [Fraction(value) for value in values.split()]
     rationals = [flint.fmpq(value.numerator, value.denominator) for value in exact]
     assert any("e" in cell.digits for cell in column(rationals, 4)) is not plain
-    unit, ((first, *_),) = scaled([rationals], "m", 4)
+    unit, ((number, *_),) = scaled([rationals], "m", 4)
     assert unit == ("m" if prefix is None else f"$10^{{{prefix}}}$ m")
-    assert Fraction(first.digits) * Fraction(10) ** (prefix or 0) == exact[0]
+    assert Fraction(number.digits) * Fraction(10) ** (prefix or 0) == exact[0]
 
 
 def test_a_shape_in_si_units_gives_its_ratio_without_rounding() -> None:
     """A shell of h = 2R has I = 6/5, whatever the rounding of its moments."""
     shell = Body(title="shell", shape="cylindrical_shell", mass=0.1, radius=0.25, height=0.5, charge=0.3)
     magnet = Field(title="magnet", B=(0.0, 3.0, 4.0))
-    found = values(table("body_and_field", 30, shell, magnet))
-    assert found["$I=I_3/I_2$"].digits == "1.2" + 28 * "0"
+    cells = values(table("body_and_field", 30, shell, magnet))
+    assert cells["$I=I_3/I_2$"].digits == "1.2" + 28 * "0"
     assert body_and_field(shell, magnet).ratio == 1.2
 
 
@@ -203,7 +203,7 @@ def test_a_path_beside_its_axis_of_a_micrometre_is_tabled() -> None:
     """Along B the particle drifts by 1e-6 m a second from 2.5e-6 m off the axis: powers of ten, exact zeros."""
     magnet = Field(title="magnet", B=(0.0, 0.0, 1.3), charge_to_mass=2.0)
     data = table("particle", field=magnet, times=[0.0, 2.0], velocity=[0.0, 0.0, 1e-6], position=[2.5e-6, 0.0, 0.0])
-    assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-6}$ m"]
+    assert [column.unit for column in data.columns[1:]] == 3 * ["$10^{-6}$ m"]
     assert data.rows[1] == (Number("2"), Number("2.500000000"), Number("0"), Number("2.000000000"))
 
 
@@ -213,7 +213,7 @@ def test_scaled_columns_lose_no_digit() -> None:
     data = table("particle", 60, field=magnet, times=[1.0], velocity=[3e-9, 0.0, 0.0])
     (number,) = (cell for cell in data.rows[0][1:2] if isinstance(cell, Number))
     with mpmath.workdps(80):
-        assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-9}$ m"]
+        assert [column.unit for column in data.columns[1:]] == 3 * ["$10^{-9}$ m"]
         assert agrees(number, mpmath.mpf(3e-9) * mpmath.sin(2) / 2 * 10**9)
     assert number.proven
     assert len(number.digits) >= 60
@@ -235,12 +235,12 @@ def test_a_number_reads_back_from_each_way_to_print_it(digits: str) -> None:
     In a sentence and a formula powers of ten below 10^4 and above 10^-4, or of 10^0, are not written.
     """
     number, value = Number(digits), Decimal(digits)
-    whole, fraction, power = number.parts()
+    integer, fraction, power = number.parts()
     groups = fraction.removeprefix(".").split(THIN)
     assert fraction == "" or fraction.startswith(".")
     assert [len(group) for group in groups[:-1]] == [3] * (len(groups) - 1)
     assert len(groups) == 1 + (len("".join(groups)) > 4) * (len("".join(groups)) - 1) // 3
-    plain = (whole + fraction.replace(THIN, "") + (f"e{power}" if power else "")).replace(MINUS, "-")
+    plain = (integer + fraction.replace(THIN, "") + (f"e{power}" if power else "")).replace(MINUS, "-")
     assert Decimal(plain).as_tuple() == value.as_tuple()
     words, _, raised = number.words().replace(MINUS, "-").removesuffix("^").partition("×10^")
     assert Decimal(words) * Decimal(10) ** int(raised or 0) == value
@@ -272,27 +272,27 @@ def test_a_table_of_more_than_two_dozen_rows_may_be_broken_over_pages() -> None:
 
 def test_tops_of_a_table_have_the_period_of_a_quadrature() -> None:
     """T of a released heavy top and of a spherical pendulum, by 4000 points of Gauss and Chebyshev, to ten digits."""
-    given = [
+    tops = [
         {"name": "top", "ratio": 0.5, "direction": [0.6, 0.8], "omega": [0.0, 0.0, 5.0], "linear": 1.0},
         {"name": "pendulum", "ratio": 0.5, "direction": [0.6, -0.8], "omega": [0.5, 0.6, 0.0], "linear": 1.0},
     ]
-    rows = compute("tops", Request((), {"tops": given}, 10)).rows
+    rows = compute("tops", Request((), {"tops": tops}, 10)).rows
     for row, (nu, p, M3, square) in zip(rows, ((0.8, 2.0, 2.5, 0.0), (-0.8, 0.36, 0.0, 0.61)), strict=True):
         g = square + 2 * nu
         q = np.array([2.0, -g - M3 * M3, -2.0 + 2 * p * M3, g - p * p])
-        low, high, far = np.sort(np.roots(q).real)
+        low, high, root_high = np.sort(np.roots(q).real)
         x = (low + high) / 2 + (high - low) / 2 * np.cos(np.pi * (np.arange(4000) + 0.5) / 4000)
-        assert float(row[6].digits) == pytest.approx(np.mean(2 * np.pi / np.sqrt(2 * (far - x))), rel=1e-9)
+        assert float(row[6].digits) == pytest.approx(np.mean(2 * np.pi / np.sqrt(2 * (root_high - x))), rel=1e-9)
 
 
 def test_charges_outside_have_the_factors_of_their_shapes() -> None:
     """A ball: 5/3 twice. A cylinder with I = 1 and its charge on the side wall: 3/2 and 2, and A = (2 - 9/8) 2."""
     cylinder = {"radius": 1.0, "height": 3.0**0.5}
-    given = [
+    coats = [
         {"name": "ball", "mass": "sphere", "charge": "spherical_shell", "dimensions": {"radius": 2.0}},
         {"name": "rod", "mass": "solid_cylinder", "charge": "cylindrical_shell", "dimensions": cylinder},
     ]
-    rows = compute("coats", Request((), {"coats": given}, 3)).rows
+    rows = compute("coats", Request((), {"coats": coats}, 3)).rows
     assert [number.digits for number in rows[0][1:]] == ["1.000", "1.667", "1.667", "0.000", "0.000"]
     assert [number.digits for number in rows[1][1:]] == ["1.000", "1.500", "2.000", "-0.500", "1.750"]
 
@@ -323,10 +323,10 @@ def test_the_keys_of_a_block_that_are_called_needed_are(tmp_path: Path) -> None:
     values = {"columns": '["a"]', "rows": '[["b"]]', "names": '["Quadric"]', "source": '"trial"', "section": '"II"'}
     page = '[[pages]]\nslug = "index"\ntitle = "t"\n[[pages.blocks]]\n'
     for kind, _, keys in compute("blocks", Request([], {}, 10)).rows:
-        needed = re.findall(r"\*\*`(\w+)`\*\*", str(keys))
-        for left_out in (None, *needed):
+        keys_required = re.findall(r"\*\*`(\w+)`\*\*", str(keys))
+        for left_out in (None, *keys_required):
             written = {"kind": f'"{kind}"'.replace("`", "")} | {
-                key: values.get(key, '"(71)"') for key in needed if key != left_out
+                key: values.get(key, '"(71)"') for key in keys_required if key != left_out
             }
             text = 'name = "n"\ntitle = "t"\n' + page + "".join(f"{k} = {v}\n" for k, v in written.items())
             (tmp_path / "n.toml").write_text(text, encoding="utf-8")
@@ -369,12 +369,12 @@ def test_kinds_of_spins_agree_with_the_linearized_equations() -> None:
 
 def test_a_unit_stands_in_its_column_alone() -> None:
     """With the unit of time s no words of a given quantity say 1/time."""
-    more: dict[str, object] = {
+    parameters: dict[str, object] = {
         "family": "asymmetric",
         "inertia": (1.0, 2.0, 2.5),
         "field": (0.0, 0.0, 0.0),
         "omega": (1.0, 0.2, 0.3),
     }
-    rows = compute("properties", Request((body_and_field(None, None),), more | {"time": "s"}, 10)).rows
+    rows = compute("properties", Request((body_and_field(None, None),), parameters | {"time": "s"}, 10)).rows
     assert any(row[0] == "Initial angular velocity" for row in rows)
     assert not any("1/time" in str(row[0]) for row in rows)

@@ -34,8 +34,13 @@ def outline(name: str, **related: Document) -> Document:
 @pytest.fixture(scope="module")
 def volumes() -> dict[str, Document]:
     """Return the volumes, each with the others beside it."""
-    alone = {name: outline(name) for name in VOLUMES}
-    return {name: outline(name, **{one: alone[one] for one in VOLUMES if one != name}) for name in VOLUMES}
+    outlines_alone = {name: outline(name) for name in VOLUMES}
+    return {
+        name: outline(
+            name, **{name_linked: outlines_alone[name_linked] for name_linked in VOLUMES if name_linked != name}
+        )
+        for name in VOLUMES
+    }
 
 
 def cited(document: Document) -> Iterator[Link]:
@@ -55,19 +60,19 @@ def anchors(document: Document) -> set[tuple[str, str]]:
 def test_citations_across_the_volumes_lead_somewhere(volumes: dict[str, Document]) -> None:
     """Each link to another volume is to a page and an anchor that are there."""
     for name in ("atlas", "trial"):  # the guide has reports as examples, with citations of their own
-        across = [link for link in cited(volumes[name]) if link.page.startswith("../")]
-        assert across or name == "trial"
-        for link in across:
-            other, _, file = link.page.removeprefix("../").partition("/")
-            assert (file, link.anchor) in anchors(volumes[other]), link
+        links_out = [link for link in cited(volumes[name]) if link.page.startswith("../")]
+        assert links_out or name == "trial"
+        for link in links_out:
+            volume, _, file = link.page.removeprefix("../").partition("/")
+            assert (file, link.anchor) in anchors(volumes[volume]), link
 
 
 def test_every_equation_of_the_paper_has_its_entry_in_the_trial(volumes: dict[str, Document]) -> None:
     """A display in the atlas leads to the ledger of the trial, and the entry knows the display."""
     atlas, trial = volumes["atlas"], volumes["trial"]
-    shown = [name for name in atlas.targets if name in EQUATIONS and EQUATIONS[name].number]
-    assert len(shown) > 10
-    for label in shown:
+    names = [name for name in atlas.targets if name in EQUATIONS and EQUATIONS[name].number]
+    assert len(names) > 10
+    for label in names:
         assert atlas.entry(label) == f"../trial/{trial.ledger[label]}"
         assert any(use.file.startswith("../atlas/") and use.words == "display" for use in trial.uses[label]), label
 
@@ -146,24 +151,24 @@ blocks = [
 """
 
 
-def _write(where: Path, report: str = REPORT, works: str = WORKS) -> Path:
-    (where / "works.bib").write_text(works, encoding="utf-8")
-    (where / "cited.toml").write_text(report, encoding="utf-8")
-    return where / "cited.toml"
+def _write(folder: Path, report: str = REPORT, works: str = WORKS) -> Path:
+    (folder / "works.bib").write_text(works, encoding="utf-8")
+    (folder / "cited.toml").write_text(report, encoding="utf-8")
+    return folder / "cited.toml"
 
 
 @pytest.mark.slow
 def test_page_and_print_cite_alike(tmp_path: Path) -> None:
     """Author and year, in brackets or in the sentence, and the list holds what is cited and nothing else."""
     built = build_report(_write(tmp_path), tmp_path / "out")
-    said = "As Klein (1897) says, tops spin (Euler 1765; Klein 1897, p. 3)."
+    citation = "As Klein (1897) says, tops spin (Euler 1765; Klein 1897, p. 3)."
     first, second = (html.parse(built.index.parent / name).getroot() for name in ("index.html", "sources.html"))
-    assert said in " ".join(first.text_content().split())
+    assert citation in " ".join(first.text_content().split())
     printed = " ".join(" ".join(page.extract_text() for page in PdfReader(built.pdf).pages).split())
-    assert said in printed
+    assert citation in printed
     leads = [a.get("href") for a in first.iterfind(".//main//a")]
     assert leads == [f"sources.html#work-{key}" for key in ("klein1897", "euler1765", "klein1897")]
-    assert [one.get("id") for one in second.iterfind(".//main//li")] == ["work-euler1765", "work-klein1897"]
+    assert [element.get("id") for element in second.iterfind(".//main//li")] == ["work-euler1765", "work-klein1897"]
     for words in (second.text_content(), printed):
         assert "Über den Kreisel" in words
         assert "Never" not in words

@@ -19,15 +19,15 @@ def rows(scene: Scene) -> list[dict[str, str]]:
 def test_points_read_back_as_they_are_drawn() -> None:
     """Each curve of a figure is in its data to the last bit, with its panel, role and label."""
     scene = recipes.load("hyperbola").scene()
-    found = rows(scene)
+    rows_read = rows(scene)
     for number, panel in enumerate(scene.panels, 1):
         for place, layer in enumerate(panel.layers, 1):
-            mine = [row for row in found if (row["panel"], row["layer"]) == (str(number), str(place))]
+            rows_of_layer = [row for row in rows_read if (row["panel"], row["layer"]) == (str(number), str(place))]
             if isinstance(layer, Curve):
-                assert {(row["kind"], row["role"], row["label"]) for row in mine} == {
+                assert {(row["kind"], row["role"], row["label"]) for row in rows_of_layer} == {
                     ("curve", layer.role, layer.label)
                 }
-                assert np.array_equal([[float(row["x"]), float(row["y"])] for row in mine], layer.points)
+                assert np.array_equal([[float(row["x"]), float(row["y"])] for row in rows_of_layer], layer.points)
 
 
 def test_every_kind_of_layer_has_its_rows() -> None:
@@ -37,12 +37,12 @@ def test_every_kind_of_layer_has_its_rows() -> None:
     cells = Image(np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0]), np.array([[1 / 3, np.inf]]), "map of $x$")
     arrow, label = Arrow(line[0], line[0] + 1.0, "field", "$B$"), Label(line[:1], "two\nlines")
     scene = Scene("t", "c", "a", (Space((surface, arrow, label)), Plane((cells,), "$x$", "y")))
-    found = [tuple(row.values()) for row in rows(scene)]
-    assert [row[5] for row in found[:6]] == ["wire 1", "wire 1", "rim 1", "rim 1", "rim 2", "rim 2"]
-    assert found[1][6:] == ("1.0", "", "0.1", "")
-    assert [row[2:6] for row in found[6:8]] == [("arrow", "field", "$B$", part) for part in ("tail", "tip")]
-    assert found[8][4] == "two lines"
-    assert [row[6:] for row in found[9:]] == [("0.5", "1", "", "0.333333"), ("1.5", "1", "", "")]
+    rows_read = [tuple(row.values()) for row in rows(scene)]
+    assert [row[5] for row in rows_read[:6]] == ["wire 1", "wire 1", "rim 1", "rim 1", "rim 2", "rim 2"]
+    assert rows_read[1][6:] == ("1.0", "", "0.1", "")
+    assert [row[2:6] for row in rows_read[6:8]] == [("arrow", "field", "$B$", end) for end in ("tail", "tip")]
+    assert rows_read[8][4] == "two lines"
+    assert [row[6:] for row in rows_read[9:]] == [("0.5", "1", "", "0.333333"), ("1.5", "1", "", "")]
     assert "# panel 2: x: $x$; y: y\n" in data.table(scene)
 
 

@@ -28,21 +28,25 @@ def pieces(tolerance: float) -> list[Surface]:
 def inner(grid: FloatArray) -> FloatArray:
     """Return points inside the faces of a mesh, (K, 3), and on their edges, by bilinear interpolation."""
     a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-    found = [(1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c) for u in (0, 0.3, 0.5) for v in (0, 0.5, 0.8)]
-    return np.concatenate([points.reshape(-1, 3) for points in found])
+    points_inside = [
+        (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c) for u in (0, 0.3, 0.5) for v in (0, 0.5, 0.8)
+    ]
+    return np.concatenate([points.reshape(-1, 3) for points in points_inside])
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_no_face_leaves_its_surface(tolerance: float) -> None:
     """Half a pixel at most where a quarter is asked: a quarter for each direction of the mesh."""
     for surface in pieces(tolerance):
-        fine = tolerance if surface.role != "surface" else 3e-3  # a figure knows its own size
+        tolerance_drawn = tolerance if surface.role != "surface" else 3e-3  # a figure knows its own size
         points = inner(surface.grids[0])
         gradient = 2.0 * (points @ surface.quadric[:3, :3] + surface.quadric[:3, 3])
         lifted = np.concatenate([points, np.ones((len(points), 1))], axis=1)
         steep = np.linalg.norm(gradient, axis=1)
         away = steep > 0.05 * steep.max()  # F/|grad F| is the distance but near the apex of a cone
-        assert (np.abs(np.sum((lifted @ surface.quadric) * lifted, axis=1)[away]) / steep[away]).max() < 2.0 * fine
+        assert (
+            np.abs(np.sum((lifted @ surface.quadric) * lifted, axis=1)[away]) / steep[away]
+        ).max() < 2.0 * tolerance_drawn
 
 
 def test_light_is_right_between_corners() -> None:
@@ -99,7 +103,7 @@ def test_a_solid_ends_at_its_rims(angle: float) -> None:
 def test_solids_know_no_unit() -> None:
     """Lengths and the tolerance an eighth as large make the same faces, an eighth as large."""
 
-    def made(unit: float) -> list[Surface]:
+    def surfaces_of(unit: float) -> list[Surface]:
         return [
             solids.sphere(O, unit, 0.01 * unit),
             solids.cone(O, AXIS, 0.7, unit, 0.01 * unit),
@@ -107,6 +111,6 @@ def test_solids_know_no_unit() -> None:
             solids.cylinder(O, AXIS, unit, 2.0 * unit, 0.01 * unit),
         ]
 
-    for one, small in zip(made(1.0), made(0.125), strict=True):
-        for grid, other in zip(one.grids, small.grids, strict=True):
-            assert other == pytest.approx(0.125 * grid, abs=1e-12)
+    for surface, small in zip(surfaces_of(1.0), surfaces_of(0.125), strict=True):
+        for grid, grid_small in zip(surface.grids, small.grids, strict=True):
+            assert grid_small == pytest.approx(0.125 * grid, abs=1e-12)

@@ -54,10 +54,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("taken", ["*, ratio", "ratio", "ratio, field=(1.0, 2.0)", "field=(1.0, 2.0), *, ratio"])
-def test_a_parameter_without_default_is_refused(folder: Path, taken: str) -> None:
+@pytest.mark.parametrize("parameter", ["*, ratio", "ratio", "ratio, field=(1.0, 2.0)", "field=(1.0, 2.0), *, ratio"])
+def test_a_parameter_without_default_is_refused(folder: Path, parameter: str) -> None:
     """A recipe can be made by its name alone, so each of its parameters has a default."""
-    (folder / "bare.py").write_text(f'"""Bare."""\ndef scene({taken}): ...\n', encoding="utf-8")
+    (folder / "bare.py").write_text(f'"""Bare."""\ndef scene({parameter}): ...\n', encoding="utf-8")
     with pytest.raises(AtlasError, match=r"parameter 'ratio' of figures/bare.py has no default"):
         recipes.load("bare")
 
@@ -81,9 +81,9 @@ def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:
 def test_parameters_of_a_recipe_agree_with_its_function() -> None:
     """The parameters that are read from the source are those of the function, with the same defaults, in its order."""
     for name in recipes.names():
-        found = inspect.signature(recipes._function(recipes.load(name).source)[0]).parameters
-        assert {key: value.default for key, value in found.items()} == recipes.load(name).parameters
-        assert list(found) == list(recipes.load(name).parameters)
+        parameters = inspect.signature(recipes._function(recipes.load(name).source)[0]).parameters
+        assert {key: value.default for key, value in parameters.items()} == recipes.load(name).parameters
+        assert list(parameters) == list(recipes.load(name).parameters)
 
 
 RECIPE = '''"""Typed."""
@@ -99,7 +99,7 @@ def scene(*, pairs: tuple[tuple[int, int], ...] = ((1, 2), (2, 3)), ratio: Any =
 
 
 @pytest.mark.parametrize(
-    ("given", "fitted"),
+    ("arguments", "fitted"),
     [
         ({"field": [1, 2]}, {"field": (1.0, 2.0)}),
         ({"levels": 3}, {"levels": (3.0,)}),
@@ -113,16 +113,16 @@ def scene(*, pairs: tuple[tuple[int, int], ...] = ((1, 2), (2, 3)), ratio: Any =
         ({"ratio": np.float32(0.5), "field": np.array([1.0, 2.0])}, {"ratio": 0.5, "field": (1.0, 2.0)}),
     ],
 )
-def test_a_parameter_comes_in_its_type(folder: Path, given: dict[str, Any], fitted: dict[str, Any]) -> None:
+def test_a_parameter_comes_in_its_type(folder: Path, arguments: dict[str, Any], fitted: dict[str, Any]) -> None:
     """Lists become tuples, whole numbers floats, one value a list where a list of any length is meant."""
     (folder / "typed.py").write_text(RECIPE, encoding="utf-8")
-    used = recipes.load("typed").scene(**given).parameters
+    used = recipes.load("typed").scene(**arguments).parameters
     assert {name: used[name] for name in fitted} == fitted
     assert all(type(used[name]) is type(value) for name, value in fitted.items())
 
 
 @pytest.mark.parametrize(
-    ("given", "tells"),
+    ("arguments", "tells"),
     [
         ({"ratio": "x"}, "ratio must be a number, 0 or of a size between 1e-60 and 1e+60, not 'x'"),
         ({"ratio": 1e61}, "a number, 0 or of a size between 1e-60 and 1e+60, not 1e+61"),
@@ -149,11 +149,11 @@ def test_a_parameter_comes_in_its_type(folder: Path, given: dict[str, Any], fitt
         ({"sise": 1}, "did you mean 'size'?"),
     ],
 )
-def test_a_parameter_of_another_type_is_one_sentence(folder: Path, given: dict[str, Any], tells: str) -> None:
+def test_a_parameter_of_another_type_is_one_sentence(folder: Path, arguments: dict[str, Any], tells: str) -> None:
     """It names the parameter and says what would be right."""
     (folder / "typed.py").write_text(RECIPE, encoding="utf-8")
     with pytest.raises(AtlasError, match=re.escape(tells)) as caught:
-        recipes.load("typed").scene(**given)
+        recipes.load("typed").scene(**arguments)
     assert "\n" not in str(caught.value)
 
 
@@ -246,8 +246,8 @@ def test_types_of_parameters_are_described_in_words(tmp_path: Path) -> None:
     recipe = recipes.load(str(file))
     assert recipe.ranges["size"] == (0.5, 2.0)
     hints = recipe.hints()
-    said = {name: described(hints.get(name), default) for name, default in recipe.parameters.items()}
-    assert said == {
+    descriptions = {name: described(hints.get(name), default) for name, default in recipe.parameters.items()}
+    assert descriptions == {
         "pairs": "lists of two whole numbers, one after the other",
         "ratio": "a number",
         "field": "two numbers",

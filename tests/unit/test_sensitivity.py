@@ -30,11 +30,11 @@ class Differences:
         exact = [rational(x) for x in values]
         self.motions = [make(*[x + (n * STEP if i == place else 0) for i, x in enumerate(exact)]) for n in (1, -1, 0)]
 
-    def at(self, of: str, t: float) -> Any:
+    def at(self, quantity: str, t: float) -> Any:
         """Return the derivative of a vector in the body, or v of the rotation."""
         with workprec(BITS):
-            up, down, here = (getattr(x, of)(rational(t)) for x in self.motions)
-            if of != "rotation":
+            up, down, here = (getattr(x, quantity)(rational(t)) for x in self.motions)
+            if quantity != "rotation":
                 return np.array([float((arb(x - y) / (2 * arb(STEP))).mid()) for x, y in zip(up, down, strict=True)])
             turn = [
                 [
@@ -49,18 +49,18 @@ class Differences:
 def check(motion: Any, make: Any, values: Any, names: Any, times: Any = TIMES) -> None:
     """Compare each derivative at each time with the difference, of R, and of Omega and K at the last time."""
     differences = [Differences(make, values, i) for i in range(len(names))]
-    for of, method in VECTORS.items():
+    for quantity, method in VECTORS.items():
         if not hasattr(differences[0].motions[0], method):
             continue
-        when = times if of == "rotation" else times[-1:]
-        found, v = motion.sensitivity(np.array(when), names, of), motion.sensitivity(np.array(when), names)
+        when = times if quantity == "rotation" else times[-1:]
+        derivatives, v = motion.sensitivity(np.array(when), names, quantity), motion.sensitivity(np.array(when), names)
         for j, name in enumerate(names):
             for i, t in enumerate(when):
                 expected = differences[j].at(method, t)
                 size = 1 + max(np.abs(expected).max(), np.abs(v[i, j]).max())
-                if of != "rotation":
+                if quantity != "rotation":
                     size *= 1 + np.abs(motion.angular_velocity(t)).max() + np.abs(getattr(motion, method)(t)).max()
-                assert np.abs(found[i, j] - expected).max() <= BOUND * size, (of, name, t)
+                assert np.abs(derivatives[i, j] - expected).max() <= BOUND * size, (quantity, name, t)
 
 
 @pytest.mark.parametrize(
@@ -121,11 +121,11 @@ def test_sensitivity_of_two_turns_is_the_difference_of_two() -> None:
         check(
             atlas.ElementaryMotion(x[0], x[1:3], x[3]), lambda I, B2, B3, w: ElementaryMotion(I, (B2, B3), w), x, names
         )
-    free = (0.7, 0.1, 0.2, 0.3)
+    inputs_free = (0.7, 0.1, 0.2, 0.3)
     check(
-        atlas.FreeMotion(free[0], free[1:]),
+        atlas.FreeMotion(inputs_free[0], inputs_free[1:]),
         lambda I, *w: FreeMotion(I, w),
-        free,
+        inputs_free,
         ("ratio", "omega1", "omega2", "omega3"),
     )
     ball = (1.0, 0.5, 0.3, -0.7)
@@ -151,18 +151,18 @@ def test_turning_body_and_field_turns_the_motion() -> None:
     motion = atlas.GeneralMotion.in_laboratory(0.7, field, start, (0.2, -0.3, 1.5))
     v = motion.sensitivity(np.array([0.0, 3.0, 1e4]), ["a1", "a2", "a3", "B1", "B2", "B3"])
     for i in range(3):
-        whole = v[:, i] + np.einsum("j,mjk->mk", np.cross(turn[i], field), v[:, 3:])
-        assert (np.abs(whole - turn[i]) <= BOUND * (1 + np.abs(v).max((1, 2)))[:, None]).all()
+        change = v[:, i] + np.einsum("j,mjk->mk", np.cross(turn[i], field), v[:, 3:])
+        assert (np.abs(change - turn[i]) <= BOUND * (1 + np.abs(v).max((1, 2)))[:, None]).all()
 
 
 def test_arrays_have_the_sensitivity_of_each() -> None:
     """Motions in an array, which broadcasts with the times."""
     ratios, t = np.array([[0.7], [1.3]]), np.array([0.4, 9.0, 100.0])
-    found = atlas.GeneralMotion(ratios, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(t, ["ratio", "t"])
-    assert found.shape == (2, 3, 2, 3)
+    derivatives = atlas.GeneralMotion(ratios, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(t, ["ratio", "t"])
+    assert derivatives.shape == (2, 3, 2, 3)
     for i, ratio in enumerate(ratios[:, 0]):
-        alone = atlas.GeneralMotion(ratio, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(t, ["ratio", "t"])
-        assert np.array_equal(found[i], alone)
+        derivatives_alone = atlas.GeneralMotion(ratio, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(t, ["ratio", "t"])
+        assert np.array_equal(derivatives[i], derivatives_alone)
 
 
 def test_motions_without_sensitivity_are_refused() -> None:
@@ -173,13 +173,13 @@ def test_motions_without_sensitivity_are_refused() -> None:
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, ["omega4"])
     with pytest.raises(atlas.AtlasError, match="no derivative of 'speed'"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, "ratio", "speed")
-    for still in (
+    for motion_still in (
         atlas.ElementaryMotion(1.5, (1.0, 2.0), np.array([0.7, 0.0])),
         atlas.FreeMotion(1.5, (0.0, 0.0, 0.0)),
         atlas.motion(1.5, (0.0, 1.0, 2.0), (0.0, 0.0, 0.0)),
     ):
         with pytest.raises(atlas.DomainError, match="The period is infinite and has no derivatives"):
-            still.sensitivity(0.0, "ratio", "period")
+            motion_still.sensitivity(0.0, "ratio", "period")
     upright = atlas.TopMotion.in_laboratory(
         (1.0, 0.5), (0, 0, 1.0), np.eye(3), (0, 0, 3.0), coupling=(0, 0), linear=1.0
     )
@@ -215,15 +215,15 @@ def test_sensitivity_in_given_axes_is_a_difference_quotient(inputs: Any, size: f
     t, h, names = np.array([0.3, -7.0, 40.0]), 1e-3, list(start)
     motion = in_given_axes(**start)
     for j, name in enumerate(names):
-        others = [in_given_axes(**{**start, name: start[name] + n * h}) for n in range(-3, 4)]
-        for of, method in VECTORS.items():
-            values = [getattr(x, method)(t) for x in others]
+        motions = [in_given_axes(**{**start, name: start[name] + n * h}) for n in range(-3, 4)]
+        for quantity, method in VECTORS.items():
+            values = [getattr(x, method)(t) for x in motions]
             slope = sum(c * (values[3 + n] - values[3 - n]) for n, c in ((1, 45), (2, -9), (3, 1))) / (60 * h)
-            if of == "rotation":
+            if quantity == "rotation":
                 turn = slope @ motion.rotation(t).swapaxes(1, 2)
                 slope = np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
-            found = motion.sensitivity(t, names, of)[:, j]
-            assert np.abs(found - slope).max() <= 1e-8 * (1 + np.abs(slope).max()), (of, name)
+            derivative = motion.sensitivity(t, names, quantity)[:, j]
+            assert np.abs(derivative - slope).max() <= 1e-8 * (1 + np.abs(slope).max()), (quantity, name)
 
 
 @pytest.mark.parametrize("turn", [(0.4, 0.1, -0.6), (0.0, 0.0, 0.0)])
@@ -238,10 +238,10 @@ def test_sensitivity_in_one_component_along_a_weak_field(turn: Any, size: float)
 
     for j, field in enumerate((size * np.eye(3)).tolist()):
         motion, difference = atlas.motion(1.4, field, omega, A), Differences(make, field, j)
-        for of, frame in (("rotation", A), ("angular_velocity", np.eye(3))):
-            expected = frame @ difference.at(of, 3.0)
-            found = motion.sensitivity(3.0, f"B{j + 1}", of)[0]
-            assert np.abs(found - expected).max() <= BOUND * (1 + np.abs(expected).max()), (of, j)
+        for quantity, frame in (("rotation", A), ("angular_velocity", np.eye(3))):
+            expected = frame @ difference.at(quantity, 3.0)
+            derivative = motion.sensitivity(3.0, f"B{j + 1}", quantity)[0]
+            assert np.abs(derivative - expected).max() <= BOUND * (1 + np.abs(expected).max()), (quantity, j)
         top = atlas.TopMotion.in_laboratory((2.0, 1.5), field, A, A @ omega, coupling=(0.3, 1.0), linear=0.7)
         assert not top.sensitivity(3.0, f"B{j + 1}").any()  # only the direction counts
 
@@ -254,8 +254,8 @@ def test_scalars_have_derivatives() -> None:
         a, b, _, c, d = (getattr(x, name) for x in motions)
         assert motions[2].sensitivity(0, "ratio", name) == pytest.approx((a - 8 * b + 8 * c - d) / (12 * h), rel=1e-9)
     # k = omega2 b/B2, (79)
-    found = atlas.ElementaryMotion(1.5, (3.0, 4.0), 0.6).sensitivity(0, ["omega2", "ratio"], "k")
-    assert found == pytest.approx([5 / 3, 0], abs=1e-15)
+    derivatives = atlas.ElementaryMotion(1.5, (3.0, 4.0), 0.6).sensitivity(0, ["omega2", "ratio"], "k")
+    assert derivatives == pytest.approx([5 / 3, 0], abs=1e-15)
 
 
 @pytest.mark.slow
@@ -264,24 +264,24 @@ def test_sensitivity_of_a_body_with_three_moments() -> None:
     x = np.array([0.8, 1.0, 1.3, 0.2, 1.0, 0.6, 0.3, 0.7, 0.2])
     names = [f"{name}{i}" for name in ("I", "B", "omega") for i in (1, 2, 3)]
     way, h, t = np.array([0.3, -0.2, 0.5, 0.7, -0.4, 0.1, -0.6, 0.2, 0.9]), 1e-5, np.array([0.7, -20.0, 1e9])
-    motion, *others = (atlas.AsymmetricMotion(y[:3], y[3:6], y[6:]) for y in (x, x + h * way, x - h * way))
+    motion, *motions = (atlas.AsymmetricMotion(y[:3], y[3:6], y[6:]) for y in (x, x + h * way, x - h * way))
     v, R = motion.sensitivity(t, [*names, "t"]), motion.rotation(t)
-    up, down = (y.rotation(t) for y in others)
+    up, down = (y.rotation(t) for y in motions)
     turn = ((up - down) / (2 * h)) @ R.swapaxes(1, 2)
-    found, slope = way @ v[:, :9], np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
-    assert np.abs(found - slope)[:2].max() <= 1e-7 * np.abs(slope)[:2].max()
-    for of, method in list(VECTORS.items())[1:]:
-        up, down = (getattr(y, method)(t) for y in others)
-        found = way @ motion.sensitivity(t, names, of)
-        assert np.abs(found - (up - down) / (2 * h))[:2].max() <= 1e-7 * np.abs(found)[:2].max(), of
+    derivatives, slope = way @ v[:, :9], np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
+    assert np.abs(derivatives - slope)[:2].max() <= 1e-7 * np.abs(slope)[:2].max()
+    for quantity, method in list(VECTORS.items())[1:]:
+        up, down = (getattr(y, method)(t) for y in motions)
+        derivatives = way @ motion.sensitivity(t, names, quantity)
+        assert np.abs(derivatives - (up - down) / (2 * h))[:2].max() <= 1e-7 * np.abs(derivatives)[:2].max(), quantity
     # started a little later, from where field and angular velocity have gone by then, it is the same motion
-    rates = [motion.sensitivity(0.0, ["t"], of)[0] for of in ("field", "angular_velocity")]
+    rates = [motion.sensitivity(0.0, ["t"], quantity)[0] for quantity in ("field", "angular_velocity")]
     later = np.concatenate(rates) @ v[:, 3:9]
     size = 1 + np.abs(v).max((1, 2))
     assert (np.abs(later - (v[:, 9] - motion.angular_velocity(0.0))).max(1) <= BOUND * size).all()
     # f1 and f2 of both flows have the derivatives of the frequencies
     slopes = [way @ motion.sensitivity(0.0, names, f"f{i}") for i in (1, 2, 3)]
-    assert slopes == pytest.approx((others[0].frequencies - others[1].frequencies) / (2 * h), rel=1e-7)
+    assert slopes == pytest.approx((motions[0].frequencies - motions[1].frequencies) / (2 * h), rel=1e-7)
 
 
 @pytest.mark.parametrize("omega", [(0.3, 0.7, 0.2), (0.1, 2.0, 0.3), (0.0, 0.0, 0.9)])
@@ -289,9 +289,9 @@ def test_sensitivity_of_a_free_body_with_three_moments(omega: tuple[float, ...])
     """By differences of motions, and along the motion at any time; its neighbours in a field are on a torus."""
     x, names = np.array([0.8, 1.0, 1.3, *omega]), [f"{name}{i}" for name in ("I", "omega") for i in (1, 2, 3)]
     way, h, t = np.array([0.3, -0.2, 0.5, -0.6, 0.2, 0.9]), 1e-5, np.array([0.7, -20.0, 1e9])
-    motion, *others = (atlas.AsymmetricMotion(y[:3], np.zeros(3), y[3:]) for y in (x, x + h * way, x - h * way))
+    motion, *motions = (atlas.AsymmetricMotion(y[:3], np.zeros(3), y[3:]) for y in (x, x + h * way, x - h * way))
     v, R = motion.sensitivity(t, [*names, "t"]), motion.rotation(t)
-    turn = ((others[0].rotation(t) - others[1].rotation(t)) / (2 * h)) @ R.swapaxes(1, 2)
+    turn = ((motions[0].rotation(t) - motions[1].rotation(t)) / (2 * h)) @ R.swapaxes(1, 2)
     slope = np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
     assert np.abs(way @ v[:, :6] - slope)[:2].max() <= 1e-7 * np.abs(slope)[:2].max()
     later = motion.sensitivity(0.0, ["t"], "angular_velocity")[0] @ v[:, 3:6]
@@ -307,21 +307,24 @@ def test_rates_among_all_motions_of_a_body_agree_with_its_class() -> None:
     names, h = ["omega1", "omega2", "omega3", "B1", "B2", "B3"], 1e-5
     start = np.array([0.2, 0.7, 0.3, 0.0, 1.0, 2.0])
 
-    def made(x: np.ndarray) -> Any:
+    def motion_of(x: np.ndarray) -> Any:
         return atlas.motion(1.0, x[3:], x[:3])
 
-    for of in ("precession_rate", "spin_rate"):
-        steps = [(getattr(made(start + e), of) - getattr(made(start - e), of)) / (2 * h) for e in h * np.eye(6)]
-        np.testing.assert_allclose(made(start).sensitivity(0.0, names, of), steps, atol=1e-9)
+    for quantity in ("precession_rate", "spin_rate"):
+        steps = [
+            (getattr(motion_of(start + e), quantity) - getattr(motion_of(start - e), quantity)) / (2 * h)
+            for e in h * np.eye(6)
+        ]
+        np.testing.assert_allclose(motion_of(start).sensitivity(0.0, names, quantity), steps, atol=1e-9)
     elementary = atlas.motion(0.5, (0, 1, 1), (0, 1, 2.5))
     assert elementary.family == "elementary"
-    rate, period = (elementary.sensitivity(0.0, names, of) for of in ("precession_rate", "period"))
+    rate, period = (elementary.sensitivity(0.0, names, quantity) for quantity in ("precession_rate", "period"))
     np.testing.assert_allclose(period, -rate * elementary.period / elementary.precession_rate, rtol=1e-12, atol=1e-20)
 
 
-@pytest.mark.parametrize("of", ["rotation", "angular_velocity", "field"])
+@pytest.mark.parametrize("quantity", ["rotation", "angular_velocity", "field"])
 @pytest.mark.parametrize("exponent", [-530, 530])
-def test_derivatives_that_floats_do_not_hold_are_refused(exponent: int, of: str) -> None:
+def test_derivatives_that_floats_do_not_hold_are_refused(exponent: int, quantity: str) -> None:
     """Where products of rates are no floats there are no derivatives, nor is an infinite one given for a scalar."""
     K, w = (tuple(np.ldexp(x, exponent).tolist()) for x in ((0.2, 0.6, 0.8), (0.3, 0.7, 0.2)))
     for motion, name in (
@@ -330,7 +333,7 @@ def test_derivatives_that_floats_do_not_hold_are_refused(exponent: int, of: str)
         (atlas.FreeMotion(1.5, w), "ratio"),
     ):
         with pytest.raises(atlas.DomainError, match="too large or too small for derivatives"):
-            motion.sensitivity(0.0, [name], of=of)
+            motion.sensitivity(0.0, [name], of=quantity)
     slow = atlas.GeneralMotion(1.5, np.ldexp([1.0, 2.0], -565), np.ldexp([0.3, 0.7, 0.2], -565))
     with pytest.raises(atlas.DomainError, match="derivative of the period is too large"):
         slow.sensitivity(0.0, ["B2"], of="period")

@@ -18,18 +18,20 @@ STABLE = (0.5, (1.0, 0.6), -0.4)  # outside it, but with companions
 def test_a_companion_is_in_elementary_functions(case: tuple[float, tuple[float, float], float]) -> None:
     """From where it turns, 1/(nu - r) is a linear function of cosh(sqrt(c) t), theorem-companion, to 1e-12 of nu."""
     load("separatrix").hints()
-    both = sys.modules["atlas_figures.separatrix"].excursions(*case)
+    motions = sys.modules["atlas_figures.separatrix"].excursions(*case)
     c, b = -float(atlas.Hyperbola(*case[:2]).stability(case[2])), float(np.hypot(*case[1]))
     r, A = case[1][1] / b, (case[0] - 1) * b * b
     t = np.linspace(-4.0, 4.0, 9) / np.sqrt(abs(c))
-    across = np.cosh(np.sqrt(c) * t) if c > 0 else np.cos(np.sqrt(-c) * t)
-    e, f = (motion.field[1] / b - r for motion in both)
+    growth = np.cosh(np.sqrt(c) * t) if c > 0 else np.cos(np.sqrt(-c) * t)
+    e, f = (motion.field[1] / b - r for motion in motions)
     assert A * e * f == pytest.approx(c, rel=1e-13)
-    for motion, start, other in ((both[0], e, f), (both[1], f, e)):
-        inverse = 1 / start + (1 / start - A * (start + other) / (2 * c)) * (across - 1)
+    for motion, start, cosine_end in ((motions[0], e, f), (motions[1], f, e)):
+        inverse = 1 / start + (1 / start - A * (start + cosine_end) / (2 * c)) * (growth - 1)
         assert motion.field_in_body(t)[:, 2] / b == pytest.approx(r + 1 / inverse, abs=1e-12)
-        known = atlas.ElementaryMotion(*case).invariants()
-        assert all(abs(motion.invariants()[name] - known[name]) <= 32 * EPS * 20 for name in ("E'", "K^2", "c3", "c5"))
+        invariants = atlas.ElementaryMotion(*case).invariants()
+        assert all(
+            abs(motion.invariants()[name] - invariants[name]) <= 32 * EPS * 20 for name in ("E'", "K^2", "c3", "c5")
+        )
 
 
 def test_a_triple_root_gives_a_rational_nutation() -> None:
@@ -82,8 +84,8 @@ def test_a_pushed_spin_has_the_period_of_a_mean(ratio: float, omega3: float, pus
     cubic = mpmath.polyroots([-square, s - 2 * square, 2 * s + 4 * A - square, s], extraprec=200)
     e, f, g = sorted(cubic, key=lambda x: (x.imag != 0, x.real <= 0, abs(x)))
     mean = mpmath.agm(mpmath.sqrt(-f * (e - g)), mpmath.sqrt(-g * (e - f)))
-    found = atlas.GeneralMotion(ratio, (0.0, 1.0), (push, 0.0, omega3)).period
-    assert found == pytest.approx(2 * np.pi / float(abs(M3) * mean.real), rel=1e-12, abs=0.0)
+    period = atlas.GeneralMotion(ratio, (0.0, 1.0), (push, 0.0, omega3)).period
+    assert period == pytest.approx(2 * np.pi / float(abs(M3) * mean.real), rel=1e-12, abs=0.0)
 
 
 def test_a_small_push_takes_the_time_of_its_logarithm() -> None:

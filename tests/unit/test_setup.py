@@ -23,24 +23,24 @@ LOCK = "nosuch-library==1.0 --hash=sha256:" + 64 * "0" + "\n"
 def set_up(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables: str) -> tuple[int, str]:
     """Run `make setup` as `begin` has it; return its status and what it says."""
     with begin(tmp_path, programs, lock, **variables) as done:
-        said, _ = done.communicate()
-        return done.returncode, said
+        output, _ = done.communicate()
+        return done.returncode, output
 
 
 def begin(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables: str) -> subprocess.Popen[str]:
     """Start `make setup` in a folder with an apostrophe, with these programs before those of the system."""
-    checkout, first = tmp_path / "it's é", tmp_path / "first"
+    checkout, programs_folder = tmp_path / "it's é", tmp_path / "first"
     checkout.mkdir(exist_ok=True)
-    first.mkdir(exist_ok=True)
+    programs_folder.mkdir(exist_ok=True)
     for name, text in programs.items():
-        (first / name).write_text(text, encoding="utf-8")
-        (first / name).chmod(0o755)
+        (programs_folder / name).write_text(text, encoding="utf-8")
+        (programs_folder / name).chmod(0o755)
     for name in ("Makefile", "pyproject.toml"):
         shutil.copy(ROOT / name, checkout / name)
     (checkout / "requirements.lock").write_text(lock, encoding="utf-8")
     (checkout / "random.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")
     own = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
-    environment = own | {"PATH": f"{first}{os.pathsep}{os.environ['PATH']}", **variables}
+    environment = own | {"PATH": f"{programs_folder}{os.pathsep}{os.environ['PATH']}", **variables}
     return subprocess.Popen(
         ["make", "setup"],  # noqa: S607  whichever make there is
         cwd=checkout,
@@ -69,10 +69,10 @@ def begin(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables:
 )
 def test_an_unsuitable_python_is_named(tmp_path: Path, programs: dict[str, str], says: str) -> None:
     """Its version, or what it says itself, or what the installer says."""
-    status, told = set_up(tmp_path, programs)
+    status, message = set_up(tmp_path, programs)
     assert status == 2
-    assert says in told
-    assert "a module of the user ran" not in told
+    assert says in message
+    assert "a module of the user ran" not in message
 
 
 @pytest.mark.slow
@@ -80,10 +80,10 @@ def test_pip_tells_why_it_failed(tmp_path: Path) -> None:
     """The reason is pip's own, and no half-made environment counts as ready."""
     hidden = {"PYTHONPATH": str(tmp_path), "PYTHONHOME": str(tmp_path), "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": ""}
     python = f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'
-    status, told = set_up(tmp_path, {"python3": python, "uv": "#!/bin/sh\nexit 1\n"}, LOCK, **hidden)
+    status, message = set_up(tmp_path, {"python3": python, "uv": "#!/bin/sh\nexit 1\n"}, LOCK, **hidden)
     assert status == 2
-    assert "atlas: pip could not install the libraries:\n" in told
-    assert "No matching distribution found for nosuch-library==1.0" in told
+    assert "atlas: pip could not install the libraries:\n" in message
+    assert "No matching distribution found for nosuch-library==1.0" in message
     assert not (tmp_path / "it's é" / ".venv" / ".ready").exists()
 
 
@@ -114,9 +114,9 @@ def test_settings_of_pip_reach_the_index_and_nothing_else(tmp_path: Path) -> Non
     lock = f"tiny==1.0 --hash=sha256:{hashlib.sha256(wheel.read_bytes()).hexdigest()}\n"
     python = f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'
     programs = {"python3": python, "uv": "#!/bin/sh\nexit 1\n"}
-    _, told = set_up(tmp_path, programs, lock, HOME=str(home), XDG_CONFIG_HOME=str(home / ".config"), **astray)
-    assert "could not install" not in told
-    assert [*(tmp_path / "it's é" / ".venv" / "lib").glob("python3*/site-packages/tiny-1.0.dist-info")], told
+    _, message = set_up(tmp_path, programs, lock, HOME=str(home), XDG_CONFIG_HOME=str(home / ".config"), **astray)
+    assert "could not install" not in message
+    assert [*(tmp_path / "it's é" / ".venv" / "lib").glob("python3*/site-packages/tiny-1.0.dist-info")], message
 
 
 def test_two_set_ups_wait_for_each_other_and_check_the_disk_first(tmp_path: Path) -> None:
@@ -130,11 +130,11 @@ def test_two_set_ups_wait_for_each_other_and_check_the_disk_first(tmp_path: Path
             assert second.stdout is not None
             assert second.stdout.readline() == "another make sets up .venv: this one waits for it\n"
             fcntl.flock(lock, fcntl.LOCK_UN)
-            said, _ = second.communicate()
+            output, _ = second.communicate()
     finally:
         os.close(lock)
     assert second.returncode == 2
-    assert f"atlas: setting up needs 999999999 MB on the disk of {folder}, where" in said
+    assert f"atlas: setting up needs 999999999 MB on the disk of {folder}, where" in output
     assert not (folder / ".venv").exists()
 
 

@@ -103,19 +103,21 @@ def test_a_body_at_rest_stays_at_rest() -> None:
 
 def test_units_change_no_bit() -> None:
     """A power of two in the unit of time, or in that of the moments, changes no bit of R."""
-    one = atlas.simulate(TENSOR, B, OMEGA, TIMES)
+    trajectory = atlas.simulate(TENSOR, B, OMEGA, TIMES)
     scale = 2.0**300
     for inertia, rate in ((TENSOR, scale), (TENSOR * scale**3, 1.0), (TENSOR, 1 / scale)):
-        other = atlas.simulate(inertia, np.multiply(B, rate), np.multiply(OMEGA, rate), np.divide(TIMES, rate))
-        assert np.array_equal(one.R, other.R)
-        assert np.array_equal(one.Omega * rate, other.Omega)
+        trajectory_scaled = atlas.simulate(
+            inertia, np.multiply(B, rate), np.multiply(OMEGA, rate), np.divide(TIMES, rate)
+        )
+        assert np.array_equal(trajectory.R, trajectory_scaled.R)
+        assert np.array_equal(trajectory.Omega * rate, trajectory_scaled.Omega)
 
 
 def test_a_drift_has_no_unit() -> None:
     """That of a simulation in units of time and of mass that are powers of two is the same, to the last bit."""
-    one = atlas.simulate(TENSOR, B, OMEGA, TIMES)
-    other = atlas.simulate(4 * TENSOR, np.multiply(B, 8), np.multiply(OMEGA, 8), np.divide(TIMES, 8))
-    assert one.drift() == other.drift()
+    trajectory = atlas.simulate(TENSOR, B, OMEGA, TIMES)
+    trajectory_scaled = atlas.simulate(4 * TENSOR, np.multiply(B, 8), np.multiply(OMEGA, 8), np.divide(TIMES, 8))
+    assert trajectory.drift() == trajectory_scaled.drift()
 
 
 def test_a_failure_speaks_with_the_integrators_words(monkeypatch: pytest.MonkeyPatch) -> None:

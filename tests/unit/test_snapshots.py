@@ -25,15 +25,15 @@ MEASURED = ("cost", "work_precision")
 """Figures of times on record, which a new record changes: drawn here from one that is made up, and stays."""
 
 
-def drawn(name: str) -> Scene:
+def scene_of(name: str) -> Scene:
     """Return the scene of a recipe, which opens of reports/data what its RECORDS say: its key depends on them."""
     data, opened, recipe = places.folder("reports") / "data", set[str](), recipes.load(name)
 
     def noting(method: Any) -> Any:
-        def call(path: Path, *arguments: Any, **more: Any) -> Any:
+        def call(path: Path, *arguments: Any, **options: Any) -> Any:
             if path.parent == data:
                 opened.add(path.name)
-            return method(path, *arguments, **more)
+            return method(path, *arguments, **options)
 
         return call
 
@@ -50,8 +50,8 @@ def drawn(name: str) -> Scene:
 def test_a_scene_agrees_with_its_snapshot(snapshot: SnapshotAssertion, name: str) -> None:
     """The axes, and the layers with their roles, names, ends, extent and course."""
     noisy, recipe = tuple(NOISE.get(name, ())), recipes.load(name)
-    found = lines.scene(drawn(name), noisy, words=not recipe.records and not noisy)
-    assert list(found) == snapshot.use_extension(lines.Lines)
+    lines_found = lines.scene(scene_of(name), noisy, words=not recipe.records and not noisy)
+    assert list(lines_found) == snapshot.use_extension(lines.Lines)
 
 
 def benchmark() -> results.Results:
@@ -83,10 +83,10 @@ def benchmark() -> results.Results:
         for count in (100, 10_000, 1_000_000)
     ]
     machine = results.Machine("a processor", 3, avx512=False, system="Linux")
-    more = results.Cost("ours_out", 10**8, 1, "skipped", note="too large")
+    cost_skipped = results.Cost("ours_out", 10**8, 1, "skipped", note="too large")
     return results.Results(
         2, "make bench", "2026-02-03", machine=machine, versions={"numpy": "2.4"},
-        runs=[*runs, failed], costs=[*costs, more],
+        runs=[*runs, failed], costs=[*costs, cost_skipped],
     )  # fmt: skip
 
 
@@ -100,16 +100,16 @@ def test_a_figure_of_measurements_agrees_with_its_snapshot(
     real = places.folder
     for module in (places, results):
         monkeypatch.setattr(module, "folder", lambda kind: tmp_path if kind == "reports" else real(kind))
-    assert list(lines.scene(drawn(name))) == snapshot.use_extension(lines.Lines)
+    assert list(lines.scene(scene_of(name))) == snapshot.use_extension(lines.Lines)
 
 
 def test_a_moved_line_is_noticed() -> None:
     """A layer that is off by a twentieth of the picture is not alike; one that is sampled at other places is."""
 
-    def panel(moved: float, shift: float = 0.0, count: int = 1) -> str:
+    def panel(shift_of_point: float, shift: float = 0.0, count: int = 1) -> str:
         s = np.linspace(0.0, 1.0, 50) ** (1.0 + shift)
         drawn = [np.stack([s + k, np.sin(3.0 * s)], axis=1) for k in range(count)]
-        drawn[count // 2] += [0.0, moved]
+        drawn[count // 2] += [0.0, shift_of_point]
         return "\n".join(lines.shown(Plane(tuple(Curve(points, "main") for points in drawn), "$x$", "$y$")))
 
     for count in (1, 20):

@@ -43,15 +43,15 @@ MOTIONS = {
 def test_lines_add_up_to_the_motion(name: str) -> None:
     """At other times than those it was sampled at, and to the mean square (Parseval), 3 of R and 1 of an axis."""
     motion = MOTIONS[name]()
-    for of, method in METHODS.items():
+    for quantity, method in METHODS.items():
         if not hasattr(motion, method):
             continue
-        lines, values = motion.spectrum(of, least=WHOLE), getattr(motion, method)(TIMES)
-        assert np.abs(lines(TIMES) - values).max() <= 2e-12 * max(np.abs(values).max(), 1e-9), of
+        lines, values = motion.spectrum(quantity, least=WHOLE), getattr(motion, method)(TIMES)
+        assert np.abs(lines(TIMES) - values).max() <= 2e-12 * max(np.abs(values).max(), 1e-9), quantity
         assert lines.power.sum() == pytest.approx(lines.mean_square, rel=1e-14, abs=1e-300)
-        if of in ("rotation", "axis"):
-            assert lines.mean_square == pytest.approx(3 if of == "rotation" else 1, rel=1e-13)
-        elif of == "field":
+        if quantity in ("rotation", "axis"):
+            assert lines.mean_square == pytest.approx(3 if quantity == "rotation" else 1, rel=1e-13)
+        elif quantity == "field":
             assert lines.mean_square == pytest.approx((values[0] ** 2).sum(), rel=1e-13)
         assert (np.diff(lines.frequencies) > 0).all()
         assert lines.combinations @ lines.rates == pytest.approx(lines.frequencies, rel=1e-15, abs=1e-14)
@@ -65,14 +65,14 @@ def test_a_transform_of_a_long_grid_shows_the_lines() -> None:
     size = 2 * abs(np.fft.rfft(x * np.hanning(count))) / count
     frequencies = np.fft.rfftfreq(count, step) * 2 * np.pi
     lines = motion.spectrum("axis", least=1e-3)
-    seen = np.zeros(len(size), dtype=bool)
+    is_seen = np.zeros(len(size), dtype=bool)
     for f, a in zip(lines.frequencies, abs(lines.amplitudes[:, 0]), strict=True):
         if f >= 0 and a > 1e-3:
-            near = abs(frequencies - f) < 40 * frequencies[1]
-            seen |= near
+            is_near = abs(frequencies - f) < 40 * frequencies[1]
+            is_seen |= is_near
             # between two points of the transform a line of Hann's window is lower by 15 % at most
-            assert 0.84 * a <= size[near].max() <= 1.001 * a
-    assert size[~seen].max() < 1e-3
+            assert 0.84 * a <= size[is_near].max() <= 1.001 * a
+    assert size[~is_seen].max() < 1e-3
 
 
 def test_lines_of_an_elementary_motion() -> None:
@@ -103,13 +103,15 @@ def test_motions_without_spectral_lines_are_refused() -> None:
 def test_the_command_prints_the_lines_of_the_motion(body: str) -> None:
     """As a table and in JSON, of the axis unless another function is named."""
     words = ["motion", *body.split(), *"--omega 0.3 0.7 0.2 --least 1e-2 --spectrum".split()]
-    found = json.loads(CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False).stdout)["spectrum"]
+    lines_printed = json.loads(CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False).stdout)[
+        "spectrum"
+    ]
     inertia: Any = 1.5 if "ratio" in body else [[2, 0.1, 0], [0.1, 1.5, 0.2], [0, 0.2, 1]]
     lines = atlas.motion(inertia, (0, 1, 2) if "ratio" in body else (0.3, 0, 1), (0.3, 0.7, 0.2)).spectrum("axis", 1e-2)
-    assert [x["frequency"] for x in found["lines"]] == pytest.approx(lines.frequencies.tolist())
-    shown = CliRunner().invoke(command, words, catch_exceptions=False).stdout
-    assert "spectrum of the axis" in shown
-    assert f"{lines.frequencies.max():.10g}" in shown
+    assert [x["frequency"] for x in lines_printed["lines"]] == pytest.approx(lines.frequencies.tolist())
+    output = CliRunner().invoke(command, words, catch_exceptions=False).stdout
+    assert "spectrum of the axis" in output
+    assert f"{lines.frequencies.max():.10g}" in output
     refused = CliRunner().invoke(command, [*words, "--digits", "20"])
     assert refused.exit_code == 2
     assert "--digits" in refused.output
@@ -121,9 +123,9 @@ def test_the_command_prints_the_lines_of_the_motion(body: str) -> None:
 def test_the_figure_draws_the_lines(parameters: Any) -> None:
     """One stem for each line that is not negative, as high as its amplitude beside the whole."""
     panels = load("spectrum").scene(**parameters).panels
-    given = {"ratio": 1.5, "field": (1.0, 2.0), "omega": (0.3, 0.7, 0.2), **parameters}
-    for panel, of in zip(panels, ("axis", "angular_velocity"), strict=True):
-        lines = atlas.GeneralMotion(**given).spectrum(of, 1e-4)
+    parameters_of_motion = {"ratio": 1.5, "field": (1.0, 2.0), "omega": (0.3, 0.7, 0.2), **parameters}
+    for panel, quantity in zip(panels, ("axis", "angular_velocity"), strict=True):
+        lines = atlas.GeneralMotion(**parameters_of_motion).spectrum(quantity, 1e-4)
         stems = sorted(tuple(x.points[1]) for x in panel.layers if isinstance(x, Curve))
         size = np.sqrt(lines.power / lines.mean_square)[lines.frequencies >= 0]
         assert np.array(stems) == pytest.approx(np.column_stack([lines.frequencies[lines.frequencies >= 0], size]))

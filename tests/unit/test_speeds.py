@@ -44,8 +44,8 @@ def run(words: str) -> tuple[int, str]:
 )
 def test_speeds_near_light_are_reported_in_one_line(words: str, status: int, says: str) -> None:
     """In natural units nothing is known; above a tenth of c there is a line, and a superluminal drift has no answer."""
-    found, errors = run(words)
-    assert found == status
+    status_found, errors = run(words)
+    assert status_found == status
     assert errors.count("\n") == bool(says)
     assert says in errors
 
@@ -55,16 +55,16 @@ def test_fields_with_known_units_know_their_drift(mu: float) -> None:
     """The part of E across B counts: E = c B in SI, E = B in Gaussian units is the border."""
     make: Any
     for make, light in ((atlas.Field.si, C), (atlas.Field.gaussian, 1.0)):
-        across, along = np.array([0.0, 0.6, 0.8]) * 2.0, np.array([0.0, -0.8, 0.6])
-        for part in (1.0 + 1e-9, 3.0):
+        transverse, parallel = np.array([0.0, 0.6, 0.8]) * 2.0, np.array([0.0, -0.8, 0.6])
+        for share in (1.0 + 1e-9, 3.0):
             with pytest.raises(atlas.DomainError, match="must stay below"):
-                make(along * 2.0, part * light * across, mu=mu)
+                make(parallel * 2.0, share * light * transverse, mu=mu)
         with pytest.warns(RelativisticWarning, match="is 0.5 times the speed of light"):
-            make(along * 2.0, 0.5 * light * across + 7 * light * along, mu=mu)
+            make(parallel * 2.0, 0.5 * light * transverse + 7 * light * parallel, mu=mu)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            make(along * 2.0, 0.099 * light * across + 7 * light * along, mu=mu)
-            make((0, 0, 0), across, mu=mu)
+            make(parallel * 2.0, 0.099 * light * transverse + 7 * light * parallel, mu=mu)
+            make((0, 0, 0), transverse, mu=mu)
 
 
 def test_a_report_refuses_a_field_that_drifts_faster_than_light() -> None:

@@ -24,7 +24,7 @@ from stress.elliptic import ELLIPTIC
 from stress.regimes import GENERAL, REGIMES
 from stress.run import PROMISES, SHORT, Result, stress
 from stress.worst import WorstErrors
-from ulps import UNDERFLOW, error, of_length, own, ulp
+from ulps import UNDERFLOW, error, of_length, own_ulps, ulp
 
 from atlas.motions.elementary.kernel import ElementaryMotion
 from atlas.motions.register import FAMILIES
@@ -54,7 +54,7 @@ def test_the_short_run_keeps_every_promise(short_run: Result) -> None:
 
 def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     """Each quantity with a limit is checked, in every regime that concerns it, and so is each regime."""
-    promised = {name for one in FAMILIES.values() for name in one.promises}
+    promised = {name for family in FAMILIES.values() for name in family.promises}
     assert promised <= {w.quantity for w in short_run.worst}
     regimes = {w.regime for w in short_run.worst if w.quantity == "k"}
     assert regimes == {*REGIMES, "B2 = 0"}
@@ -66,40 +66,40 @@ def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
 
 def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result) -> None:
     """The input of the worst R gives that error again, to the bit."""
-    worst = max((w for w in short_run.worst if w.quantity == "R"), key=lambda w: w.ulps)
-    x = {name: float.fromhex(value) for name, value in worst.input.items()}
+    record = max((w for w in short_run.worst if w.quantity == "R"), key=lambda w: w.ulps)
+    x = {name: float.fromhex(value) for name, value in record.input.items()}
     motion = extreme.Motion(x["I2"], x["I3"], x["B2"], x["B3"], x["omega2"], x.get("omega3"), (x["t"],) * 6)
-    found = WorstErrors()
-    check_motion(motion, "again", found)
-    again = max(w.ulps for w in found.worst.values() if w.quantity == "R")
-    assert again == pytest.approx(worst.ulps, abs=0.6)  # a lone time may take another path through a matrix product
+    errors = WorstErrors()
+    check_motion(motion, "again", errors)
+    again = max(w.ulps for w in errors.worst.values() if w.quantity == "R")
+    assert again == pytest.approx(record.ulps, abs=0.6)  # a lone time may take another path through a matrix product
 
 
-@pytest.mark.parametrize(("first", "seen"), [(1.0, False), (0.7, True)])
+@pytest.mark.parametrize(("threshold", "is_seen"), [(1.0, False), (0.7, True)])
 def test_small_entries_are_promised_before_they_are_large(
-    first: float, seen: bool, monkeypatch: pytest.MonkeyPatch
+    threshold: float, is_seen: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """R13 and R23 keep their own digits for |kt| < 1, where a slip is seen; near a zero of sin kt nobody says so."""
     third, k = ElementaryMotion.third_axis, 0.625  # of B' = (4, 3) and omega2 = 1/2
 
     def slipped(self: ElementaryMotion, t: Any) -> Any:
-        return third(self, t) * np.where(abs(k * t) >= first, 1.5, 1.0)[:, None]
+        return third(self, t) * np.where(abs(k * t) >= threshold, 1.5, 1.0)[:, None]
 
     monkeypatch.setattr(ElementaryMotion, "third_axis", slipped)
-    found = WorstErrors()
+    errors = WorstErrors()
     motion = extreme.Motion(1.0, 1.5, 4.0, 3.0, 0.5, None, (-1.2, -0.4, 0.1, 1.6, 2.2, 2.9, 4.0, 5.0))
-    check_motion(motion, "small", found)
-    ulps = max(w.ulps for (name, _), w in found.worst.items() if name == "R13, R23 for |kt| < 1")
-    assert ulps > 1e9 if seen else ulps <= PROMISES["R13, R23 for |kt| < 1"]
+    check_motion(motion, "small", errors)
+    ulps = max(w.ulps for (name, _), w in errors.worst.items() if name == "R13, R23 for |kt| < 1")
+    assert ulps > 1e9 if is_seen else ulps <= PROMISES["R13, R23 for |kt| < 1"]
 
 
 @pytest.mark.slow
 def test_arrays_of_elementary_motions_keep_the_promises() -> None:
     """20 000 rows, each rounded once, and as good as single motions."""
-    worst = check_rows(3, 0).worst
-    assert {name for name, _ in worst} == {"omega3", "k", "phi", "R", "R orthogonality", "R determinant"}
-    for (name, _), one in worst.items():
-        assert one.ulps <= (0.5 if name in {"omega3", "k", "phi"} else PROMISES[name]), name
+    errors = check_rows(3, 0).worst
+    assert {name for name, _ in errors} == {"omega3", "k", "phi", "R", "R orthogonality", "R determinant"}
+    for (name, _), error_found in errors.items():
+        assert error_found.ulps <= (0.5 if name in {"omega3", "k", "phi"} else PROMISES[name]), name
 
 
 def draws() -> Iterator[extreme.Motion]:
@@ -117,8 +117,8 @@ def test_extreme_motions_come_within_an_ulp_of_the_special_values() -> None:
         offsets["I"].add((m.I3 - m.I2) / math.ulp(m.I2))
         offsets["pole"].add((m.omega2 + m.B2) / math.ulp(m.B2))
         offsets["twice"].add((m.omega2 + 2 * m.B2) / math.ulp(2 * m.B2))
-    for found in offsets.values():
-        assert {-1.0, 0.0, 1.0} <= found
+    for offset_set in offsets.values():
+        assert {-1.0, 0.0, 1.0} <= offset_set
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False), st.integers(-9, 9))
@@ -126,14 +126,14 @@ def test_an_error_is_counted_in_units_of_the_last_place(x: float, steps: int) ->
     """A float that is n steps from the true value is at most n ulps off, and as many within a binade."""
     if abs(x) < UNDERFLOW * 2:
         return
-    found = x
+    value = x
     for _ in range(abs(steps)):
-        found = math.nextafter(found, math.copysign(math.inf, steps))
+        value = math.nextafter(value, math.copysign(math.inf, steps))
     true = fmpq(*Fraction(x).as_integer_ratio())
-    if math.isinf(found):
+    if math.isinf(value):
         return
     with ctx.workprec(2200):
-        measured = own([found], [true])[0]
+        measured = own_ulps([value], [true])[0]
     assert abs(steps) / 2 <= measured * (1 + 1e-9)
     assert measured <= abs(steps) * (1 + 1e-9)
 
@@ -171,6 +171,6 @@ def test_a_record_takes_the_larger_error_of_two_runs(tmp_path: Path, short_run: 
     path = tmp_path / "worst_errors.json"
     recorded(other_run, {}, path)
     recorded(short_run, json.loads(path.read_text()), path)
-    worst = json.loads(path.read_text())["worst"]
+    errors = json.loads(path.read_text())["worst"]
     for run in (short_run, other_run):
-        assert [w for w in run.worst if w.ulps > worst[w.quantity][0]] == []
+        assert [w for w in run.worst if w.ulps > errors[w.quantity][0]] == []

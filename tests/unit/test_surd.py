@@ -10,15 +10,15 @@ from atlas.arithmetic.certified_surd import Polynomial, Surd, evaluated, roots, 
 from atlas.motions.nutation.certified_top import TopMotion
 
 
-def drawn(random: Random, degree: int) -> Polynomial:
+def polynomial(random: Random, degree: int) -> Polynomial:
     """Return a polynomial, a third of them in even powers alone."""
     N = fmpq(random.randint(2, 50), random.randint(1, 20))
-    found = []
+    coefficients = []
     for n in range(degree + 1):
         b = fmpq(random.randint(-9, 9), random.randint(1, 7)) if Surd.root(N).b != 0 else fmpq(0)
         x = Surd(fmpq(random.randint(-20, 20), random.randint(1, 9)), b, N)
-        found.append(x if random.random() < 0.7 or n in {0, degree} else x.of(0))
-    return trimmed(found)
+        coefficients.append(x if random.random() < 0.7 or n in {0, degree} else x.of(0))
+    return trimmed(coefficients)
 
 
 @pytest.mark.parametrize("degree", [2, 3, 4])
@@ -26,18 +26,20 @@ def test_roots_agree_with_an_isolation_real_ones_first_and_ascending(degree: int
     """Sixty random polynomials of each degree, with any number of real roots."""
     random = Random(degree)  # noqa: S311  reproducible, not secret
     for _ in range(60):
-        p = drawn(random, degree)
+        p = polynomial(random, degree)
         if [n for _, n in squarefree(p)] != [1]:
             continue
         with ctx.workprec(200):
-            found, isolated = roots(p), acb_poly([acb(c.value) for c in p]).roots()
-            real = [z.real for z in found if z.imag.is_zero()]
-            assert len(found) == len(p) - 1
-            assert all(sum(x.overlaps(y) for y in isolated) == 1 for x in found)
+            roots_found, isolated = roots(p), acb_poly([acb(c.value) for c in p]).roots()
+            real = [z.real for z in roots_found if z.imag.is_zero()]
+            assert len(roots_found) == len(p) - 1
+            assert all(sum(x.overlaps(y) for y in isolated) == 1 for x in roots_found)
             assert len(real) == sum(z.imag.contains(0) for z in isolated)
             assert all(x < y for x, y in pairwise(real))
-            assert all(z.imag.is_zero() for z in found[: len(real)])
-            assert all(abs(sum((acb(c.value) * z**n for n, c in enumerate(p)), acb(0))).contains(0) for z in found)
+            assert all(z.imag.is_zero() for z in roots_found[: len(real)])
+            assert all(
+                abs(sum((acb(c.value) * z**n for n, c in enumerate(p)), acb(0))).contains(0) for z in roots_found
+            )
 
 
 @pytest.mark.parametrize("exponent", [30, 100, 300])

@@ -26,13 +26,13 @@ GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": 
 NAMES = ("omega3", "k", "phi", "case", "R12")
 
 
-def same(found: Any) -> None:
+def same(table_read: Any) -> None:
     """Check a data frame against the table."""
     table = atlas.sweep("elementary", GRID, NAMES)
     assert isinstance(table, dict)
-    assert list(found) == list(table)
+    assert list(table_read) == list(table)
     for name, column in table.items():
-        assert np.array_equal(found[name].to_numpy(), column), name
+        assert np.array_equal(table_read[name].to_numpy(), column), name
 
 
 def test_a_data_set_is_read_as_one_table(tmp_path: Path) -> None:
@@ -43,8 +43,8 @@ def test_a_data_set_is_read_as_one_table(tmp_path: Path) -> None:
         assert len(list(Path(str(out)).glob("part-*.parquet"))) == 8
         same(pandas.read_parquet(out))
     assert {path.name for path in tmp_path.iterdir()} == {"a.parquet", "b.parquet"}
-    parts = [sorted((tmp_path / name).glob("part-*")) for name in ("a.parquet", "b.parquet")]
-    assert [path.read_bytes() for path in parts[0]] == [path.read_bytes() for path in parts[1]]
+    part_files = [sorted((tmp_path / name).glob("part-*")) for name in ("a.parquet", "b.parquet")]
+    assert [path.read_bytes() for path in part_files[0]] == [path.read_bytes() for path in part_files[1]]
 
 
 def test_a_new_data_set_replaces_only_an_old_one(tmp_path: Path) -> None:
@@ -70,10 +70,10 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
     """What fsspec knows is written and read as a folder is, and nothing is left beside it."""
     fsspec, pandas = pytest.importorskip("fsspec"), pytest.importorskip("pandas")
     memory = fsspec.filesystem("memory")
-    with ProcessPoolExecutor(1, get_context("spawn")) as other:  # which has a memory of its own
-        for B2, executor in ((2.0, other), (1.0, None)):
-            given, place = GRID | {"B2": B2}, "memory://sweeps/t.parquet"
-            address = atlas.sweep("elementary", given, NAMES, place, rows=20, jobs=1, executor=executor)
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:  # which has a memory of its own
+        for B2, executor in ((2.0, pool), (1.0, None)):
+            parameters, place = GRID | {"B2": B2}, "memory://sweeps/t.parquet"
+            address = atlas.sweep("elementary", parameters, NAMES, place, rows=20, jobs=1, executor=executor)
             assert len(memory.ls("/sweeps/t.parquet")) == 8
     assert address == "memory://sweeps/t.parquet"
     same(
@@ -89,12 +89,12 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
 def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp_path: Path) -> None:
     """No part that is there is made again, and Dask reads the folder as one table."""
     frames = pytest.importorskip("dask.dataframe")
-    out, kept = tmp_path / "t.parquet", dict[str, int]()
+    out, times_written = tmp_path / "t.parquet", dict[str, int]()
 
     def until_four(done: int, _: int) -> None:
         if done >= 80:
             folder = tmp_path / "t.parquet.parts"
-            kept.update({path.name: path.stat().st_mtime_ns for path in sorted(folder.iterdir())[:4]})
+            times_written.update({path.name: path.stat().st_mtime_ns for path in sorted(folder.iterdir())[:4]})
             raise KeyboardInterrupt
 
     with dask_client(2) as client:
@@ -103,7 +103,7 @@ def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp
         assert not out.exists()
         atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client)
     same(frames.read_parquet(out).compute(scheduler="synchronous"))
-    assert {name: (out / name).stat().st_mtime_ns for name in kept} == kept
+    assert {name: (out / name).stat().st_mtime_ns for name in times_written} == times_written
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
 
@@ -165,27 +165,27 @@ def test_a_client_that_closes_without_a_result_is_told(tmp_path: Path) -> None:
 def test_a_lost_scheduler_is_told_and_another_client_goes_on(tmp_path: Path) -> None:
     """Lost in the midst of the table, and before it: one sentence each, and no part is made again."""
     distributed = pytest.importorskip("distributed")
-    out, made = tmp_path / "t.csv", list[int]()
+    out, rows_done = tmp_path / "t.csv", list[int]()
 
     def lose(done: int, _: int) -> None:
-        made.append(done)
-        if len(made) == 3:
+        rows_done.append(done)
+        if len(rows_done) == 3:
             scheduler.kill()
 
-    told = "came to a sudden end .*a call with a new executor or client goes on"
+    message = "came to a sudden end .*a call with a new executor or client goes on"
     with scheduler_and_worker(tmp_path) as (scheduler, address), distributed.Client(address, timeout=5) as client:
         for _ in range(2):  # at the second call the scheduler is gone
-            with pytest.raises(AtlasError, match=told):
+            with pytest.raises(AtlasError, match=message):
                 atlas.sweep("elementary", GRID, NAMES, out, rows=8, executor=client, progress=lose)
     with dask_client(1) as client:
         client.close()
-        with pytest.raises(AtlasError, match=told):
+        with pytest.raises(AtlasError, match=message):
             atlas.sweep("elementary", GRID, NAMES, out, rows=8, executor=client)
     with ThreadPoolExecutor(1) as ended:
         ended.shutdown()
-        with pytest.raises(AtlasError, match=told):
+        with pytest.raises(AtlasError, match=message):
             atlas.sweep("elementary", GRID, NAMES, out, rows=8, executor=ended)
-    first = list[int]()
-    atlas.sweep("elementary", GRID, NAMES, out, rows=8, progress=lambda done, _: first.append(done))
-    assert first[0] > 8 * 3
+    rows_first = list[int]()
+    atlas.sweep("elementary", GRID, NAMES, out, rows=8, progress=lambda done, _: rows_first.append(done))
+    assert rows_first[0] > 8 * 3
     assert out.read_bytes() == atlas.sweep("elementary", GRID, NAMES, tmp_path / "u.csv").read_bytes()

@@ -32,12 +32,12 @@ class Stopped(BaseException):
     """What ends a sweep in the middle, as a signal would."""
 
 
-def sweep(out: Path | str, **more: Any) -> Any:
+def sweep(out: Path | str, **options: Any) -> Any:
     """Sweep the grid in parts of 20 rows."""
-    return atlas.sweep("elementary", GRID, NAMES, out, **({"rows": 20, "jobs": 1} | more))
+    return atlas.sweep("elementary", GRID, NAMES, out, **({"rows": 20, "jobs": 1} | options))
 
 
-def made(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[int]:
+def starts_of(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[int]:
     """Return a list that gets the first rows of the parts that are made from now on; `stop` of them are."""
     starts: list[int] = []
 
@@ -53,7 +53,7 @@ def made(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[int]:
 
 def stopped(out: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Sweep until three parts are kept, and return their folder."""
-    starts = made(monkeypatch, 3)
+    starts = starts_of(monkeypatch, 3)
     with pytest.raises(Stopped):
         sweep(f"{out}/" if out.suffix == ".parquet" else out)
     assert starts == STARTS[:3]
@@ -62,28 +62,28 @@ def stopped(out: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+def table_bytes(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """Return the table of one go."""
     out = tmp_path_factory.mktemp("whole") / "t.csv"
     sweep(out)
     return out.read_bytes()
 
 
-def test_a_stopped_sweep_resumes(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stopped_sweep_resumes(tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     """Parts that were kept are not computed again, no row is lost or doubled, and nothing is left beside the table."""
     stopped(tmp_path / "t.csv", monkeypatch)
-    starts = made(monkeypatch)
+    starts = starts_of(monkeypatch)
     sweep(tmp_path / "t.csv")
     assert starts == STARTS[3:]
-    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert (tmp_path / "t.csv").read_bytes() == table_bytes
     assert names(tmp_path) == ["t.csv"]
 
 
 def test_any_rows_agree_with_the_table() -> None:
     """A part that is sent gives the rows of the whole."""
     for listed in (False, True):
-        given = GRID if not listed else {name: np.resize(x, 154) for name, x in GRID.items()}
-        plan = Plan.of("elementary", given, ["k"], listed=listed)
+        parameters = GRID if not listed else {name: np.resize(x, 154) for name, x in GRID.items()}
+        plan = Plan.of("elementary", parameters, ["k"], listed=listed)
         table = plan.rows()
         for start, stop in [(0, 154), (0, 1), (153, 154), (21, 23), (22, 44), (5, 90), (11, 12), (100, 120)]:
             for name, column in plan.list_of(start, stop).rows(0, stop - start).items():
@@ -102,68 +102,70 @@ def test_any_rows_agree_with_the_table() -> None:
     ids=["cut", "emptied", "altered", "gone"],
 )
 def test_a_damaged_part_is_made_again(
-    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch, damage: Any, kind: str
+    tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch, damage: Any, kind: str
 ) -> None:
     """A part that does not hold what its name says is no part: the table is that of a sweep that nobody disturbed."""
     if kind == "parquet":
         pytest.importorskip("pyarrow")
     out = tmp_path / f"t.{kind}"
-    parts = stopped(out, monkeypatch)
-    damage(sorted(parts.iterdir())[1])
-    starts = made(monkeypatch)
+    parts_folder = stopped(out, monkeypatch)
+    damage(sorted(parts_folder.iterdir())[1])
+    starts = starts_of(monkeypatch)
     sweep(f"{out}/" if kind == "parquet" else out)
     assert starts == [STARTS[1], *STARTS[3:]]
     if kind == "csv":
-        assert out.read_bytes() == whole
+        assert out.read_bytes() == table_bytes
 
 
-def test_parts_under_wrong_names_are_not_taken(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_parts_under_wrong_names_are_not_taken(
+    tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A part named as if it held other rows or were of another sweep, rows twice, or between others: one of each."""
     for rows in ("000000000020-000000000040", "000000000030-000000000050", "000000000000-000000000154"):
-        parts = stopped(tmp_path / "t.csv", monkeypatch)
-        first, second, _ = sorted(parts.iterdir())
+        parts_folder = stopped(tmp_path / "t.csv", monkeypatch)
+        part_first, second, _ = sorted(parts_folder.iterdir())
         second.unlink()
-        (parts / f"part-{rows}-{first.name[31:]}").write_bytes(first.read_bytes())
-        (parts / f"{first.name[:31]}{'0' * 16}{first.name[47:]}").write_bytes(first.read_bytes())
-        made(monkeypatch)
+        (parts_folder / f"part-{rows}-{part_first.name[31:]}").write_bytes(part_first.read_bytes())
+        (parts_folder / f"{part_first.name[:31]}{'0' * 16}{part_first.name[47:]}").write_bytes(part_first.read_bytes())
+        starts_of(monkeypatch)
         sweep(tmp_path / "t.csv")
-        assert (tmp_path / "t.csv").read_bytes() == whole
+        assert (tmp_path / "t.csv").read_bytes() == table_bytes
         assert names(tmp_path) == ["t.csv"]
         (tmp_path / "t.csv").unlink()
 
 
 def test_rows_that_are_in_two_parts_are_taken_once(
-    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A worker that nobody waited for may leave a part whose rows are in others: the table has each row once."""
-    parts = stopped(tmp_path / "t.csv", monkeypatch)
-    table = Table(tmp_path / "t.csv", next(parts.iterdir()).name.split("-")[3])
+    parts_folder = stopped(tmp_path / "t.csv", monkeypatch)
+    table = Table(tmp_path / "t.csv", next(parts_folder.iterdir()).name.split("-")[3])
     monkeypatch.setattr(Plan, "rows", ROWS)
     with table.held():
         for start, stop in ((0, 30), (10, 45), (130, 154)):
             run.make(Plan.of("elementary", GRID, NAMES), start, stop, table)
     sweep(tmp_path / "t.csv")
-    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert (tmp_path / "t.csv").read_bytes() == table_bytes
     assert names(tmp_path) == ["t.csv"]
 
 
 def test_parts_of_another_sweep_or_another_program_are_not_taken(
-    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Other parameters, another size of the parts or other code: all parts are made."""
-    other = GRID | {"B2": 2.0}
+    grid_other = GRID | {"B2": 2.0}
     stopped(tmp_path / "t.csv", monkeypatch)
-    made(monkeypatch)
-    atlas.sweep("elementary", other, NAMES, tmp_path / "t.csv", rows=20, jobs=1)
-    atlas.sweep("elementary", other, NAMES, tmp_path / "o.csv", rows=20, jobs=1)
-    assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "o.csv").read_bytes() != whole
+    starts_of(monkeypatch)
+    atlas.sweep("elementary", grid_other, NAMES, tmp_path / "t.csv", rows=20, jobs=1)
+    atlas.sweep("elementary", grid_other, NAMES, tmp_path / "o.csv", rows=20, jobs=1)
+    assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "o.csv").read_bytes() != table_bytes
     (tmp_path / "t.csv").unlink()
     stopped(tmp_path / "t.csv", monkeypatch)
-    starts = made(monkeypatch)
+    starts = starts_of(monkeypatch)
     monkeypatch.setattr(run, "code", lambda: "another")
     sweep(tmp_path / "t.csv")
     assert starts == STARTS
-    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert (tmp_path / "t.csv").read_bytes() == table_bytes
 
 
 def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -182,48 +184,50 @@ def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPat
     assert len(keys) == len(changed)
 
 
-def foreign_key(parts: Path) -> None:
+def foreign_key(folder: Path) -> None:
     """Make a folder as sweeps had it once, with more in it."""
-    parts.mkdir()
-    (parts / "key").write_text("mine")
-    (parts / "precious").write_text("mine")
+    folder.mkdir()
+    (folder / "key").write_text("mine")
+    (folder / "precious").write_text("mine")
 
 
-def link(parts: Path) -> None:
+def link(folder: Path) -> None:
     """Make a link to a folder."""
-    (parts.parent / "elsewhere").mkdir()
-    parts.symlink_to(parts.parent / "elsewhere")
+    (folder.parent / "elsewhere").mkdir()
+    folder.symlink_to(folder.parent / "elsewhere")
 
 
-def planted(parts: Path) -> None:
+def planted(folder: Path) -> None:
     """Make a part that leads to another file."""
-    parts.mkdir()
-    (parts.parent / "precious").write_text("mine")
-    (parts / "part-00000000.csv").symlink_to(parts.parent / "precious")
+    folder.mkdir()
+    (folder.parent / "precious").write_text("mine")
+    (folder / "part-00000000.csv").symlink_to(folder.parent / "precious")
 
 
-@pytest.mark.parametrize("foreign", [foreign_key, link, planted, lambda parts: parts.write_text("mine")])
-def test_files_of_no_sweep_are_refused_and_kept(tmp_path: Path, foreign: Any) -> None:
+@pytest.mark.parametrize("plant", [foreign_key, link, planted, lambda folder: folder.write_text("mine")])
+def test_files_of_no_sweep_are_refused_and_kept(tmp_path: Path, plant: Any) -> None:
     """A folder of the user's own, a symbolic link, a file: one line, status 2, and everything as it was."""
-    foreign(tmp_path / "t.csv.parts")
+    plant(tmp_path / "t.csv.parts")
     before = {path: path.read_bytes() if path.is_file() else b"" for path in tmp_path.rglob("*")}
     with pytest.raises(AtlasError, match=r"which no sweep wrote|folder of its own"):
         sweep(tmp_path / "t.csv")
     assert {path: path.read_bytes() if path.is_file() else b"" for path in tmp_path.rglob("*")} == before
 
 
-def test_a_user_file_among_the_parts_is_kept(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_user_file_among_the_parts_is_kept(
+    tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """It is named before the sweep goes on; one that is put there meanwhile is left where it is."""
-    parts = stopped(tmp_path / "t.csv", monkeypatch)
-    (parts / "notes.txt").write_text("mine")
-    made(monkeypatch)
+    parts_folder = stopped(tmp_path / "t.csv", monkeypatch)
+    (parts_folder / "notes.txt").write_text("mine")
+    starts_of(monkeypatch)
     with pytest.raises(AtlasError, match=r"holds notes\.txt, which no sweep wrote"):
         sweep(tmp_path / "t.csv")
-    assert len(list(parts.iterdir())) == 4
-    (parts / "notes.txt").rename(parts / ".notes")
+    assert len(list(parts_folder.iterdir())) == 4
+    (parts_folder / "notes.txt").rename(parts_folder / ".notes")
     sweep(tmp_path / "t.csv")
-    assert (tmp_path / "t.csv").read_bytes() == whole
-    assert [(path.name, path.read_text()) for path in parts.iterdir()] == [(".notes", "mine")]
+    assert (tmp_path / "t.csv").read_bytes() == table_bytes
+    assert [(path.name, path.read_text()) for path in parts_folder.iterdir()] == [(".notes", "mine")]
 
 
 @pytest.mark.parametrize("name", ["t.csv", "t.parquet/"])
@@ -235,14 +239,14 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
     for step in ("delete", "move", "clear", "write"):
         real = getattr(store.Folder, step)
 
-        def counted(self: Any, *more: Any, real: Any = real) -> None:
+        def counted(self: Any, *arguments: Any, real: Any = real) -> None:
             if len(done) == limit:
                 raise Stopped
             done.append(real)
-            real(self, *more)
+            real(self, *arguments)
 
         monkeypatch.setattr(store.Folder, step, counted)
-    limit, other = 0, GRID | {"B2": 2.0}
+    limit, grid_other = 0, GRID | {"B2": 2.0}
     while True:
         done.clear()
         try:
@@ -250,8 +254,8 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
             break
         except Stopped:
             limit, before = 10**9, limit
-            given, rows = [(GRID, 80), (other, 80), (GRID, 154)][before % 3]
-            atlas.sweep("elementary", given, NAMES, f"{tmp_path}/{name}", rows=rows, jobs=1)
+            grid, rows = [(GRID, 80), (grid_other, 80), (GRID, 154)][before % 3]
+            atlas.sweep("elementary", grid, NAMES, f"{tmp_path}/{name}", rows=rows, jobs=1)
             assert names(tmp_path) == [name.rstrip("/")]
             limit = before + 1
     assert limit > 3
@@ -263,32 +267,32 @@ class Lost(ThreadPoolExecutor):
     reason: BaseException = CancelledError()
     calls = 0
 
-    def submit(self, *call: Any, **more: Any) -> Future[Any]:
+    def submit(self, *call: Any, **options: Any) -> Future[Any]:
         """Call, or give back what is lost."""
         self.calls += 1
         if self.calls < 5:
-            return super().submit(*call, **more)
-        lost = Future[Any]()
-        lost.set_exception(self.reason)
-        return lost
+            return super().submit(*call, **options)
+        future = Future[Any]()
+        future.set_exception(self.reason)
+        return future
 
 
 @pytest.mark.parametrize("reason", [CancelledError(""), BrokenProcessPool("A process was terminated abruptly.")])
 def test_lost_workers_are_reported_and_a_second_call_resumes(
-    tmp_path: Path, whole: bytes, reason: BaseException, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, table_bytes: bytes, reason: BaseException, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """In one sentence; what was made by then is not made again."""
-    said = str(reason).removesuffix(".") or "CancelledError"
+    message = str(reason).removesuffix(".") or "CancelledError"
     with Lost(1) as executor:
         executor.reason = reason
         with pytest.raises(
-            AtlasError, match=rf"sudden end \({said}\); .* a call with a new executor or client goes on"
+            AtlasError, match=rf"sudden end \({message}\); .* a call with a new executor or client goes on"
         ):
             sweep(tmp_path / "t.csv", executor=executor)
-    starts = made(monkeypatch)
+    starts = starts_of(monkeypatch)
     sweep(tmp_path / "t.csv")
     assert starts == STARTS[4:]
-    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert (tmp_path / "t.csv").read_bytes() == table_bytes
 
 
 def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
@@ -333,12 +337,12 @@ def test_a_killed_sweep_resumes(tmp_path: Path) -> None:
     ]  # fmt: skip
     start = [sys.executable, "-m", "atlas", *arguments]
     killed = subprocess.Popen([*start, tmp_path / "k.csv"])
-    parts = tmp_path / "k.csv.parts"
-    while not list(parts.glob("part-*")) and killed.poll() is None:
+    parts_folder = tmp_path / "k.csv.parts"
+    while not list(parts_folder.glob("part-*")) and killed.poll() is None:
         time.sleep(0.01)
     killed.send_signal(signal.SIGKILL)
     killed.wait()
-    assert list(parts.glob("part-*"))
+    assert list(parts_folder.glob("part-*"))
     assert not (tmp_path / "k.csv").exists()
     for name in ("k.csv", "a.csv"):
         assert subprocess.run([*start, tmp_path / name], check=False, capture_output=True).returncode == 0
@@ -351,13 +355,13 @@ def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float,
     """A row that seems to take up to a thousand seconds: every row is in one part, few are lost with it."""
     for count in (1, 4097, 10**6, 10**8):
         plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": np.zeros(count)}, ["k"], digits=digits)
-        spans, found = run.Spans(plan, [(7, 9)] * (count > 9), None, 2), []
+        spans, row_counts = run.Spans(plan, [(7, 9)] * (count > 9), None, 2), []
         for start, stop in spans:
             assert 0 < stop - start <= 2**18
-            assert digits is None or len(found) >= 64 or stop - start <= max(1, 2.0 / pace)
-            found.append((start, stop))
+            assert digits is None or len(row_counts) >= 64 or stop - start <= max(1, 2.0 / pace)
+            row_counts.append((start, stop))
             spans.learn((start, stop), pace * (stop - start))
-        rows = sorted(found + [(7, 9)] * (count > 9))
+        rows = sorted(row_counts + [(7, 9)] * (count > 9))
         assert [start for start, _ in rows] == [0, *(stop for _, stop in rows[:-1])]
         assert rows[-1][1] == count
         assert len(rows) <= 1600
@@ -365,15 +369,15 @@ def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float,
 
 def test_a_sweep_resumes_with_other_part_sizes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Another measure of the time of a row, on a busier machine, does not begin it anew: what is missing is made."""
-    kept = set[str]()
+    parts_before = set[str]()
     for seconds in (1e-3, 5e-3, 1e-9):
         monkeypatch.setattr(run, "PART_SECONDS", seconds)
-        made(monkeypatch, 2)
+        starts_of(monkeypatch, 2)
         with pytest.raises(Stopped):
             atlas.sweep("elementary", GRID, ["k"], tmp_path / "t.csv", jobs=1, digits=20)
-        there = {path.name for path in (tmp_path / "t.csv.parts").iterdir()}
-        assert kept < there
-        kept = there
+        parts_now = {path.name for path in (tmp_path / "t.csv.parts").iterdir()}
+        assert parts_before < parts_now
+        parts_before = parts_now
 
 
 def test_a_table_beyond_all_disks_is_refused() -> None:

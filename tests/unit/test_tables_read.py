@@ -43,22 +43,22 @@ def test_own_tables_are_read_to_the_same_bits(tmp_path: Path, name: str, index: 
     motion.to_dataframe(TIMES).to_csv(path, index=index)
     columns = read(path)
     assert np.array_equal(columns["t"], TIMES)
-    found = {
+    tables = {
         MATRIX: motion.rotation(TIMES).reshape(-1, 9),
         OMEGA: motion.angular_velocity(TIMES),
         QUATERNION: motion.quaternion(TIMES, scalar_first=True),
     }
-    for names, values in found.items():
+    for names, values in tables.items():
         assert np.array_equal(np.column_stack([columns[name] for name in names]), values)
 
 
 def test_a_sweep_of_times_is_read_to_the_same_bits(tmp_path: Path) -> None:
     """Its columns of parameters, omega2 among them, are no angular velocities of the body."""
-    out, wanted = tmp_path / "sweep.csv", ("R", "Omega", "k", "case")
+    out, quantities = tmp_path / "sweep.csv", ("R", "Omega", "k", "case")
     parameters = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": 0.7, "t": TIMES}
-    atlas.sweep("elementary", parameters, wanted, out=out)
+    atlas.sweep("elementary", parameters, quantities, out=out)
     columns = read(out)
-    swept = atlas.sweep("elementary", parameters, wanted)
+    swept = atlas.sweep("elementary", parameters, quantities)
     assert np.array_equal(columns["t"], TIMES)
     for name in (*MATRIX, *OMEGA):
         assert np.array_equal(columns[name], swept[name])
@@ -73,8 +73,8 @@ def test_sweeps_of_every_kind_are_fitted_from_the_same_bits(tmp_path: Path, name
     """A folder of Parquet files, too; a table without rows is refused."""
     options = "sweep general --ratio 1.5 --field 1 2 --omega .3 .7 .2 --set t=0:7.3:12 --quantity R --rows 5 --out"
     for place in (name, "reference.npz"):
-        made = CliRunner().invoke(program, [*options.split(), f"{tmp_path}/{place}"])
-        assert made.exit_code == 0, made.output
+        outcome = CliRunner().invoke(program, [*options.split(), f"{tmp_path}/{place}"])
+        assert outcome.exit_code == 0, outcome.output
     table, reference = of_file(tmp_path / name, None), np.load(tmp_path / "reference.npz")
     assert np.array_equal(table.t, TIMES)
     assert np.array_equal(table.data["rotation"].reshape(-1, 9).T, [reference[entry] for entry in MATRIX])
@@ -139,15 +139,15 @@ def test_numbers_of_fortran_are_read(tmp_path: Path) -> None:
     st.lists(st.sampled_from(["", "nan", "NaN", "NA", "#N/A", "null", "-", " "]), min_size=1, max_size=5),
     st.integers(0, 6),
 )
-def test_rows_that_lack_a_number_are_counted(tmp_path_factory: pytest.TempPathFactory, holes: Any, first: int) -> None:
+def test_rows_that_lack_a_number_are_counted(tmp_path_factory: pytest.TempPathFactory, holes: Any, start: int) -> None:
     """The other rows are graded as without them."""
     path = tmp_path_factory.mktemp("holes") / "log.csv"
     rows, head = rates(), "t,Omega1,Omega2,Omega3"
-    for i, cell in enumerate(holes, first):
+    for i, cell in enumerate(holes, start):
         rows[i][1 + i % 3] = cell
     result = graded(path, head, [",".join(row) for row in rows])
-    whole = [",".join(row) for i, row in enumerate(rows) if not first <= i < first + len(holes)]
-    assert result.columns == graded(path, head, whole).columns
+    rows_whole = [",".join(row) for i, row in enumerate(rows) if not start <= i < start + len(holes)]
+    assert result.columns == graded(path, head, rows_whole).columns
     assert result.rows == len(TIMES) - len(holes)
     assert result.notes[0].startswith(f"{len(holes)} row")
 
@@ -178,10 +178,10 @@ def test_standard_errors_stand_in_a_column_or_have_a_unit(tmp_path: Path) -> Non
     frame["t [ms]"] *= 1000
     frame["sigma [deg]"] = np.linspace(1.0, 2.0, 41)
     frame.to_csv(path, index=False)
-    found = fit_file(path)
-    assert np.allclose(found.sigma, np.deg2rad(np.linspace(1.0, 2.0, 41)), rtol=1e-15)
-    assert found.params["omega1"].value == pytest.approx(0.5, abs=1e-9)
-    assert found.time_unit == "s"
+    fit = fit_file(path)
+    assert np.allclose(fit.sigma, np.deg2rad(np.linspace(1.0, 2.0, 41)), rtol=1e-15)
+    assert fit.params["omega1"].value == pytest.approx(0.5, abs=1e-9)
+    assert fit.time_unit == "s"
     outcome = [
         CliRunner().invoke(program, ["fit", str(path), "--sigma", s]).output for s in ("1deg", repr(np.pi / 180))
     ]
@@ -195,9 +195,9 @@ def test_unused_columns_are_named(tmp_path: Path) -> None:
     notes = graded(tmp_path / "t.csv", "t,Omega1,Omega2,Omega3,label,Quat_q0", rows).notes
     assert len(notes) == 1
     assert notes[0].startswith("columns left out: label, Quat_q0 (of a quaternion qw is the scalar")
-    for wrong, hint in {"omega_x": "called Omega1", "wx": "called Omega1", "Quat_q0": "qw is the scalar"}.items():
-        with pytest.raises(AtlasError, match=f"There is '{wrong}' .*{hint}"):
-            graded(tmp_path / "t.csv", f"t,{wrong}", ["0,1"])
+    for name, hint in {"omega_x": "called Omega1", "wx": "called Omega1", "Quat_q0": "qw is the scalar"}.items():
+        with pytest.raises(AtlasError, match=f"There is '{name}' .*{hint}"):
+            graded(tmp_path / "t.csv", f"t,{name}", ["0,1"])
     for other in ("Temp", "Torque1", "Battery"):
         with pytest.raises(AtlasError, match=r"there is no column t; name the times t\.$"):
             graded(tmp_path / "t.csv", f"{other},Omega1,Omega2,Omega3", rows)

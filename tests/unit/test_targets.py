@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from drawing import made
+from drawing import scene_of
 from marks import faults
 from PIL import Image
 from pypdf import PdfReader
@@ -40,25 +40,25 @@ def test_a_figure_keeps_the_law_of_its_target_or_is_refused(name: str, target: s
 
     A figure that cannot is refused in one line; on a journal's whole page and on a poster none is.
     """
-    asked, found, refused = find(target), [], ""
+    medium, complaints, refused = find(target), [], ""
     try:
-        found = faults(to_figure(made(name), target=asked), asked)
+        complaints = faults(to_figure(scene_of(name), target=medium), medium)
     except AtlasError as error:
         refused = str(error)
-    assert found == []
+    assert complaints == []
     assert not refused or re.fullmatch(r".+: it can't be read at .+\.", refused)
-    assert not refused or asked.width < WHOLE_PAGE, refused
+    assert not refused or medium.width < WHOLE_PAGE, refused
 
 
 @pytest.mark.parametrize("name", ["bifurcation", "cusps", "monodromy"])
 def test_panels_that_can_be_spared_are_left_out_of_a_slide_and_named(name: str) -> None:
     """The others keep their letters and have both labels; the caption names those that are missing."""
-    scene = made(name)
+    scene = scene_of(name)
     slide = arranged(scene, find("beamer"))
-    kept = [panel for k, panel in enumerate(scene.panels) if k not in scene.spare]
-    assert [panel.title for panel in slide.panels] == [panel.title for panel in kept]
-    missing = slide.caption.partition(" Left out at this size: ")[2]
-    assert re.findall(r"\(\w\)", missing) == [scene.panels[k].title[:3] for k in scene.spare]
+    panels = [panel for k, panel in enumerate(scene.panels) if k not in scene.spare]
+    assert [panel.title for panel in slide.panels] == [panel.title for panel in panels]
+    sentence = slide.caption.partition(" Left out at this size: ")[2]
+    assert re.findall(r"\(\w\)", sentence) == [scene.panels[k].title[:3] for k in scene.spare]
     assert all(panel.x_label and panel.y_label for panel in slide.panels if isinstance(panel, Plane))
     assert len(arranged(scene, find("aps-double")).panels) == len(scene.panels)
 
@@ -66,12 +66,12 @@ def test_panels_that_can_be_spared_are_left_out_of_a_slide_and_named(name: str) 
 @pytest.mark.slow
 def test_the_command_names_panels_that_are_left_out(tmp_path: Path) -> None:
     """A slide lacks panels, which a line on standard error names; a whole page has all, and no line."""
-    letters = [made("cusps").panels[k].title[:3] for k in made("cusps").spare]
+    letters = [scene_of("cusps").panels[k].title[:3] for k in scene_of("cusps").spare]
     for target, expected in (("beamer", letters), ("aps-double", [])):
         words = ["figure", "cusps", "--for", target, "--format", "svg", "--out", str(tmp_path)]
-        told = CliRunner().invoke(command, words).stderr
-        assert re.findall(r"\(\w\)", told) == expected
-        assert ("atlas: figure cusps: Left out at this size: " in told) == bool(expected)
+        message = CliRunner().invoke(command, words).stderr
+        assert re.findall(r"\(\w\)", message) == expected
+        assert ("atlas: figure cusps: Left out at this size: " in message) == bool(expected)
 
 
 def test_a_fault_is_found() -> None:
@@ -80,9 +80,9 @@ def test_a_fault_is_found() -> None:
     for place in (0.5, 0.505):
         figure.text(place, 0.5, "a name")
     figure.text(0.99, 0.5, "off the page")
-    found = " ".join(faults(figure, TARGETS["aps-double"]))
+    complaints = " ".join(faults(figure, TARGETS["aps-double"]))
     for words in ("86.0 mm x", "5.00 pt", "0.20 to", "'a name' covers 'a name'", "'off the page' leaves the page"):
-        assert words in found
+        assert words in complaints
 
 
 def test_capitals_are_two_millimetres_high() -> None:
@@ -113,7 +113,7 @@ def test_figures_too_wide_for_a_column_are_refused(name: str) -> None:
 )
 def test_a_figure_of_many_panels_finds_a_layout(name: str, target: str) -> None:
     """It fits by fewer panels, by those for a narrow screen, or by panels side by side, and is not refused."""
-    assert faults(to_figure(made(name), target=find(target)), find(target)) == []
+    assert faults(to_figure(scene_of(name), target=find(target)), find(target)) == []
 
 
 def test_figures_too_high_for_a_slide_are_refused() -> None:
@@ -191,9 +191,9 @@ def test_figures_too_wide_for_a_column_get_the_page(name: str) -> None:
 @pytest.mark.slow
 def test_files_have_the_size_the_fonts_and_the_resolution(tmp_path: Path) -> None:
     """A PDF of 86 mm with TrueType fonts alone; a PNG of 600 dots an inch without alpha, with its words; PGF too."""
-    (made,) = build_figures(["hyperbola"], ["pdf", "png", "pgf"], tmp_path, target="aps")
-    assert [file.name for file in made.files] == ["hyperbola-aps.pdf", "hyperbola-aps.png", "hyperbola-aps.pgf"]
-    pdf, png, _ = made.files
+    (build,) = build_figures(["hyperbola"], ["pdf", "png", "pgf"], tmp_path, target="aps")
+    assert [file.name for file in build.files] == ["hyperbola-aps.pdf", "hyperbola-aps.png", "hyperbola-aps.pgf"]
+    pdf, png, _ = build.files
     (page,) = PdfReader(pdf).pages
     assert float(page.mediabox.width) == pytest.approx(86.0 * MILLIMETRE, abs=0.01)
     fonts = [font.get_object() for font in page["/Resources"]["/Font"].values()]
@@ -262,5 +262,8 @@ def test_the_guide_lists_the_sizes_of_each_target() -> None:
     assert data.rows[0][1:] == ("86", "215", "8.6", "0.52", "600")
     assert len(data.columns) == len(data.rows[0])
     notes = " ".join(data.notes)
-    assert all(one.asks in notes and one.source in notes for one in TARGETS.values())
-    assert [name for name, one in TARGETS.items() if not one.source.startswith("https://")] == ["beamer", "poster"]
+    assert all(medium.asks in notes and medium.source in notes for medium in TARGETS.values())
+    assert [name for name, medium in TARGETS.items() if not medium.source.startswith("https://")] == [
+        "beamer",
+        "poster",
+    ]

@@ -48,15 +48,15 @@ def test_the_remainder_of_a_sum_is_within_its_bound(name: str, oblique: bool, fo
         many = SUMS[name](lattice)
         for low, high in zip(few, many, strict=True):
             n = len(low.odd)
-            first, growth = low.frequency(n), lattice.reach
-            rest, slope = arb(0), arb(0)
+            frequency, growth = low.frequency(n), lattice.reach
+            remainder, slope = arb(0), arb(0)
             for m, a, b in zip(count(n), high.odd[n:], high.even[n:], strict=False):
                 k = high.frequency(m)
-                size = (abs(a) + abs(b)) * ((k - first) * growth).exp()
-                rest, slope = rest + size, slope + k * size
+                size = (abs(a) + abs(b)) * ((k - frequency) * growth).exp()
+                remainder, slope = remainder + size, slope + k * size
             assert len(high.odd) > n
-            assert 0 < rest < low.bound
-            assert slope < 2 * first * low.bound
+            assert 0 < remainder < low.bound
+            assert slope < 2 * frequency * low.bound
 
 
 @pytest.mark.parametrize(
@@ -78,6 +78,6 @@ def test_next_to_a_separatrix_sums_go_on_until_their_terms_fall(name: str, terms
         many = (SUMS | SLOW)[name](lattice)
     for low, high in zip(few, many, strict=True):
         count = len(low.odd)
-        rest = sum((abs(a) + abs(b) for a, b in zip(high.odd[count:], high.even[count:], strict=True)), arb(0))
+        remainder = sum((abs(a) + abs(b) for a, b in zip(high.odd[count:], high.even[count:], strict=True)), arb(0))
         assert terms <= count <= 1.05 * terms
-        assert rest < low.bound
+        assert remainder < low.bound

@@ -51,39 +51,39 @@ CALLS: dict[str, Callable[[Any], Any]] = {
 """Methods that are called with arguments."""
 
 
-def calls(thing: Any, *, slow: bool) -> dict[str, Callable[[Any], Any]]:
+def calls(subject: Any, *, slow: bool) -> dict[str, Callable[[Any], Any]]:
     """Return the calls that an object takes, and its properties."""
-    kind = type(thing)
-    found = {name: CALLS[name] for name in (QUICK if slow else CALLS) if hasattr(kind, name)}
+    kind = type(subject)
+    calls_made = {name: CALLS[name] for name in (QUICK if slow else CALLS) if hasattr(kind, name)}
     if not slow:
         names = [name for name in dir(kind) if name[0] != "_" and not callable(getattr(kind, name))]
-        found |= {
+        calls_made |= {
             name: lambda x, name=name: getattr(x, name)  # type: ignore[misc]
             for name in names
             if hasattr(getattr(kind, name), "__get__")
         }
-    return found
+    return calls_made
 
 
-def answered(call: Callable[[Any], Any], thing: Any) -> str:
+def answered(call: Callable[[Any], Any], subject: Any) -> str:
     """Return all digits of what a call gives, or its error."""
     try:
-        found = call(thing)
+        answer = call(subject)
     except (atlas.AtlasError, TypeError) as error:  # no line in closed form, no such input
         return f"{type(error).__name__}: {error}"
-    plain = found.tolist() if isinstance(found, np.ndarray) else found
+    plain = answer.tolist() if isinstance(answer, np.ndarray) else answer
     with np.printoptions(precision=17, floatmode="unique", threshold=10**6):  # each thread has options of its own
         text = repr(plain)
     return "" if " object at " in text else text
 
 
-def alone(name: str) -> dict[str, str]:
+def answers_alone(name: str) -> dict[str, str]:
     """Return what each call gives as the first of a new object."""
-    found = {}
+    answers = {}
     for key, call in calls(FRESH[name](), slow=name == SLOW).items():
         forget()
-        found[key] = answered(call, FRESH[name]())
-    return found
+        answers[key] = answered(call, FRESH[name]())
+    return answers
 
 
 @pytest.fixture
@@ -100,34 +100,34 @@ def _restless() -> Iterator[None]:
 @pytest.mark.usefixtures("_restless")
 def test_threads_that_share_a_new_object_get_the_serial_results(name: str) -> None:
     """Six threads, each with other first calls, and all calls afterwards, bit for bit."""
-    made, expected, random = calls(FRESH[name](), slow=name == SLOW), alone(name), Random(53)  # noqa: S311  no secret
+    calls_made, expected, random = calls(FRESH[name](), slow=name == SLOW), answers_alone(name), Random(53)  # noqa: S311  no secret
     for _ in range(2 if name == SLOW else 12):
         forget()
-        thing, barrier = FRESH[name](), Barrier(6)
-        orders = [random.sample(sorted(made), min(4, len(made))) for _ in range(6)]
+        subject, barrier = FRESH[name](), Barrier(6)
+        orders = [random.sample(sorted(calls_made), min(4, len(calls_made))) for _ in range(6)]
 
-        def ask(order: list[str], thing: Any = thing, barrier: Barrier = barrier) -> list[tuple[str, str]]:
+        def ask(order: list[str], subject: Any = subject, barrier: Barrier = barrier) -> list[tuple[str, str]]:
             barrier.wait()
-            return [(key, answered(made[key], thing)) for key in order]
+            return [(key, answered(calls_made[key], subject)) for key in order]
 
         with ThreadPoolExecutor(6) as pool:
-            found = [pair for pairs in pool.map(ask, orders) for pair in pairs]
-        found += [(key, answered(call, thing)) for key, call in made.items()]
-        assert [pair for pair in found if pair[1] != expected[pair[0]]] == []
+            answers = [pair for pairs in pool.map(ask, orders) for pair in pairs]
+        answers += [(key, answered(call, subject)) for key, call in calls_made.items()]
+        assert [pair for pair in answers if pair[1] != expected[pair[0]]] == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FRESH)
 def test_values_do_not_depend_on_the_precision_that_flint_has(name: str) -> None:
     """Which is another thread's, or the caller's own: of 24 digits nothing is seen."""
-    expected = alone(name)
+    expected = answers_alone(name)
     with workprec(24):
-        assert alone(name) == expected
+        assert answers_alone(name) == expected
 
 
 def test_the_value_of_a_parent_does_not_stand_for_that_of_its_subclass() -> None:
     """While a subclass makes its value from its parent's, another thread makes its own, and gets the subclass's."""
-    seen, inside, go_on = list[int](), Event(), Event()
+    values, inside, go_on = list[int](), Event(), Event()
 
     class Parent:
         @cached_property
@@ -143,16 +143,16 @@ def test_the_value_of_a_parent_does_not_stand_for_that_of_its_subclass() -> None
             return parent + 1
 
     child = Child()
-    first = Thread(target=lambda: seen.append(child.value))
-    first.start()
+    thread = Thread(target=lambda: values.append(child.value))
+    thread.start()
     inside.wait()
     assert "value" not in vars(child)
-    second = Thread(target=lambda: seen.append(child.value))
+    second = Thread(target=lambda: values.append(child.value))
     second.start()
     go_on.set()
-    first.join()
+    thread.join()
     second.join()
-    assert [*seen, child.value] == [2, 2, 2]
+    assert [*values, child.value] == [2, 2, 2]
 
 
 def test_all_threads_get_the_value_that_was_stored_first() -> None:
@@ -166,26 +166,26 @@ def test_all_threads_get_the_value_that_was_stored_first() -> None:
             self.barrier.wait()
             return []
 
-    thing = Thing()
+    subject = Thing()
     with ThreadPoolExecutor(2) as pool:
-        first, second = pool.map(lambda _: thing.value, range(2))
-    assert first is second is thing.value
+        first, second = pool.map(lambda _: subject.value, range(2))
+    assert first is second is subject.value
 
 
 def test_a_motion_is_made_while_another_thread_holds_the_precision() -> None:
     """What is lazily made waits for the precision, and who has the precision does not wait for it."""
     inside = Event()
 
-    def other() -> None:
+    def hold() -> None:
         inside.wait()
         GeneralMotion(1.5, (1, 2), OMEGA)
 
-    def made() -> list[Any]:
+    def make() -> list[Any]:
         inside.set()
         time.sleep(0.2)  # in which the other thread comes to where it waits
         return [GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.1)).quartic.low]
 
-    threads = [Thread(target=other, daemon=True), Thread(target=lambda: enclosed(made, 64), daemon=True)]
+    threads = [Thread(target=hold, daemon=True), Thread(target=lambda: enclosed(make, 64), daemon=True)]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -30,11 +30,11 @@ DATA = [0.5, 1.0, 1.25], [0.5, 0.75, 0.5], [0.25, 0.5, 0.25]
 def small(source: str) -> str:
     """Return the file of the report with the section of the family alone, without figures."""
     head, text = source.rsplit("+++\n", 1)
-    first, *pages = re.split(r"(?m)^(?=# )", text)
+    head_text, *pages = re.split(r"(?m)^(?=# )", text)
     (kept,) = (page for page in pages if 'slug = "family"' in page)
     kept = re.sub(r"(?s)```\{figure\}\n.*?```\n", "", kept.replace('"family"', '"index"', 1))
     kept = kept.replace("@fig:family", "a figure")
-    return f"{head}+++\n{first}{kept}\nHere $v=$ @cell:family-4-2, as @clebsch1871.\n\n```{{bibliography}}\n```\n"
+    return f"{head}+++\n{head_text}{kept}\nHere $v=$ @cell:family-4-2, as @clebsch1871.\n\n```{{bibliography}}\n```\n"
 
 
 def test_the_letter_is_about_one_body() -> None:
@@ -57,14 +57,16 @@ def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, t
     text = small(source.read_text("utf-8")).replace("1.25]", f"{moment}]")
     (tmp_path / "letter.md").write_text(text, encoding="utf-8")
     (tmp_path / "references.bib").write_bytes((source.parent / "references.bib").read_bytes())
-    made = build_tex(tmp_path / "letter.md", tmp_path / "out").parent
-    numbers = dict(re.findall(r"\\atlasnumber\{([^}]+)\}\{\d+\}\{([^}]+)\}", (made / "atlas-numbers.tex").read_text()))
+    folder = build_tex(tmp_path / "letter.md", tmp_path / "out").parent
+    numbers = dict(
+        re.findall(r"\\atlasnumber\{([^}]+)\}\{\d+\}\{([^}]+)\}", (folder / "atlas-numbers.tex").read_text())
+    )
     motion = EllipticMotion((0.5, 1.0, moment), DATA[1], -0.75, 1)
     true = certified(lambda: {"v": motion.v, "T": motion.period}, 20)
     for name in ("v", "T"):
         value = Decimal(numbers[f"family/4/{name}"])
         assert abs(value - Decimal(true[name])) <= Decimal(1).scaleb(int(value.as_tuple().exponent))
-    paper, works = (made / "paper.tex").read_text("utf-8"), (made / "references.bib").read_text("utf-8")
+    paper, works = (folder / "paper.tex").read_text("utf-8"), (folder / "references.bib").read_text("utf-8")
     assert r"Here \(v=\) \atlas{family/4/v}, as \citet{clebsch1871}." in paper
     assert "title   = {{Ueber die Bewegung eines Körpers in einer Flüssigkeit}}," in works
     assert "archivePrefix = {arXiv}" in works
@@ -90,8 +92,8 @@ def test_the_rows_of_the_family_agree_with_the_formulas_of_the_letter() -> None:
         modulus = (e[1] - e[0]) * (e[2] * square - twice) / rate**2
         C = np.sum(np.square(B) / x * (x * (x.sum() - x) - x.prod() / x) ** 2)
         true = [z, v, *((E - 1) * B), C / D**2, 4 * ellipk(modulus) / rate]
-        found = [float(cell.digits) for cell in row if isinstance(cell, Number)]
-        assert np.abs(np.array(found[:-1]) - true).max() <= 1e-9
+        numbers_found = [float(cell.digits) for cell in row if isinstance(cell, Number)]
+        assert np.abs(np.array(numbers_found[:-1]) - true).max() <= 1e-9
         assert row[-1] == ("stable" if C > 0 else "unstable")
 
 
@@ -99,17 +101,17 @@ def test_the_rows_of_the_family_agree_with_the_formulas_of_the_letter() -> None:
 def test_the_tables_of_the_letter_are_proven_to_the_last_digit() -> None:
     """The motion at t = 2 has the digits of balls; pairs of times found in another way are sums of these."""
     inertia, field, omega = DATA
-    asked = {"inertia": inertia, "field": field, "omega": omega}
-    (row,) = compute("asymmetric", Request((), asked | {"times": [2.0]}, 12)).rows
+    inputs = {"inertia": inertia, "field": field, "omega": omega}
+    (row,) = compute("asymmetric", Request((), inputs | {"times": [2.0]}, 12)).rows
     exact = AsymmetricMotion(inertia, field, omega)
     true = certified(lambda: {str(i): x for i, x in enumerate(exact.column(3, 2.0))}, 20)
     for number, value in zip(row[1:4], true.values(), strict=True):
         assert isinstance(number, Number)
         assert number.proven
         assert abs(Decimal(number.digits) - Decimal(value)) <= Decimal(10) ** -12
-    rows = compute("periods", Request((), asked, 8)).rows
-    found = np.array([[float(x.digits) for x in row[1:3] if isinstance(x, Number)] for row in rows])
-    others = np.linalg.solve(
-        found.T, np.array([[float(x.mid()) for x in pair] for pair in real_periods(exact.invariants)]).T
+    rows = compute("periods", Request((), inputs, 8)).rows
+    values = np.array([[float(x.digits) for x in row[1:3] if isinstance(x, Number)] for row in rows])
+    integers = np.linalg.solve(
+        values.T, np.array([[float(x.mid()) for x in pair] for pair in real_periods(exact.invariants)]).T
     )
-    assert np.abs(others - np.round(others)).max() <= 1e-6
+    assert np.abs(integers - np.round(integers)).max() <= 1e-6

@@ -70,8 +70,8 @@ def test_floats_are_within_16_ulp_of_balls_at_any_time(name: str) -> None:
     """Entries of R to 16 ulp of 1, Omega to 16 ulp of the largest rate, up to t = 1e12, backwards too."""
     case = CASES[name]
     times = [0.3, -7.5, 1e3, -1e9, 1e12]
-    found, exact = atlas.TopMotion(*case), Balls(*case)
-    R, Omega = found.rotation(np.array(times)), found.angular_velocity(np.array(times))
+    kernel, exact = atlas.TopMotion(*case), Balls(*case)
+    R, Omega = kernel.rotation(np.array(times)), kernel.angular_velocity(np.array(times))
     rate = max(np.abs(case[3]).max(), abs(case[1][0]), abs(case[1][1]) / case[0][1], 1.0)
     for t, matrix, velocity in zip(times, R, Omega, strict=True):
         with ctx.workprec(300):
@@ -92,9 +92,9 @@ def test_a_slow_nutation_under_a_fast_spin_keeps_its_digits() -> None:
     for top, t, row in zip(tops, times.tolist(), arrays.rotation(times), strict=True):
         with ctx.workprec(1000):
             true = middle(Balls(*top).rotation(t))
-        alone = atlas.TopMotion(*top)
-        found = np.array([row, alone.rotation(t), alone.rotation_grid(t, 1.0, 2)[0]])
-        assert np.abs(found - true).max() <= 16 * EPS
+        motion_alone = atlas.TopMotion(*top)
+        rotations = np.array([row, motion_alone.rotation(t), motion_alone.rotation_grid(t, 1.0, 2)[0]])
+        assert np.abs(rotations - true).max() <= 16 * EPS
 
 
 number = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
@@ -120,11 +120,11 @@ def test_any_top_in_any_unit_is_within_16_ulp(
     assume(any(n))
     s = 2.0**e
     case = (1.0, I3), tuple(x * s for x in k), n, tuple(x * s for x in omega), U[0] * s * s, U[1] * s * s
-    found = atlas.TopMotion(*case).rotation(t / s)
+    R = atlas.TopMotion(*case).rotation(t / s)
     with ctx.workprec(400):
         true = Balls(*case).rotation(t / s)
     assert max(arb(x).rad() for row in true for x in row) < 1e-20
-    assert np.abs(found - middle(true)).max() <= 16 * EPS
+    assert np.abs(R - middle(true)).max() <= 16 * EPS
 
 
 @pytest.mark.parametrize("exponent", [-900, -565, 565])
@@ -154,13 +154,13 @@ def test_a_top_with_one_charge_to_mass_ratio_is_the_general_motion() -> None:
 def test_conserved_quantities_are_constant(name: str) -> None:
     """h, M3 and p, as they come out of Omega and b, are at t = 0, 1 and 1e6 those of the inputs, in any unit of I."""
     inertia, coupling, direction, omega, *potential = CASES[name]
-    parts = [np.multiply(x, 3.0).tolist() for x in (inertia, coupling, potential)]
-    motion = atlas.TopMotion(parts[0], parts[1], direction, omega, *parts[2])
+    scaled_inputs = [np.multiply(x, 3.0).tolist() for x in (inertia, coupling, potential)]
+    motion = atlas.TopMotion(scaled_inputs[0], scaled_inputs[1], direction, omega, *scaled_inputs[2])
     size = max(1.0, *np.abs(omega), *np.abs(potential)) ** 2
-    for (what, values), start in zip(
+    for (quantity, values), start in zip(
         motion.invariants([0.0, 1.0, 1e6]).items(), motion.invariants().values(), strict=True
     ):
-        assert np.abs(values - start).max() <= 64 * EPS * size, what
+        assert np.abs(values - start).max() <= 64 * EPS * size, quantity
 
 
 def test_a_period_brings_nu_back_and_turns_the_body_by_its_angles() -> None:
@@ -190,16 +190,16 @@ def test_an_angle_that_is_zero_is_exactly_zero(inputs: Any, zero: str) -> None:
     assert (many.precession_per_period, many.spin_per_period) == (psi, chi)
     n, e3 = np.array([0, *inputs[2]]) / 5, np.array([0, 0, 1.0])
     assert np.abs(motion.rotation(T) - turn(n, psi) @ turn(e3, chi)).max() <= 64 * EPS
-    along = Balls(*inputs).angular_velocity(1)[2]
-    assert inputs[1][1] or along == arb(inputs[3][2])
+    omega3 = Balls(*inputs).angular_velocity(1)[2]
+    assert inputs[1][1] or omega3 == arb(inputs[3][2])
 
 
 def test_the_cubic_is_the_limit_of_quartics_from_both_sides() -> None:
     """R(50) for A = ±2^-n tends to that for A = 0 as A does."""
-    at = [
+    rotations = [
         atlas.TopMotion(*CASES["A = 0 with coupling"][:5], 1.0 + A).rotation(50.0) for A in (0, 2.0**-30, -(2.0**-30))
     ]
-    above, below = (R - at[0] for R in at[1:])
+    above, below = (R - rotations[0] for R in rotations[1:])
     assert 0 < np.abs(above).max() < 1e-5
     assert np.abs(above + below).max() < 1e-4 * np.abs(above).max()
 
@@ -210,9 +210,9 @@ def test_a_sleeping_top_and_its_separatrix_have_names() -> None:
     assert atlas.TopMotion((1, 1), (0, 0), (0, 1), (0, 0, 1), 4).period == np.inf
     # p = M3 = 1 and h = 1/2 + 4: on the separatrix of the vertical spin, at nu = 3/5
     omega1 = np.sqrt(2 * 4 * (1 - 0.6) - (1 - 0.6) / (1 + 0.6))
-    near = atlas.TopMotion((1, 1), (0, 0), (4, 3), (omega1, 0.5, 1.0), 4)
-    assert near.kind == "nutation, three real roots"
-    assert near.period > 20
+    motion_near = atlas.TopMotion((1, 1), (0, 0), (4, 3), (omega1, 0.5, 1.0), 4)
+    assert motion_near.kind == "nutation, three real roots"
+    assert motion_near.period > 20
     exactly = atlas.TopMotion((1, 1), (0, 0), (1, 0), (0, 2, 0), -2, 0)
     assert exactly.kind == "steady precession" or exactly.period > 0
 
@@ -243,10 +243,10 @@ def test_arrays_of_tops_are_the_tops_one_by_one() -> None:
     times = np.array([0.0, 1.0, 2.5])
     assert tops.rotation(times).shape == (2, 3, 3, 3)
     assert tops.kind.shape == tops.period.shape == (2, 3)
-    one = atlas.TopMotion((1.0, 1.5), (0.5, 0.25), (0.6, 0.8), (0.1, 0.2, 1.0), linear=-1.0)
-    assert np.abs(tops.rotation(times)[1, 2] - one.rotation(2.5)).max() <= 16 * EPS
-    assert tops.period[1, 2] == one.period
-    assert np.abs(tops.angular_velocity(1.0)[1, 2] - one.angular_velocity(1.0)).max() <= 16 * EPS
+    top = atlas.TopMotion((1.0, 1.5), (0.5, 0.25), (0.6, 0.8), (0.1, 0.2, 1.0), linear=-1.0)
+    assert np.abs(tops.rotation(times)[1, 2] - top.rotation(2.5)).max() <= 16 * EPS
+    assert tops.period[1, 2] == top.period
+    assert np.abs(tops.angular_velocity(1.0)[1, 2] - top.angular_velocity(1.0)).max() <= 16 * EPS
 
 
 def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:
@@ -305,12 +305,14 @@ def test_a_coat_of_charge_is_no_ball_and_point_charges_are_summed() -> None:
     points = 1.5 * np.stack([np.cos(angles), np.sin(angles), 0 * angles], -1)
     beads = atlas.ChargeMoments.points(np.full(8, 0.25), points)
     assert pytest.approx((ring.J2, ring.J3)) == (beads.J2, beads.J3)
-    both = ring + atlas.ChargeMoments.shape("sphere", charge=-1.0, radius=1.0)
-    assert pytest.approx((ring.J2 - 0.4, ring.J3 - 0.4)) == (both.J2, both.J3)
+    charges = ring + atlas.ChargeMoments.shape("sphere", charge=-1.0, radius=1.0)
+    assert pytest.approx((ring.J2 - 0.4, ring.J3 - 0.4)) == (charges.J2, charges.J3)
     sphere = atlas.SymmetricBody.sphere(1.0, 1.0)
-    top = atlas.TopMotion.charged(sphere, both, (1.0, 1.0), (0, 0, 1), c=2.0, moment=0.5, polarizability=(0.25, 0.75))
+    top = atlas.TopMotion.charged(
+        sphere, charges, (1.0, 1.0), (0, 0, 1), c=2.0, moment=0.5, polarizability=(0.25, 0.75)
+    )
     B = np.sqrt(2)
-    assert top.coupling == pytest.approx((both.J2 * B / 4, both.J3 * B / 4))
+    assert top.coupling == pytest.approx((charges.J2 * B / 4, charges.J3 * B / 4))
     assert (top.linear, top.quadratic) == pytest.approx((-0.5 * B, -1.0))
 
 
@@ -373,33 +375,33 @@ def test_a_body_held_at_a_point_turns_under_its_weight_and_the_forces_on_its_cha
         return np.concatenate([np.linalg.solve(inertia, torque), (R @ np.cross(np.eye(3), Omega)).ravel()])
 
     start = np.concatenate([omega, np.eye(3).ravel()])
-    found = solve_ivp(rates, (0, 4), start, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+    solution = solve_ivp(rates, (0, 4), start, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
     weight = -g * (masses @ places[:, 2]) * B[1:] / np.linalg.norm(B)
     moments = atlas.ChargeMoments.points(charges, places, held=True)
     body = atlas.SymmetricBody(inertia[0, 0], inertia[2, 2])
     top = atlas.TopMotion.charged(body, moments, B[1:], omega, weight=weight)
-    np.testing.assert_allclose(top.angular_velocity(4.0), found[:3], rtol=0, atol=1e-9)
-    np.testing.assert_allclose(top.rotation(4.0), found[3:].reshape(3, 3), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(top.angular_velocity(4.0), solution[:3], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(top.rotation(4.0), solution[3:].reshape(3, 3), rtol=0, atol=1e-9)
 
 
 def test_the_susceptibility_of_an_ellipsoid_is_its_polarizability() -> None:
     """V chi/(mu0 (1 + chi N)) along and across, the same in both systems of units."""
-    chi, V, along, mu0 = 0.7, 2.0, 0.1, 4e-7 * np.pi
-    a2, a3 = (V * chi / (mu0 * (1 + chi * N)) for N in ((1 - along) / 2, along))
-    shape = {"volume": V, "demagnetization": along, "susceptibility": chi}
-    found = charged(**shape, units="SI").quadratic  # type: ignore[attr-defined]
-    assert found == pytest.approx(-(a3 - a2) * 5.0, rel=1e-9)
+    chi, V, N_along, mu0 = 0.7, 2.0, 0.1, 4e-7 * np.pi
+    a2, a3 = (V * chi / (mu0 * (1 + chi * N)) for N in ((1 - N_along) / 2, N_along))
+    shape = {"volume": V, "demagnetization": N_along, "susceptibility": chi}
+    coefficient = charged(**shape, units="SI").quadratic  # type: ignore[attr-defined]
+    assert coefficient == pytest.approx(-(a3 - a2) * 5.0, rel=1e-9)
     gaussian = charged(
-        units="Gaussian", field=(1e4, 2e4), susceptibility=chi / (4 * np.pi), volume=V * 1e6, demagnetization=along
+        units="Gaussian", field=(1e4, 2e4), susceptibility=chi / (4 * np.pi), volume=V * 1e6, demagnetization=N_along
     )
-    assert gaussian.quadratic == pytest.approx(found * 1e7, rel=1e-8)  # type: ignore[attr-defined]  # erg
+    assert gaussian.quadratic == pytest.approx(coefficient * 1e7, rel=1e-8)  # type: ignore[attr-defined]  # erg
 
 
 @pytest.mark.slow
 def test_random_and_extreme_tops_move_as_the_equations_say() -> None:
     """By DOP853 at three times, to 1e-11, 16 ordinary tops and 6 hard ones; `tests/tops.py` draws 1300."""
     random = Random(7)  # noqa: S311  reproducible, not secret
-    for name in [ORDINARY] * 15 + [other for other in TOPS if other != SCALES]:
+    for name in [ORDINARY] * 15 + [regime for regime in TOPS if regime != SCALES]:
         top = TOPS[name](random)
         times = np.array([0.5, 2.0, 6.0]) / rate_of(top)
         case = top.inertia, top.coupling, top.direction, top.omega, top.linear, top.quadratic

@@ -36,12 +36,12 @@ def test_at_the_values_of_the_papers_body_it_is_the_papers_quadric(ratio: int, m
     np.testing.assert_array_equal(top.axes, paper.axes)
     np.testing.assert_array_equal(top.centre, paper.centre)
     assert top.residual((w2, 1.0, 2.0)) == pytest.approx(paper.residual((w2, 1.0, 2.0)) / b, rel=4e-16, abs=0)
-    curve, found = atlas.Hyperbola(I, B), atlas.Hyperbola.of_top((1.0, I), (b, I * b), B)
+    curve, curve_of_top = atlas.Hyperbola(I, B), atlas.Hyperbola.of_top((1.0, I), (b, I * b), B)
     assume(w2 + B[0] != 0)
-    assert found.pole == curve.pole
-    assert found.omega3(w2) == curve.omega3(w2)
-    assert found.frequencies(w2) == curve.frequencies(w2)
-    assert found.stability(w2) == curve.stability(w2)
+    assert curve_of_top.pole == curve.pole
+    assert curve_of_top.omega3(w2) == curve.omega3(w2)
+    assert curve_of_top.frequencies(w2) == curve.frequencies(w2)
+    assert curve_of_top.stability(w2) == curve.stability(w2)
 
 
 def test_the_unstable_bands_agree_with_the_papers_body() -> None:
@@ -51,9 +51,9 @@ def test_the_unstable_bands_agree_with_the_papers_body() -> None:
     band = atlas.Hyperbola(I, B).unstable_band
     assert band is not None
     low, high = np.sqrt(band) * B[0]
-    (first, second), (third, fourth) = atlas.Hyperbola.of_top((1.0, I), (b, I * b), B).unstable_bands
-    found = np.array([first, second, third, fourth]) + B[0]
-    np.testing.assert_allclose(found, [-high, -low, low, high], rtol=0, atol=4 * 2.0**-52 * B[0])
+    (edge1, second), (third, fourth) = atlas.Hyperbola.of_top((1.0, I), (b, I * b), B).unstable_bands
+    edges = np.array([edge1, second, third, fourth]) + B[0]
+    np.testing.assert_allclose(edges, [-high, -low, low, high], rtol=0, atol=4 * 2.0**-52 * B[0])
 
 
 @pytest.mark.parametrize(("n3", "kind"), [(0.8, "two-sheet hyperboloid"), (-0.8, "one-sheet hyperboloid")])
@@ -68,12 +68,12 @@ def test_lagranges_top_has_two_sheets_while_it_stands_and_one_while_it_hangs(n3:
 def test_the_kind_is_decided_exactly_next_to_the_cone() -> None:
     """D = A0 + a0/n3 one ulp on either side of zero; and for n = (1, 1) it is never zero, with the right sign."""
     above, below = np.nextafter(-5.0, 0), np.nextafter(-5.0, -6)
-    found = atlas.Quadric.of_top((1.0, 0.7), (0, 0), (3.0, 4.0), 4.0, np.array([above, -5.0, below])).kind
-    assert found.tolist() == ["two-sheet hyperboloid", "cone", "one-sheet hyperboloid"]
-    for near in (2.0**0.5, np.nextafter(2.0**0.5, 0), np.nextafter(2.0**0.5, 2)):
+    kinds = atlas.Quadric.of_top((1.0, 0.7), (0, 0), (3.0, 4.0), 4.0, np.array([above, -5.0, below])).kind
+    assert kinds.tolist() == ["two-sheet hyperboloid", "cone", "one-sheet hyperboloid"]
+    for value in (2.0**0.5, np.nextafter(2.0**0.5, 0), np.nextafter(2.0**0.5, 2)):
         with mpmath.workdps(60):
-            larger = mpmath.sqrt(2) > mpmath.mpf(float(near))
-        kind = atlas.Quadric.of_top((1.0, 0.7), (0, 0), (1.0, 1.0), 1.0, -near).kind
+            larger = mpmath.sqrt(2) > mpmath.mpf(float(value))
+        kind = atlas.Quadric.of_top((1.0, 0.7), (0, 0), (1.0, 1.0), 1.0, -value).kind
         assert kind == ("two-sheet hyperboloid" if larger else "one-sheet hyperboloid")
 
 
@@ -90,21 +90,23 @@ def test_degenerate_kinds_have_their_names() -> None:
 @pytest.mark.parametrize("name", TOPS)
 def test_kernel_and_balls_agree_on_every_number_of_the_quadric(name: str) -> None:
     """The kinds are the same, and each number is within rounding of its ball, at any point of space too."""
-    found, omega = atlas.Quadric.of_top(*TOPS[name]), (0.25, -1.5, 2.0)
+    quadric, omega = atlas.Quadric.of_top(*TOPS[name]), (0.25, -1.5, 2.0)
     with ctx.workprec(200):
         true = Surfaces(*TOPS[name])
-        assert found.kind == true.kind
-        for what in ("a2", "a3", "D", "semi_axes", "centre", "axes"):
-            assert np.allclose(getattr(found, what), floats(getattr(true, what)), rtol=1e-14, atol=1e-14), what
-        for what in ("canonical", "residual"):
-            value, exact = getattr(found, what)(omega), floats(getattr(true, what)(omega))
-            assert np.allclose(value, exact, rtol=1e-14, atol=1e-14), what
+        assert quadric.kind == true.kind
+        for quantity in ("a2", "a3", "D", "semi_axes", "centre", "axes"):
+            assert np.allclose(getattr(quadric, quantity), floats(getattr(true, quantity)), rtol=1e-14, atol=1e-14), (
+                quantity
+            )
+        for quantity in ("canonical", "residual"):
+            value, exact = getattr(quadric, quantity)(omega), floats(getattr(true, quantity)(omega))
+            assert np.allclose(value, exact, rtol=1e-14, atol=1e-14), quantity
 
 
 def floats(value: object) -> np.ndarray:
     """Return nested rationals and balls as floats."""
-    parts = value if isinstance(value, list | tuple) else None
-    return np.array(float(value) if parts is None else [floats(one) for one in parts])  # type: ignore[arg-type]
+    entries = value if isinstance(value, list | tuple) else None
+    return np.array(float(value) if entries is None else [floats(entry) for entry in entries])  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", TOPS)
@@ -117,8 +119,8 @@ def test_the_residual_is_the_second_rate_of_nu_by_the_equations(name: str) -> No
     with mpmath.workdps(40):
         nu1, nu2 = (sum(mpmath.mpf(n[i]) * R[i, 2] for i in range(3)) for R in (R1, R2))
         second = float((nu2 - 2 * nu1 + mpmath.mpf(n[2])) / mpmath.mpf(step) ** 2)
-    found = atlas.Quadric.of_top(inertia, coupling, direction, *potential).residual(omega)
-    assert found == pytest.approx(-second, rel=1e-6)
+    residual = atlas.Quadric.of_top(inertia, coupling, direction, *potential).residual(omega)
+    assert residual == pytest.approx(-second, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", TOPS)
@@ -150,8 +152,8 @@ def test_small_nutations_have_the_frequency_of_the_theorem(name: str) -> None:
         omega = (push, *curve.motion(omega2).omega[1:])
         n2, n3 = np.array(direction) / np.hypot(*direction)
         f = np.sqrt(complex(square))
-        moved = integrated((inertia, coupling, direction, omega, *potential), [1.0])[0] - n3
-        assert moved == pytest.approx(float((-n2 * push * np.sin(f) / f).real), rel=1e-4, abs=1e-11)
+        rise = integrated((inertia, coupling, direction, omega, *potential), [1.0])[0] - n3
+        assert rise == pytest.approx(float((-n2 * push * np.sin(f) / f).real), rel=1e-4, abs=1e-11)
 
 
 def test_the_ends_of_a_band_are_where_stability_changes_and_belong_to_it() -> None:
@@ -191,14 +193,14 @@ def test_arrays_have_the_bits_of_single_tops(
 ) -> None:
     """Centre, D, semi-axes and residual of an array of one top and a fixed one, and the hyperbola's numbers."""
     assume(all(abs(x) > 1e-3 for x in direction))
-    both = [np.array([x, y]) for x, y in zip((*coupling, *direction, *potential), (1.0, 2, 3, 4, 5, 6), strict=True)]
-    many = atlas.Quadric.of_top((1.0, 0.5), both[:2], both[2:4], *both[4:])
-    one = atlas.Quadric.of_top((1.0, 0.5), coupling, direction, *potential)
-    assert many.kind[0] == one.kind
-    assert many.D[0] == one.D
-    np.testing.assert_array_equal(many.semi_axes[0], one.semi_axes)
-    np.testing.assert_array_equal(many.centre[0], one.centre)
-    assert many.residual((w2, 1.0, 2.0))[0] == one.residual((w2, 1.0, 2.0))
+    columns = [np.array([x, y]) for x, y in zip((*coupling, *direction, *potential), (1.0, 2, 3, 4, 5, 6), strict=True)]
+    many = atlas.Quadric.of_top((1.0, 0.5), columns[:2], columns[2:4], *columns[4:])
+    quadric = atlas.Quadric.of_top((1.0, 0.5), coupling, direction, *potential)
+    assert many.kind[0] == quadric.kind
+    assert many.D[0] == quadric.D
+    np.testing.assert_array_equal(many.semi_axes[0], quadric.semi_axes)
+    np.testing.assert_array_equal(many.centre[0], quadric.centre)
+    assert many.residual((w2, 1.0, 2.0))[0] == quadric.residual((w2, 1.0, 2.0))
     curve = atlas.Hyperbola.of_top((1.0, 0.5), coupling, direction, *potential)
     assume(w2 != curve.pole)
     assert curve.stability(np.array([w2, 9.0]))[0] == curve.stability(w2)

@@ -21,18 +21,18 @@ def every_array_by_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(NutatingMotion, "_min_array_scalars", 1)
 
 
-def drawn(name: str, count: int, seed: int = 3) -> list[Top]:
+def draw_tops(name: str, count: int, seed: int = 3) -> list[Top]:
     """Return tops of a regime: a third of them without coupling, a third with k3 = I k2, so that kappa is zero."""
-    random, found = Random(seed), list[Top]()  # noqa: S311  reproducible, not secret
-    while len(found) < count:
+    random, tops_drawn = Random(seed), list[Top]()  # noqa: S311  reproducible, not secret
+    while len(tops_drawn) < count:
         top = TOPS[name](random)
-        if len(found) % 3:
-            across = top.coupling[0] * (len(found) % 3 - 1)
-            top = top._replace(coupling=(across, across * top.inertia[1]))
-            if top.coupling[1] != across * top.inertia[1] or not (across or not top.coupling[1]):
+        if len(tops_drawn) % 3:
+            k2 = top.coupling[0] * (len(tops_drawn) % 3 - 1)
+            top = top._replace(coupling=(k2, k2 * top.inertia[1]))
+            if top.coupling[1] != k2 * top.inertia[1] or not (k2 or not top.coupling[1]):
                 continue
-        found.append(top)
-    return found
+        tops_drawn.append(top)
+    return tops_drawn
 
 
 def arrayed(tops: list[Top]) -> atlas.TopMotion:
@@ -42,25 +42,28 @@ def arrayed(tops: list[Top]) -> atlas.TopMotion:
     return atlas.TopMotion(tuple(x[0:2]), tuple(x[2:4]), tuple(x[4:6]), tuple(x[6:9]), *x[9:])
 
 
-def evaluated(motion: atlas.TopMotion, times: Any, what: str) -> tuple[Any, Any]:
+def evaluated(motion: atlas.TopMotion, times: Any, quantity: str) -> tuple[Any, Any]:
     """Return what rows give of R, Omega or b, and which rows have to be made alone."""
-    rows, out = motion._rows.at(slice(None), times), np.empty((len(times), *((3, 3) if what == "rotation" else (3,))))
+    rows, out = (
+        motion._rows.at(slice(None), times),
+        np.empty((len(times), *((3, 3) if quantity == "rotation" else (3,)))),
+    )
     with np.errstate(all="ignore"):
-        getattr(rows, what)(times, out)
+        getattr(rows, quantity)(times, out)
     return out, rows.extreme
 
 
 @pytest.mark.parametrize("name", TOPS)
 def test_rows_are_within_16_ulp_of_single_tops(name: str) -> None:
     """R and b to 16 ulp of 1, Omega to 16 ulp of the largest rate, where a row is not left to be made alone."""
-    tops = drawn(name, 16)
+    tops = draw_tops(name, 16)
     motion, rates = arrayed(tops), np.array([rate_of(top) for top in tops])
     times = np.tile([1.0, 10.0, 1e6, -3.0], 4) / rates
-    for what, unit in (("rotation", 1.0), ("angular_velocity", rates), ("field_in_body", 1.0)):
-        found, extreme = evaluated(motion, times, what)
+    for quantity, unit in (("rotation", 1.0), ("angular_velocity", rates), ("field_in_body", 1.0)):
+        values, extreme = evaluated(motion, times, quantity)
         for i in set(range(len(tops))) - set(extreme.tolist()):
-            alone = getattr(atlas.TopMotion(*tops[i]), what)(times[i])
-            assert np.abs(found[i] - alone).max() <= 16 * EPS * (unit if np.ndim(unit) == 0 else rates[i])
+            value = getattr(atlas.TopMotion(*tops[i]), quantity)(times[i])
+            assert np.abs(values[i] - value).max() <= 16 * EPS * (unit if np.ndim(unit) == 0 else rates[i])
 
 
 @pytest.mark.parametrize("couplings", [None, (0.0, 0.0)])
@@ -70,42 +73,42 @@ def test_most_ordinary_tops_are_made_in_arrays(couplings: tuple[float, float] | 
     tops = [TOPS["top, ordinary"](random) for _ in range(200)]
     tops = [top._replace(coupling=couplings, linear=2.0) if couplings else top for top in tops]
     times = np.array([3.0 / rate_of(top) for top in tops])
-    for what in ("rotation", "angular_velocity"):
-        _, extreme = evaluated(arrayed(tops), times, what)
+    for quantity in ("rotation", "angular_velocity"):
+        _, extreme = evaluated(arrayed(tops), times, quantity)
         assert len(extreme) <= 4
 
 
 @pytest.mark.slow
 def test_a_row_does_not_depend_on_other_rows() -> None:
     """The bits of R and Omega in the whole array, in its halves and in reverse are the same."""
-    tops = [top for name in ("top, ordinary", "top, near the cubic", "top, sleeping") for top in drawn(name, 12)]
+    tops = [top for name in ("top, ordinary", "top, near the cubic", "top, sleeping") for top in draw_tops(name, 12)]
     times = np.linspace(0.5, 9.0, len(tops))
-    for what in ("rotation", "angular_velocity"):
-        whole = getattr(arrayed(tops), what)(times)
-        halves = [getattr(arrayed(tops[i::2]), what)(times[i::2]) for i in (0, 1)]
-        np.testing.assert_array_equal(whole[0::2], halves[0])
-        np.testing.assert_array_equal(whole[1::2], halves[1])
-        np.testing.assert_array_equal(whole[::-1], getattr(arrayed(tops[::-1]), what)(times[::-1]))
+    for quantity in ("rotation", "angular_velocity"):
+        values = getattr(arrayed(tops), quantity)(times)
+        halves = [getattr(arrayed(tops[i::2]), quantity)(times[i::2]) for i in (0, 1)]
+        np.testing.assert_array_equal(values[0::2], halves[0])
+        np.testing.assert_array_equal(values[1::2], halves[1])
+        np.testing.assert_array_equal(values[::-1], getattr(arrayed(tops[::-1]), quantity)(times[::-1]))
 
 
 def test_rows_move_as_the_equations_say() -> None:
     """Nu by DOP853 for heavy tops and charged ones with k3 = I k2, some of whose A is zero or nearly so."""
-    tops = drawn("top, ordinary", 6) + drawn("top, near the cubic", 6)
+    tops = draw_tops("top, ordinary", 6) + draw_tops("top, near the cubic", 6)
     times = np.array([3.0 / rate_of(top) for top in tops])
     nu = arrayed(tops).field_in_body(times)[:, 2]
-    for top, t, found in zip(tops, times, nu, strict=True):
+    for top, t, cosine in zip(tops, times, nu, strict=True):
         case = top.inertia, top.coupling, top.direction, top.omega, top.linear, top.quadratic
-        assert found == pytest.approx(integrated(case, [t])[0], abs=1e-11)
+        assert cosine == pytest.approx(integrated(case, [t])[0], abs=1e-11)
 
 
 def test_tops_beyond_the_rows_are_evaluated_singly_and_once() -> None:
     """A top next to a separatrix beside an ordinary one: the bits of the top by itself."""
-    near = Top((1.0, 0.5), (0.0, 0.0), (0.0, 1.0), (1e-9, 0.0, 1.0), 3.0, 0.0)
-    motion = arrayed([near, drawn("top, ordinary", 1)[0]])
+    top_near = Top((1.0, 0.5), (0.0, 0.0), (0.0, 1.0), (1e-9, 0.0, 1.0), 3.0, 0.0)
+    motion = arrayed([top_near, draw_tops("top, ordinary", 1)[0]])
     assert 0 in evaluated(motion, np.full(2, 2.5), "rotation")[1]
-    alone = atlas.TopMotion(*near)
-    np.testing.assert_array_equal(motion.rotation(2.5)[0], alone.rotation(2.5))
-    np.testing.assert_array_equal(motion.angular_velocity(2.5)[0], alone.angular_velocity(2.5))
+    motion_alone = atlas.TopMotion(*top_near)
+    np.testing.assert_array_equal(motion.rotation(2.5)[0], motion_alone.rotation(2.5))
+    np.testing.assert_array_equal(motion.angular_velocity(2.5)[0], motion_alone.angular_velocity(2.5))
     assert motion._single(0) is motion._single(0)
 
 
@@ -117,10 +120,10 @@ def test_the_turn_about_the_axis_joins_where_the_quartic_becomes_a_cubic() -> No
         for A in (0.0, *small, -4.0, -6.0, -8.0)
     ]
     times = np.linspace(1.0, 20.0, len(tops))
-    found, extreme = evaluated(arrayed(tops), times, "rotation")
+    rotations, extreme = evaluated(arrayed(tops), times, "rotation")
     assert not len(extreme)
     for i, top in enumerate(tops):
-        assert np.abs(found[i] - atlas.TopMotion(*top).rotation(times[i])).max() <= 16 * EPS
+        assert np.abs(rotations[i] - atlas.TopMotion(*top).rotation(times[i])).max() <= 16 * EPS
 
 
 @pytest.mark.slow
@@ -148,8 +151,8 @@ def test_where_the_sums_are_cut_the_angle_of_spin_is_not_of_an_array() -> None:
     random = Random(7)  # noqa: S311  reproducible, not secret
     tops = [TOPS["top, axis near the vertical"](random) for _ in range(37)]
     tops = [tops[18], tops[36]]
-    known = [block.swing.w_error for block in arrayed(tops)._scalars.blocks]
-    assert not np.isfinite(known).any()
+    errors = [block.swing.w_error for block in arrayed(tops)._scalars.blocks]
+    assert not np.isfinite(errors).any()
     np.testing.assert_array_equal(
         arrayed(tops).spin_per_period, [atlas.TopMotion(*top).spin_per_period for top in tops]
     )
@@ -159,10 +162,10 @@ def test_most_ordinary_tops_have_their_period_in_arrays() -> None:
     """Of thirty at least twenty-five, and their angles of spin, with kappa and without, at a turning point or not."""
     random = Random(5)  # noqa: S311  reproducible, not secret
     tops = [TOPS["top, ordinary"](random) for _ in range(30)]
-    still = [top._replace(omega=(0.0, *top.omega[1:])) for top in tops]
-    for given in (tops, still):
+    tops_resting = [top._replace(omega=(0.0, *top.omega[1:])) for top in tops]
+    for tops_either in (tops, tops_resting):
         for quantity in ("period", "spin_per_period"):
-            assert np.count_nonzero(arrayed(given)._scalars[quantity].is_certain) >= 25
+            assert np.count_nonzero(arrayed(tops_either)._scalars[quantity].is_certain) >= 25
 
 
 def in_units(top: Top, body: float, rate: float) -> Top:
@@ -175,17 +178,17 @@ def in_units(top: Top, body: float, rate: float) -> Top:
 
 def test_tops_in_si_units_are_made_in_arrays() -> None:
     """Molecules, 1e-46 kg m^2 at 1e12 a second, and planets: the matrices and rates of the same tops in other units."""
-    tops = drawn("top, ordinary", 9)
+    tops = draw_tops("top, ordinary", 9)
     for body, rate in ((2.0**-152, 2.0**40), (2.0**120, 2.0**-40)):
         scaled = arrayed([in_units(top, body, rate) for top in tops])
-        for what, unit in (("rotation", 1.0), ("angular_velocity", rate), ("field_in_body", 1.0)):
-            small, extreme = evaluated(scaled, np.full(9, 2.0 / rate), what)
+        for quantity, unit in (("rotation", 1.0), ("angular_velocity", rate), ("field_in_body", 1.0)):
+            small, extreme = evaluated(scaled, np.full(9, 2.0 / rate), quantity)
             assert not len(extreme)
-            np.testing.assert_allclose(small / unit, evaluated(arrayed(tops), np.full(9, 2.0), what)[0], atol=1e-13)
+            np.testing.assert_allclose(small / unit, evaluated(arrayed(tops), np.full(9, 2.0), quantity)[0], atol=1e-13)
 
 
 def test_a_scale_of_moments_changes_no_bit() -> None:
     """Moments, couplings and potential times 8 are the same top."""
-    tops = drawn("top, ordinary", 8)
+    tops = draw_tops("top, ordinary", 8)
     larger = [in_units(top, 8.0, 1.0) for top in tops]
     np.testing.assert_array_equal(arrayed(tops).rotation(2.0), arrayed(larger).rotation(2.0))

@@ -22,18 +22,18 @@ QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 
 
 @cache
-def kept() -> Torus:
+def torus_kept() -> Torus:
     """Return the torus of a motion whose periods are short beside its rates."""
     motion = AsymmetricMotion(*QUICK).on_torus
     assert motion is not None
     return motion.torus
 
 
-def made() -> Torus:
+def torus_copy() -> Torus:
     """Return it without what was found of it but for the lattice."""
-    found = Torus(kept().moments, kept().W, kept().K)
-    found.__dict__["lattice"] = kept().lattice
-    return found
+    torus = Torus(torus_kept().moments, torus_kept().W, torus_kept().K)
+    torus.__dict__["lattice"] = torus_kept().lattice
+    return torus
 
 
 def radii(torus: Torus, bits: int) -> list[float]:
@@ -45,13 +45,13 @@ def radii(torus: Torus, bits: int) -> list[float]:
 
 def test_a_period_that_is_too_long_is_tried_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """With GOOD bits at last; that fewer do not do is known then, and more are tried when they are asked for."""
-    found, tried = made(), list[int]()
+    found, tried = torus_copy(), list[int]()
 
-    def lost(_torus: Torus, _start: Any, bits: int) -> Any:
+    def without_path(_torus: Torus, _start: Any, bits: int) -> Any:
         tried.append(bits)
         raise NotCertifiedError("not certified: too long.")
 
-    monkeypatch.setattr(Torus, "_enclosed", lost)
+    monkeypatch.setattr(Torus, "_enclosed", without_path)
     for bits in (128, 160, torus.PERIOD_BITS, 2 * torus.PERIOD_BITS, 2 * torus.PERIOD_BITS):
         with pytest.raises(NotCertifiedError, match="too long"):
             found.periods(bits)
@@ -61,7 +61,7 @@ def test_a_period_that_is_too_long_is_tried_once(monkeypatch: pytest.MonkeyPatch
 @pytest.mark.slow
 def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> None:
     """Beyond GOOD bits a start is improved, each time to nearly twice the bits; a way without a proof costs less."""
-    true, gone, real = kept().periods(128), list[tuple[int, bool]](), torus.Flow.go
+    true, gone, real = torus_kept().periods(128), list[tuple[int, bool]](), torus.Flow.go
 
     def go(flow: Any, H: Any, F: Any, bits: int, *, proven: bool = True) -> Any:
         gone.append((bits, proven))
@@ -70,7 +70,7 @@ def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr(torus.Flow, "go", go)
     monkeypatch.setattr(torus, "PERIOD_BITS", 96)
     monkeypatch.setattr(torus, "FIRST_FLOW_BITS", 90)
-    periods = made().periods(150)
+    periods = torus_copy().periods(150)
     assert gone == [(90, False), (140, False), (200, True)] * 2
     for x, y in zip(periods, true, strict=True):
         assert all(p.overlaps(q) and p.rad() < q.rad() for p, q in ((x.H, y.H), (x.F, y.F), (x.angle, y.angle)))
@@ -81,7 +81,7 @@ TYPED = "motion --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --curv
 
 
 @pytest.fixture(scope="module")
-def found() -> dict[str, Any]:
+def numbers() -> dict[str, Any]:
     """Return what the command prints, with 40 digits, of the decimals as typed."""
     result = CliRunner().invoke(command, [*TYPED.split(), "--digits", "40"])
     assert result.exit_code == 0, result.output
@@ -93,43 +93,43 @@ def complex_of(pair: list[str]) -> mpmath.mpc:
     return mpmath.mpc(*map(mpmath.mpf, pair))
 
 
-def test_branch_points_lie_on_the_curve(found: dict[str, Any]) -> None:
+def test_branch_points_lie_on_the_curve(numbers: dict[str, Any]) -> None:
     """At each v^2 = P(z) and g(z) + 2 c v = 0, of coefficients made here of the inputs, within their digits."""
     with mpmath.workdps(60):
         I, K, W = (
-            [mpmath.mpf(x) for x in several]
-            for several in (("0.8", "1", "1.3"), ("0.2", "1", "0.6"), ("0.5", "1.7", "0.8"))
+            [mpmath.mpf(x) for x in triple]
+            for triple in (("0.8", "1", "1.3"), ("0.2", "1", "0.6"), ("0.5", "1.7", "0.8"))
         )
         M = [x * w for x, w in zip(I, W, strict=True)]
         D, e2 = I[0] * I[1] * I[2], I[0] * I[1] + I[0] * I[2] + I[1] * I[2]
         H = sum(m * m / x + x * k * k for m, x, k in zip(M, I, K, strict=True)) / 2
         F = sum(m * m for m in M) - sum(D * k * k / x for x, k in zip(I, K, strict=True))
         c, b2 = sum(m * k for m, k in zip(M, K, strict=True)), sum(k * k for k in K)
-        assert len(found["branch_points"]) == 4
-        for point in found["branch_points"]:
+        assert len(numbers["branch_points"]) == 4
+        for point in numbers["branch_points"]:
             z, v = map(complex_of, point)
             assert abs(v * v - (z + D / I[0]) * (z + D / I[1]) * (z + D / I[2])) < 1e-36
             assert abs(b2 * z * z + (F + e2 * b2) * z + 2 * D * H + 2 * c * v) < 1e-36
 
 
 @pytest.mark.slow
-def test_periods_and_frequencies_belong_together(found: dict[str, Any]) -> None:
+def test_periods_and_frequencies_belong_together(numbers: dict[str, Any]) -> None:
     """(f1, f2) is dual to the periods; f3 turns R about B: what is left of K's turn in the laboratory has f1 and f2."""
     motion = atlas.AsymmetricMotion(BODY, FIELD, OMEGA)
-    f = np.array([float(x) for x in found["frequencies"]])
+    f = np.array([float(x) for x in numbers["frequencies"]])
     assert f == pytest.approx(motion.frequencies, rel=1e-13)
-    assert [float(x) for x in found["winding_numbers"]] == pytest.approx((f[1:] / f[0]).tolist(), rel=1e-13)
-    (p, q), b = [[float(x) for x in one] for one in found["periods"]], np.linalg.norm(FIELD)
-    turns = [one[2] - 2 * np.pi * round(one[2] / (2 * np.pi)) for one in (p, q)]
+    assert [float(x) for x in numbers["winding_numbers"]] == pytest.approx((f[1:] / f[0]).tolist(), rel=1e-13)
+    (p, q), b = [[float(x) for x in period] for period in numbers["periods"]], np.linalg.norm(FIELD)
+    turns = [period[2] - 2 * np.pi * round(period[2] / (2 * np.pi)) for period in (p, q)]
     G = np.linalg.solve([p[:2], q[:2]], np.column_stack([[2 * np.pi, 0], [0, 2 * np.pi], turns]))
     assert G[0] - [0, 0, b] == pytest.approx(f, rel=1e-12)
 
 
-def test_the_riemann_matrix_is_that_of_the_motion(found: dict[str, Any]) -> None:
+def test_the_riemann_matrix_is_that_of_the_motion(numbers: dict[str, Any]) -> None:
     """Two paths give each entry beside the diagonal, to all digits; it is the one that the kernel sums with."""
-    assert "riemann_matrix" not in found["not_proved"]
+    assert "riemann_matrix" not in numbers["not_proved"]
     with mpmath.workdps(60):
-        (a, b), (c, d) = ([complex_of(x) for x in row] for row in found["riemann_matrix"])
+        (a, b), (c, d) = ([complex_of(x) for x in row] for row in numbers["riemann_matrix"])
         assert abs(b - c) < 1e-39
     tau = np.array([[complex(x) for x in row] for row in ((a, b), (c, d))])
     assert (np.linalg.eigvalsh(tau.imag) > 0).all()
@@ -162,12 +162,12 @@ def test_actions_have_as_many_digits_as_are_asked_for() -> None:
 
 
 @pytest.mark.slow
-def test_more_digits_begin_with_fewer(found: dict[str, Any]) -> None:
+def test_more_digits_begin_with_fewer(numbers: dict[str, Any]) -> None:
     """Digits of 20 are those of 40, but for the last, which is rounded; in Python they are those of the doubles."""
     short = atlas.AsymmetricMotion(BODY, FIELD, OMEGA).curve.record(14)
     for name in ("frequencies", "winding_numbers"):
-        for one, more in zip(short[name], found[name], strict=True):
-            assert float(one) == pytest.approx(float(more), rel=2e-13)
+        for digits_short, digits_long in zip(short[name], numbers[name], strict=True):
+            assert float(digits_short) == pytest.approx(float(digits_long), rel=2e-13)
 
 
 def test_motions_without_a_torus_have_no_curve() -> None:
@@ -182,7 +182,7 @@ def test_motions_without_a_torus_have_no_curve() -> None:
 def test_frequencies_of_a_torus_without_a_lattice_are_positive() -> None:
     """Real periods alone, whose signs came by chance: f1 and f2 by either of their pairs."""
     for sign in (1, -1):
-        found = Torus(kept().moments, kept().W, kept().K)
+        found = Torus(torus_kept().moments, torus_kept().W, torus_kept().K)
         found._no_lattice = "none"
         (H1, F1), (H2, F2) = torus._signed([(sign * x, sign * y) for x, y in found._approximate()])
         area = H1 * F2 - H2 * F1

@@ -105,8 +105,8 @@ def test_bodies_and_fields_carry_their_deviations_into_motions() -> None:
     by_hand = atlas.motion(6 * radius**2 / (3 * radius**2 + 4), tuple(charge * B / 2 for B in (0.0, 1.0, 2.0)), OMEGA)
     motion = atlas.motion(body, field, OMEGA)
     assert (motion.spin_rate - by_hand.spin_rate).std_dev < 1e-6 * motion.spin_rate.std_dev
-    turned = atlas.GeneralMotion.in_laboratory(body, field, np.eye(3), omega_laboratory=OMEGA)
-    assert (turned.spin_rate - motion.spin_rate).std_dev < 1e-6 * motion.spin_rate.std_dev
+    motion_turned = atlas.GeneralMotion.in_laboratory(body, field, np.eye(3), omega_laboratory=OMEGA)
+    assert (motion_turned.spin_rate - motion.spin_rate).std_dev < 1e-6 * motion.spin_rate.std_dev
     assert repr(motion) == f"motion({body!r}, {field!r}, {OMEGA})"
 
 

@@ -37,21 +37,21 @@ def arrays(value: Any) -> Iterator[np.ndarray]:
             yield from arrays(item)
 
 
-def held(made: Any) -> dict[str, list[np.ndarray]]:
+def arrays_of(instance: Any) -> dict[str, list[np.ndarray]]:
     """Return the arrays that an object hands out without a time, by the name that is asked for."""
-    found = {}
-    for name in dir(made):
+    arrays_found = {}
+    for name in dir(instance):
         if name.startswith("_") or name in SLOW:
             continue
         try:
-            value = getattr(made, name)
-            found[name] = list(arrays(value() if name == "invariants" else value))
+            value = getattr(instance, name)
+            arrays_found[name] = list(arrays(value() if name == "invariants" else value))
         except atlas.AtlasError:
             continue
-    return found
+    return arrays_found
 
 
-def given(family: Family) -> list[Any]:
+def arguments_of(family: Family) -> list[Any]:
     """Return the parameters of two motions or surfaces, in arrays."""
     values = []
     for p in family.parameters:
@@ -61,8 +61,8 @@ def given(family: Family) -> list[Any]:
         elif p.last:
             values.append(np.array([numbers, numbers]))
         else:
-            parts = tuple(np.array([x, x]) for x in numbers)
-            values.append(parts if p.columns else parts[0])
+            pairs = tuple(np.array([x, x]) for x in numbers)
+            values.append(pairs if p.columns else pairs[0])
     return values
 
 
@@ -80,29 +80,29 @@ def single(family: Family) -> Any:
 ALL = {
     **OTHERS,
     **{name: lambda family=family: single(family) for name, family in FAMILIES.items()},
-    **{f"two of {name}": lambda name=name: FAMILIES[name].kernels()(*given(FAMILIES[name])) for name in pairs()},
+    **{f"two of {name}": lambda name=name: FAMILIES[name].kernels()(*arguments_of(FAMILIES[name])) for name in pairs()},
 }
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_returned_arrays_change_no_object(name: str) -> None:
     """An array that an object keeps can't be written into; where one can, the object has made it for the asker."""
-    made = ALL[name]()
-    for attribute, handed in held(made).items():
+    instance = ALL[name]()
+    for attribute, handed in arrays_of(instance).items():
         before = [array.copy() for array in handed]
         for array in handed:
             if array.flags.writeable:
                 array[...] = -math.pi
-        again = held(made)[attribute]
+        again = arrays_of(instance)[attribute]
         assert all(map(np.array_equal, before, again)), attribute
 
 
 @pytest.mark.parametrize("name", pairs())
 def test_later_changes_of_given_arrays_have_no_effect(name: str) -> None:
     """The numbers of an object are those of the arrays when it was made."""
-    inputs = given(FAMILIES[name])
-    made = FAMILIES[name].kernels()(*inputs)
-    assert isinstance(made, Shown)
-    for attribute, handed in held(made).items():
+    inputs = arguments_of(FAMILIES[name])
+    motion = FAMILIES[name].kernels()(*inputs)
+    assert isinstance(motion, Shown)
+    for attribute, handed in arrays_of(motion).items():
         for array in handed:
-            assert not any(np.shares_memory(array, own) for own in arrays(inputs)), attribute
+            assert not any(np.shares_memory(array, array_input) for array_input in arrays(inputs)), attribute

@@ -136,8 +136,8 @@ def test_a_body_is_in_kilograms_and_metres(q: Units) -> None:
     assert pytest.approx(2e-9) == points.I2
     assert pytest.approx(4e-7) == atlas.ChargeMoments.shape("ring", q(1.0, "mC"), radius=q(2.0, "cm")).J3
     body, charges = atlas.SymmetricBody.sphere(1.0, 1.0), atlas.ChargeMoments(1.0, 1.0)
-    held = atlas.TopMotion.charged(body, charges, (3.0, 4.0), (0, 0, 1), weight=(q(3.0, "mJ"), q(4.0, "mJ")))
-    assert held.linear == pytest.approx(5e-3)
+    top = atlas.TopMotion.charged(body, charges, (3.0, 4.0), (0, 0, 1), weight=(q(3.0, "mJ"), q(4.0, "mJ")))
+    assert top.linear == pytest.approx(5e-3)
 
 
 def test_a_field_is_in_tesla(q: Units) -> None:
@@ -177,17 +177,17 @@ def test_a_top_is_in_si(q: Units) -> None:
 
 def test_a_particle_is_in_si(q: Units) -> None:
     """Where c = 1; with another c the units would be Gaussian, and plain numbers are asked for."""
-    given = (q(1.0, "C/kg"), q([0, 500, 0], "mV/m"), q([0, 0, 1], "T"), q([0, 0, 0], "mm"), q([100, 0, 0], "cm/s"))
+    arguments = (q(1.0, "C/kg"), q([0, 500, 0], "mV/m"), q([0, 0, 1], "T"), q([0, 0, 0], "mm"), q([100, 0, 0], "cm/s"))
     plain = atlas.ParticleMotion(1.0, (0, 0.5, 0), (0, 0, 1), (0, 0, 0), (1, 0, 0))
-    assert repr(atlas.ParticleMotion(*given)) == repr(plain)
+    assert repr(atlas.ParticleMotion(*arguments)) == repr(plain)
     with pytest.raises(atlas.AtlasError, match="mu must be a number without a unit"):
-        atlas.ParticleMotion(*given, c=3e10)
+        atlas.ParticleMotion(*arguments, c=3e10)
     with pytest.raises(atlas.AtlasError, match="B must be a number without a unit"):
         atlas.Field.gaussian(q([0, 0, 1], "T"), mu=1.0)
 
 
 @pytest.mark.parametrize(
-    ("wrong", "says"),
+    ("refused_call", "says"),
     [
         (lambda q: atlas.SymmetricBody.ring(q(1.0, "m"), 1.0), "The mass must be in kg, or what can be made of it"),
         (lambda q: atlas.SymmetricBody.ring(1.0, q(1.0, "s")), "The radius must be in m"),
@@ -200,8 +200,8 @@ def test_a_particle_is_in_si(q: Units) -> None:
         (lambda q: atlas.sweep("ball", {"larmor": q([1.0], "rad/s"), "m2": 1, "m3": 1}, ["gamma"]), "without a unit"),
     ],
 )
-def test_another_dimension_is_one_line(q: Units, wrong: Callable[[Units], Any], says: str) -> None:
+def test_another_dimension_is_one_line(q: Units, refused_call: Callable[[Units], Any], says: str) -> None:
     """What was given, of what, and what would be right."""
-    with pytest.raises(atlas.AtlasError, match=re.escape(says)) as told:
-        wrong(q)
-    assert "\n" not in str(told.value)
+    with pytest.raises(atlas.AtlasError, match=re.escape(says)) as refused:
+        refused_call(q)
+    assert "\n" not in str(refused.value)

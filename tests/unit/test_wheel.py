@@ -55,7 +55,7 @@ def run(program: Path, tmp_path: Path) -> Run:
     return run
 
 
-def told(done: subprocess.CompletedProcess[str]) -> list[str]:
+def message_of(done: subprocess.CompletedProcess[str]) -> list[str]:
     """Return what is on standard error but for how far the work is, which a busy machine tells: 1 of 2 (50 %) after."""
     return [line for line in done.stderr.splitlines() if not re.search(r": \d+ of \d+ \(\d+ %\) after \d", line)]
 
@@ -73,7 +73,7 @@ def test_modules_of_the_users_own_break_nothing(run: Run, tmp_path: Path) -> Non
     for name in ("signal", "struct", "multiprocessing", "numpy", "vtkmodules"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")
     done = run("figure", "magn", "trochoids", "--format", "svg", "--jobs", "2")
-    assert (done.returncode, told(done)) == (0, [])
+    assert (done.returncode, message_of(done)) == (0, [])
     assert done.stdout.split() == ["build/figures/magn.svg", "build/figures/trochoids.svg"]
 
 
@@ -84,9 +84,9 @@ def test_the_guides_own_recipe_works_anywhere(run: Run, tmp_path: Path) -> None:
     assert COMMAND
     (tmp_path / RECIPE[1]).write_text(RECIPE[2], encoding="utf-8")
     done = run(*COMMAND[1].split()[1:])
-    assert (done.returncode, done.stdout, told(done)) == (0, COMMAND[2], [])
+    assert (done.returncode, done.stdout, message_of(done)) == (0, COMMAND[2], [])
     done = run("figure", f"./{RECIPE[1]}", "ball", "--format", "svg", "pdf", "png", "pgf", "csv", "--out", "out")
-    assert (done.returncode, told(done)) == (0, [])
+    assert (done.returncode, message_of(done)) == (0, [])
     kinds = {"csv", "pdf", "pgf", "png", "svg"}
     assert {path.suffix[1:] for path in (tmp_path / "out").glob("my_precession.*")} == kinds
     assert sorted(path.name for path in tmp_path.iterdir()) == ["build", "my_precession.py", "out"]
@@ -108,7 +108,7 @@ def test_a_report_names_a_recipe_beside_its_file(run: Run, tmp_path: Path) -> No
     for caption in ("Frequencies of precession", "Frequencies of nutation"):
         (folder / "my_precession.py").write_text(RECIPE[2].replace("Frequencies of precession", caption))
         done = run("report", "paper/mine.toml", "--format", "html")
-        assert (done.returncode, told(done)) == (0, [])
+        assert (done.returncode, message_of(done)) == (0, [])
         assert caption in page.read_text(encoding="utf-8")
     assert "atlas figure my_precession.py --set ratio=0.5" in page.read_text(encoding="utf-8")
     assert str(tmp_path) not in page.read_text(encoding="utf-8")

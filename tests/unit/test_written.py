@@ -44,15 +44,17 @@ LONG = ("page", "tex", "fit")
 """Those that take seconds."""
 
 
-def marked(words: str, *more: str) -> Any:
+def marked(words: str, *words_more: str) -> Any:
     """Return a command as a case, slow where it takes long."""
-    return pytest.param(words, *more, id=words.split(maxsplit=1)[0], marks=[pytest.mark.slow] * words.startswith(LONG))
+    return pytest.param(
+        words, *words_more, id=words.split(maxsplit=1)[0], marks=[pytest.mark.slow] * words.startswith(LONG)
+    )
 
 
-def run(folder: Path, words: str, program: str = "", **more: str) -> subprocess.CompletedProcess[str]:
+def run(folder: Path, words: str, program: str = "", **variables: str) -> subprocess.CompletedProcess[str]:
     """Run a command in a folder that has the report, in a process of its own."""
     (folder / "small.toml").write_text(REPORT, encoding="utf-8")
-    surroundings = os.environ | {"ATLAS_CACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"} | more
+    surroundings = os.environ | {"ATLAS_CACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"} | variables
     command = [sys.executable, "-c", f"{program}\nimport sys; from atlas.cli import main; main(sys.argv[1:])"]
     return subprocess.run(
         [*command, *words.split(), "--out", "out"],
@@ -108,29 +110,29 @@ def test_an_edited_or_user_file_is_kept(tmp_path: Path, monkeypatch: pytest.Monk
         table = np.column_stack([t, motion.rotation(t).reshape(-1, 9) + number * noise])
         np.savetxt(f"run{number}.csv", table, delimiter=",", header=head, comments="")
     file, new = Path(name), Path(name).with_suffix(f".new{Path(name).suffix}")
-    more = ["--out", "out"] if "out/" not in words else []
+    options = ["--out", "out"] if "out/" not in words else []
 
-    def called(number: int) -> int:
+    def status_of(number: int) -> int:
         with pytest.raises(SystemExit) as ended:
-            main([*words.format(number).split(), *more])
+            main([*words.format(number).split(), *options])
         return int(ended.value.code or 0)
 
     file.parent.mkdir()
     file.write_text("foreign")
-    assert called(2) == 2
+    assert status_of(2) == 2
     assert (file.read_text(), new.exists()) == ("foreign", True)
-    first = new.read_bytes()
+    content = new.read_bytes()
     file.unlink()
-    assert called(2) in {0, 1}
-    assert file.read_bytes() == first
-    assert called(3) in {0, 1}
-    assert file.read_bytes() != first
-    with file.open("ab") as own:
-        own.write(b" ")
+    assert status_of(2) in {0, 1}
+    assert file.read_bytes() == content
+    assert status_of(3) in {0, 1}
+    assert file.read_bytes() != content
+    with file.open("ab") as stream:
+        stream.write(b" ")
     edited = file.read_bytes()
-    assert called(2) == 2
+    assert status_of(2) == 2
     assert file.read_bytes() == edited
-    assert new.read_bytes() == first
+    assert new.read_bytes() == content
 
 
 @pytest.mark.slow
@@ -139,8 +141,8 @@ def test_a_full_disk_keeps_existing_files(tmp_path: Path, words: str) -> None:
     """One line names the file or the folder; a figure is in the cache by then, and the system copies it from there."""
     assert run(tmp_path, words).returncode == 0
     before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
-    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
-    one_line(run(tmp_path, words.replace("turns=1", "turns=2"), full), 1, "File too large: out/")
+    limit = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
+    one_line(run(tmp_path, words.replace("turns=1", "turns=2"), limit), 1, "File too large: out/")
     assert {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()} == before
 
 
@@ -171,16 +173,16 @@ def test_leftovers_of_a_killed_process_are_removed(tmp_path: Path) -> None:
         assert process.stdout.readline() == "there\n"
         return process
 
-    other = tmp_path / f".unfinished-999999999-b-{path.name}"
-    other.write_text("of the user")
+    path_user = tmp_path / f".unfinished-999999999-b-{path.name}"
+    path_user.write_text("of the user")
     with half_done() as dead, half_done() as alive:
         dead.kill()
         dead.wait()
         assert len(list(tmp_path.iterdir())) == 3
         files.write(path, "whole")
-        assert {one.name for one in tmp_path.iterdir()} == {
+        assert {path.name for path in tmp_path.iterdir()} == {
             path.name,
-            other.name,
+            path_user.name,
             f".unfinished-{alive.pid}-{path.name}",
         }
         alive.kill()
@@ -194,17 +196,17 @@ def test_folders_take_turns_and_are_whole_at_any_moment(tmp_path: Path) -> None:
         "for _ in range(60): replace(Path('out/x'), {name: sys.argv[1].encode() for name in ('a', 'b/c')})"
     )
     replace(tmp_path / "out" / "x", {"a": b"0", "b/c": b"0"})
-    both = [subprocess.Popen([sys.executable, "-c", program, word], cwd=tmp_path) for word in "12"]
-    seen = set()
-    while any(process.poll() is None for process in both):
+    processes = [subprocess.Popen([sys.executable, "-c", program, word], cwd=tmp_path) for word in "12"]
+    contents = set()
+    while any(process.poll() is None for process in processes):
         assert (tmp_path / "out" / "x").is_dir()
-        seen.add((tmp_path / "out" / "x" / "a").read_bytes())
+        contents.add((tmp_path / "out" / "x" / "a").read_bytes())
         time.sleep(0.001)
-    assert [process.returncode for process in both] == [0, 0]
-    assert seen <= {b"0", b"1", b"2"}
-    assert len(seen) > 1
-    left = {(tmp_path / "out" / "x" / name).read_bytes() for name in ("a", "b/c")}
-    assert len(left) == 1
+    assert [process.returncode for process in processes] == [0, 0]
+    assert contents <= {b"0", b"1", b"2"}
+    assert len(contents) > 1
+    contents_after = {(tmp_path / "out" / "x" / name).read_bytes() for name in ("a", "b/c")}
+    assert len(contents_after) == 1
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["x"]
 
 
