@@ -1,4 +1,4 @@
-"""Ties of what kernels and balls compute to the proved form of a ledger entry.
+"""Ties of quantities of kernels and balls to the proved form of a ledger entry.
 
 A floor is all that computes in doubles, or all in balls.
 A tie names one quantity, reads it from a floor at seeded random points, and says by `proof.formula.value` what the
@@ -65,7 +65,7 @@ def _homes(floor: str) -> dict[str, str]:
 
 
 HOMES = ("bodies", "surfaces", "motions", "maps")
-"""Folders of what holds quantities."""
+"""Folders of modules that hold quantities."""
 NEITHER = ("approximate", "family", "formula", "register")
 """How files are named that hold neither kernels nor balls."""
 
@@ -96,7 +96,7 @@ class Ledger:
         self.names: set[str] = set()
 
     def __call__(self, name: str, side: str, /, **letters: Any) -> Any:
-        """Return what an equation says that a side is, see `proof.formula.value`."""
+        """Return the value that an equation gives to a side, see `proof.formula.value`."""
         self.names.add(name)
         return value(name, side, **letters)
 
@@ -132,7 +132,7 @@ class Tie:
     quantity  "Class.name" or "module.function"
     names    of the ledger's entries that `truth` evaluates
     read      (floor, point) -> the quantity on a floor
-    truth     (ledger, point) -> what the entries make it
+    truth     (ledger, point) -> the value by the entries
     points    where they are compared
     size, ulps  how near a double must be: `ulps` units in the last place of a number of that size
     """
@@ -151,7 +151,7 @@ class Tie:
 
 
 def of(make: Callable[[Any, Any], Any], points: Sequence[Any], at: str = "t") -> Callable[..., Tie]:
-    """Return what makes ties of an object's own quantities, read as they are, a method at the value of a letter.
+    """Return a function that ties an object's own quantities, read as they are, a method at the value of a letter.
 
     make      (floor, point) -> the object
     """
@@ -326,7 +326,7 @@ def negate(monkeypatch: pytest.MonkeyPatch, quantity: str, floor: str) -> None:
 
 
 def _negate_attribute(monkeypatch: pytest.MonkeyPatch, owner: Any, name: str) -> None:
-    """Negate what `__init__` makes."""
+    """Negate the fields that `__init__` sets."""
     begin = owner.__init__
 
     def begin_wrongly(self: Any, *arguments: Any, **named: Any) -> None:

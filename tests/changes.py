@@ -27,13 +27,13 @@ SAME = (
     (r"e_\pm=-\nu_0\mp", "both roots stand in a product"),
     (r"e_\mp =-\nu_0\pm", "both roots stand in a product"),
 )
-"""What a change may put into a formula of the ledger and leave its mathematics as it is, and why."""
+"""Changes that keep the mathematics of a formula of the ledger, each with its reason."""
 
 _BOLD = re.compile(r"\\(?:mathbf|boldsymbol)$")
 
 
 def changes(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[str, str]]:
-    """Return formulas that differ from this one in one place, each with what was changed.
+    """Return formulas that differ from this one in one place, each with its change.
 
     most  how many at most, chosen by `seed`; None for all
     """
@@ -56,7 +56,7 @@ def changes(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[
 
 
 def _replacements(mark: str, before: str, tokens: list[str], place: int) -> list[tuple[str, str]]:
-    """Return what one token may be changed to."""
+    """Return the replacements of one token."""
     kind, others = "letter", list[str]()
     if mark in _SWAPS:
         kind, others = "function" if len(mark) == 4 else "sign", [_SWAPS[mark]]

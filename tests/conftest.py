@@ -1,6 +1,6 @@
 """How property tests run: the same examples each time and no clock, or, for a hunt, other examples each time.
 
-And where tests keep what they build: none finds what another has left.
+And the folder of the tests' builds: none finds leftovers of another.
 """
 
 import gc
@@ -23,10 +23,10 @@ gc.disable()  # while tests are collected, which leaves no garbage
 
 
 def pytest_collection_finish() -> None:
-    """Let the collector of garbage look no more at what was collected and loaded: it would at each of its rounds.
+    """Freeze the objects that exist after collection: the garbage collector would visit them in each of its rounds.
 
     Before its first example Hypothesis asks the collector who holds its random numbers, and warns where nobody does.
-    With the oldest Hypothesis, or from Python 3.14 on, that is among what is frozen here, so an example comes first.
+    With the oldest Hypothesis, or from Python 3.14 on, that is among the frozen objects, so an example comes first.
     """
     given(strategies.none())(lambda _: None)()
     gc.freeze()
@@ -35,7 +35,7 @@ def pytest_collection_finish() -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _cache_of_all(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Give what several tests share a cache of its own."""
+    """Give fixtures that several tests share a cache of their own."""
     os.environ[CACHE] = str(tmp_path_factory.mktemp("cache"))
 
 

@@ -1,4 +1,4 @@
-"""Contracts of import-linter that it has not itself; `pyproject.toml` says what they hold."""
+"""Contracts that import-linter lacks; `pyproject.toml` describes them."""
 
 import ast
 from collections.abc import Iterator

@@ -24,7 +24,7 @@ MANY = 6
 """More equal layers than these in a row make one line."""
 
 Numbers = dict[str, tuple[str, FloatArray]]
-"""What of a layer is numbers: by name the brackets and the values."""
+"""The numbers of a layer: by name the brackets and the values."""
 
 
 class Lines(SingleFileSnapshotExtension):
@@ -57,7 +57,7 @@ def _same(a: str, b: str) -> bool:
 
 
 def scene(picture: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> Iterator[str]:
-    """Yield what a scene shows; of noisy panels only what there is, with words only if what they say is certain."""
+    """Yield the lines of a scene; of noisy panels only the layers, with words only if these are certain."""
     yield f"{picture.title}: {picture.size[0]:g} x {picture.size[1]:g} mm, columns {picture.columns}"
     if words:
         yield from (picture.caption, picture.alt)
@@ -72,7 +72,7 @@ def scene(picture: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) ->
 
 
 def shown(panel: Panel, *, noise: bool = False) -> Iterator[str]:
-    """Yield what a panel shows, and its layers."""
+    """Yield the lines of a panel and of its layers."""
     settings = {
         field.name: getattr(panel, field.name) for field in fields(panel) if field.name not in {"layers", "span"}
     }

@@ -1,4 +1,4 @@
-"""What a figure puts on paper: its texts with their boxes and sizes, the widths of its lines; and the law of both."""
+"""Marks of a figure on paper: its texts with their boxes and sizes, the widths of its lines; and the law of both."""
 
 from itertools import combinations
 from typing import Any
@@ -38,7 +38,7 @@ class Marks(Texts):
 
 
 def faults(figure: Figure, target: Target) -> list[str]:
-    """Return what of a figure breaks the law of its target: size, type, lines, names off the page, names that meet."""
+    """Return the faults of a figure by the law of its target: size, type, lines, names off the page or meeting."""
     marks, messages = Marks(figure), []
     width, height = _INCH * np.asarray(figure.get_size_inches())
     if abs(width - target.width) > 0.05 or height > target.height + 0.05:

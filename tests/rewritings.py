@@ -68,11 +68,11 @@ SAME = (
     (r"\exp(t\lambda_", "factors commute"),
     ("=2p=0", "twice nothing"),
 )
-"""What a rule may put into a formula of the ledger and leave its mathematics as it is, and why."""
+"""Rewritings that keep the mathematics of a formula of the ledger, each with its reason."""
 
 
 def rewritings(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[str, str]]:
-    """Return formulas that differ from this one by one rule at one place, each with what it is."""
+    """Return formulas that differ from this one by one rule at one place, each with its rule."""
     forms = dict(_rewritten(tex))
     every = [pair for pair in forms.items() if pair[0] != tex and not any(same in pair[0] for same, _ in SAME)]
     return every if most is None or len(every) <= most else random.Random(seed).sample(every, most)  # noqa: S311

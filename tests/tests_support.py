@@ -17,7 +17,7 @@ from atlas.trial.proofs.verdict import Verdict
 
 
 def names(folder: Path) -> list[str]:
-    """Return the names in a folder, without the list of what was written there."""
+    """Return the names in a folder, without the list of written files."""
     return sorted(path.name for path in folder.iterdir() if path.name != WRITTEN)
 
 

@@ -39,7 +39,7 @@ def accepted_calls() -> None:
 
 
 def refused_calls(motion: atlas.GeneralMotion) -> None:  # noqa: PLR0915  a list of calls
-    """Text, None, other objects, names that there are not, and results taken for what they are not."""
+    """Text, None, other objects, unknown names, and results of a wrong type."""
     atlas.ElementaryMotion("oops", (1.0, 2.0), omega2=0.7)
     atlas.ElementaryMotion(1.5, None, omega2=0.7)
     atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=object())

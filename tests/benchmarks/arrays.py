@@ -1,6 +1,6 @@
 """The cost of a million motions: scalars and one matrix each, in two words, beside the plain formulas.
 
-The question: what does a row of parameters cost, and how true is it?
+The question: how much time does a row of parameters take, and how large is its error?
 
 Ordinary rows, seeded: I in (0.1, 2), B2, B3, omega normal; times below 1e4. Errors are in ulps of each number, of 1 in
 a matrix, against balls at a few of the rows. All on one core, by turns, in processor time.

@@ -1,6 +1,6 @@
 """How long? Jobs timed by turns within one run, so that whatever else the machine does meets all of them alike.
 
-On one thread the time is the processor's: what else the machine does is not in it, but for what it does to the caches.
+On one thread the time is the processor's: other processes do not count, but for their effect on the caches.
 Only medians and ratios within a round are used: an absolute time on a busy machine says little.
 """
 
@@ -17,7 +17,7 @@ Job: TypeAlias = Callable[[], Any]
 
 @contextmanager
 def no_collection() -> Iterator[None]:
-    """Keep the garbage collector out of what is timed."""
+    """Keep the garbage collector out of the timed code."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -29,7 +29,7 @@ def no_collection() -> Iterator[None]:
 
 @contextmanager
 def one_core() -> Iterator[None]:
-    """Hold this thread to one core, where the system can: what would use several threads then uses one."""
+    """Hold this thread to one core, where the system can: code for several threads then uses one."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
@@ -42,7 +42,7 @@ def one_core() -> Iterator[None]:
 
 
 def once(job: Job) -> tuple[float, Any]:
-    """Return the processor's seconds for one call and what it gave."""
+    """Return the processor's seconds for one call and its result."""
     start = process_time()
     result = job()
     return process_time() - start, result

@@ -1,6 +1,6 @@
 """The cost of a rotation matrix against their number and against the memory limit.
 
-The question: what does one of N = 1 to 1e7 matrices cost, and how far is that from writing its 72 bytes?
+The question: how long does one of N = 1 to 1e7 matrices take, against the time to write its 72 bytes?
 
 The elementary motion only: R(t) by the plain formula, by its peers and by the atlas, into fresh memory and into
 memory given with `out=`, on one thread and on two, beside filling the same memory with a constant. All are timed by
@@ -72,7 +72,7 @@ class Work:
         return f"{self.method}/{self.threads}"
 
     def error(self, values: FloatArray) -> float | None:
-        """Return the largest error at a few of the times, spread evenly; none for what computes nothing."""
+        """Return the largest error at a few of the times, spread evenly; none for a job that computes nothing."""
         if self.truth is None:
             return None
         indices = spread(len(self.times), SAMPLES)
@@ -86,7 +86,7 @@ class Work:
 def costs(count: int, rounds: int, limit: float, before: Sequence[Cost] = ()) -> list[Cost]:
     """Return the rows for ``count`` matrices; a job that by the rows ``before`` would exceed ``limit`` is skipped.
 
-    Those on one thread are timed by turns on one core; then those on two, by turns with what they are compared to.
+    Those on one thread are timed by turns on one core; then those on two, by turns with their references.
     """
     with ThreadPoolExecutor(2) as pool:
         works = _works(count, pool)
@@ -112,7 +112,7 @@ def _timed(
         try:
             errors.append((work, work.error(work.job())))
             jobs[work.key] = work.job
-        except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
+        except Exception as raised:  # noqa: BLE001  the record quotes whatever a peer raises
             rows.append(replace(row, status="failed", note=sentence(raised)))
     measured_keys = {"fill/1", *(f"{work.against}/1" for work, _ in errors)}
     jobs |= {work.key: work.job for work in bases if work.key in measured_keys} if errors else {}
@@ -198,4 +198,4 @@ def here(count: int) -> tuple[float, float, float]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(here(int(sys.argv[1]))))  # noqa: T201  what the other process reads
+    print(json.dumps(here(int(sys.argv[1]))))  # noqa: T201  the other process reads this

@@ -1,7 +1,7 @@
 """The general motion where there is much of it: a million matrices, all derivatives, a fit; by every road there is.
 
-The questions: what does one of many matrices of one motion cost where no elementary formula exists? What do derivatives
-in all parameters cost beside R itself? What does it cost to get from a measurement back to the body and the field?
+The questions: how long does one of many matrices of one motion take without an elementary formula? How long do
+derivatives in all parameters take beside R itself? How long is the way from a measurement to the body and the field?
 
 The motion is the nutation of `rotations`. Matrices: from t = 0, 1024 a unit of time, at arbitrary times in rising
 order, as dense output takes them, and on a uniform grid; beside the nanoseconds stands the plain formula of the

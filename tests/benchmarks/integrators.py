@@ -1,6 +1,6 @@
 """The peers that step in time.
 
-The question: what do R(t) and y(t) cost without the closed form?
+The question: how long do R(t) and y(t) take without the closed form?
 
 SciPy's RK45, DOP853, LSODA and Radau, used as their documentation shows (rtol = atol = the tolerance, `t_eval` for the
 samples), and heyoka's Taylor integrator. All start from the same state, rounded once to floats. Both are also tried at

@@ -1,4 +1,4 @@
-"""Is it as fast as it should be? The limits of speed, as ratios within one run, against what a record holds."""
+"""Limits of speed, as ratios within one run, against a record."""
 
 from collections.abc import Iterator
 
@@ -33,7 +33,7 @@ WHY = {
 
 
 def targets(machine: Machine, setups: list[Setup], costs: list[Cost], rows: list[Rows]) -> list[Limit]:
-    """Return every limit with its verdict; what is not there is not measured.
+    """Return every limit with its verdict; a limit without data is not measured.
 
     Speed is worth nothing where a value is wrong: then no limit is met.
     """

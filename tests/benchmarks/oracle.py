@@ -1,6 +1,6 @@
 """The true values as balls from the exact inputs, and a Taylor integration that checks them.
 
-The question: is the reference right, and far beyond what it has to measure?
+The question: is the reference right, and far more accurate than the measured methods?
 
 The values are balls of `certified` modules, which share no code with the kernels, rounded to two words each (32
 digits), so that errors far below one ulp can be measured. `check` integrates the equations of motion themselves.

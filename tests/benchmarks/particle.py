@@ -1,6 +1,6 @@
 """The charged particle by every road there is.
 
-The question: what do y(t) and v(t), (98), cost, and how true are they?
+The question: how long do y(t) and v(t), (98), take, and how large are their errors?
 
 E is orthogonal to B, so that the particle drifts but is not accelerated without end, and nothing hides the turning.
 The error of the position is compared to its distance from the origin (at least one radius of the turning), that of

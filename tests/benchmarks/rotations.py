@@ -1,6 +1,6 @@
 """The motions of a body by every road there is: six of them, each with its equations and its closed forms.
 
-The question: what does R(t) cost, and how true is it at long times?
+The question: how long does R(t) take, and how large is its error at long times?
 
 Elementary: a short solenoid, I = 1.5, in an oblique field B' = (1, 2), launched with omega2 = 0.7; frequencies 1.565
 and -0.741. Ball: inertia 0.5, Larmor frequency 1.3, m(0) = (0, 0.45, 0.65): the turn about k_hat has the frequency

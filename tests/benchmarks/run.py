@@ -37,7 +37,7 @@ CASES = {
 
 @dataclass(frozen=True)
 class Scope:
-    """What a run covers: the plan of the cases, how far the reference is checked, the counts and their rounds."""
+    """The extent of a run: the plan of the cases, the check of the reference, the counts and their rounds."""
 
     plan: Plan
     check_until: float
@@ -79,7 +79,7 @@ QUICK = Scope(
 
 
 def main() -> None:
-    """Measure, print what was measured, and keep the record."""
+    """Measure, print the results, and keep the record."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.run", description=__doc__)
     parser.add_argument("--case", action="append", choices=CASES, help="all when left out")
     parser.add_argument("--quick", action="store_true", help="the short form, some two minutes")
@@ -90,7 +90,7 @@ def main() -> None:
     # where true values take long, only if it is asked for or there is time
     names = options.case or [name for name in CASES if not options.quick or name not in {"asymmetric", "elliptic"}]
     for item in measure(names, QUICK if options.quick else FULL):
-        print(item, flush=True)  # noqa: T201  the record holds what is shown, the terminal the rest, and what failed
+        print(item, flush=True)  # noqa: T201  the record holds the shown runs, the terminal the others and the failures
         items.append(_short(item))
     runs, prices, setups, rows = ([x for x in items if isinstance(x, kind)] for kind in (Run, Cost, Setup, Rows))
     limits = targets(machine(), setups, prices, rows)
@@ -98,13 +98,13 @@ def main() -> None:
     held_back = [_short(run) for run in narrow()] if machine().avx512 and not options.quick else []
     record = Results(FORMAT, "make bench", today(), machine(), versions(), shown_runs(runs), done, limits, held_back)
     for limit in limits:
-        print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
+        print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  asked for
     print(measured(record, record.versions))  # noqa: T201
     write(record, options.out)
 
 
 def measure(names: Sequence[str], scope: Scope) -> Iterator[Any]:
-    """Yield what is measured: of each case closed forms and integrators, the cost of matrices, and of many motions.
+    """Yield the runs: of each case closed forms and integrators, the cost of matrices, and of many motions.
 
     Raises AtlasError where a reference is none.
     """
@@ -149,7 +149,7 @@ def shown_runs(runs: Sequence[Run]) -> list[Run]:
 
 
 def _short(item: Any) -> Any:
-    """Round what was measured to four digits: more would say nothing."""
+    """Round measured values to four digits: more would say nothing."""
     numbers = ((name, getattr(item, name)) for name in item.__struct_fields__)
     return replace(item, **{name: float(f"{value:.4g}") for name, value in numbers if isinstance(value, float)})
 

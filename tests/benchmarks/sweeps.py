@@ -1,6 +1,6 @@
 """Rows a second of a sweep against its workers, its memory, and the same table through Dask.
 
-The question: what does a table of ten million motions cost, on one process, on two, on Dask's workers?
+The question: how long does a table of ten million motions take, on one process, on two, on Dask's workers?
 
 Each sweep is a process of its own, `python -m benchmarks.sweeps`, which prints seconds, those of the processors, the
 largest memory of the sweeping process and of its largest worker, and the digest of the table: the same bytes wherever
@@ -31,12 +31,12 @@ FAMILIES = {
     "general": ({"B2": 1.0, "t": 7.0, "omega1": 0.3, "omega3": 0.2}, OF_FIELD, GENERAL),
     "top": (TOP, ("I3", "k3", "omega2"), GENERAL),
 }
-"""What is the same in all rows of a family, what is swept, and what is computed."""
+"""A family's constant parameters, swept parameters and computed quantities."""
 RATIOS, FIELDS = 20, 50
 
 
 def swept(family: str, rows: int, jobs: int, dask: bool) -> dict[str, Any]:
-    """Sweep at least so many rows in this process and say what it took."""
+    """Sweep at least so many rows in this process and return the seconds."""
     count = -(-rows // (RATIOS * FIELDS))
     same, names, quantities = FAMILIES[family]
     values = _even(0.1, 2.0, RATIOS), _even(0.1, 3.0, FIELDS), _even(-0.9, 3.0, count)
@@ -97,7 +97,7 @@ def main() -> None:
         ended = subprocess.run(command, capture_output=True, text=True, check=True)
         answer = json.loads(ended.stdout.splitlines()[-1])
         digests.add(answer["digest"])
-        print(  # noqa: T201  what was asked for
+        print(  # noqa: T201  asked for
             f"{way[0]} {way[1]:10} {answer['rows']} rows in {answer['seconds']:6.1f} s, cpu {answer['cpu']:6.1f} s, "
             f"{answer['rows'] / answer['seconds']:9.0f} rows/s, {answer['own']:5.0f} MB, largest worker "
             f"{answer['worker']:5.0f} MB, {answer['digest']}",

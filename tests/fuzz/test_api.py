@@ -46,12 +46,12 @@ def check_answers(make: Any, quantities: dict[str, Any]) -> None:
 
 
 def attributes(*names: str) -> dict[str, Any]:
-    """Return what asks for attributes."""
+    """Return functions that ask for attributes."""
     return {name: lambda obj, name=name: getattr(obj, name) for name in names}
 
 
 def at_times(t: Any) -> dict[str, Any]:
-    """Return what elementary and general motions answer at some times."""
+    """Return the values of elementary and general motions at some times."""
     names = ("rotation", "third_axis", "angular_velocity", "field_in_body", "angular_momentum")
     return {name: lambda m, name=name: getattr(m, name)(t) for name in names} | {"invariants": lambda m: m.invariants()}
 
@@ -180,7 +180,7 @@ def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any)
 @share(0.05, 40)
 @given(vectors, vectors, numbers, numbers, vectors)
 def test_fields_and_frames(B: Any, E: Any, mu: float, c: float, axis: Any) -> None:
-    """A field, its frame, and what units make of it."""
+    """A field, its frame, and its conversions by units."""
     check_answers(
         lambda: atlas.Field(B, E, mu, c),
         attributes("prime")

@@ -1,4 +1,4 @@
-"""Commands that write files or serve, on any words: what was asked for, or one line with status 2 and no file."""
+"""Commands that write files or serve, on any words: the result, or one line with status 2 and no file."""
 
 import re
 import shutil
@@ -25,7 +25,7 @@ LINES = {
     "data": ["no_such", "no_such.toml"],
     "figure": [f"trochoids --for {target}" for target in ("aps", "poster", "elsevier-middle", "none", "", "beamer-x")],
 }
-"""What each is given before it is changed; tex and data build reports, which test_reports changes."""
+"""Words of each command before they are changed; tex and data build reports, which test_reports changes."""
 
 OPTIONS = {
     "page": ["--digits", "--title", "--times", "--only"],

@@ -57,7 +57,7 @@ def begun(folder: Path, cache: str, *words: str) -> Process:
 
 
 def content(folder: Path) -> Content:
-    """Return the digests of what a reader gets: the pages, the figures, the PDF."""
+    """Return the digests of the reader's files: the pages, the figures, the PDF."""
     out = folder / "out"
     files = [path for path in [*(out / "small").rglob("*"), out / "small.pdf"] if path.is_file()]
     return {path.relative_to(out).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
@@ -65,7 +65,7 @@ def content(folder: Path) -> Content:
 
 @pytest.fixture(scope="module")
 def versions(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Content]:
-    """Return what becomes of both versions in peace."""
+    """Return the undisturbed builds of both versions."""
     contents = {}
     for version in (1, 2):
         folder = tmp_path_factory.mktemp("peace")
@@ -80,7 +80,7 @@ def versions(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Content]:
 
 
 def complete_files(folder: Path, place: str) -> set[Path]:
-    """Return what a build has in its cache, or at the top of where it writes, those under way too."""
+    """Return the files in a build's cache, or at the top of its folder, unfinished ones too."""
     return set((folder / place).rglob("*") if place == "cache" else (folder / place).glob("*"))
 
 

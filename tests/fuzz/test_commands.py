@@ -119,7 +119,7 @@ def test_every_command_is_drawn() -> None:
 
 
 def checked(words: list[str]) -> None:
-    """Hold an answer against what every answer is."""
+    """Check an answer against the laws of every answer."""
     status, out, err = ran(words)
     report = (words, out[-300:], err)
     assert "Traceback" not in err, report
@@ -173,7 +173,7 @@ HEADS = """# ratio = 1.5|# field = 1 2|# field: 1, 2|# omega2 = 0.7|# inertia = 
 
 @st.composite
 def files(draw: Any) -> bytes:
-    """Draw a CSV file: parameters, names, rows, and what does not belong there."""
+    """Draw a CSV file: parameters, names, rows, and misplaced content."""
     head = draw(
         st.lists(
             st.sampled_from(HEADS),

@@ -1,4 +1,4 @@
-"""Every recipe with any parameter: a scene whose points are numbers, or one line that says what would be right."""
+"""Every recipe with any parameter: a scene whose points are numbers, or one line that names the remedy."""
 
 from typing import Any
 
@@ -35,7 +35,7 @@ def recipe_calls(draw: Any) -> tuple[str, dict[str, Any]]:
 @share(0.05, 25)
 @given(recipe_calls())
 def test_any_parameter_gives_a_scene_or_a_line(case: tuple[str, dict[str, Any]]) -> None:
-    """No name of a Python error, no line of a recipe, no NaN in what is drawn."""
+    """No name of a Python error, no line of a recipe, no NaN in a drawing."""
     name, parameters = case
 
     def points() -> list[Any]:

@@ -138,7 +138,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.slow
 def test_the_report_that_is_changed_is_a_good_one(folder: Path) -> None:
-    """What the changes start from becomes pages, with each of the tables."""
+    """The unchanged report becomes pages, with each of the tables."""
     names = ("one", *(table.replace("_", "-") for table in TABLES))  # the prose cites the first
     blocks = [*REPORT["pages"][0]["blocks"], *map(block, TABLES, names)]
     report = {**REPORT, "pages": [{**REPORT["pages"][0], "blocks": blocks}]}

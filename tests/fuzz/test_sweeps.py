@@ -19,7 +19,7 @@ FAMILIES = {
     for name, swept in KNOWN.items()
     if swept.family.at_once > 1  # a row alone takes seconds
 }
-"""Every family with what it needs, at its defaults."""
+"""Every family with its required parameters, at their defaults."""
 
 one = st.one_of(number, st.tuples(number, number).map(":".join), st.tuples(number, number).map(",".join))
 ranges = st.one_of(

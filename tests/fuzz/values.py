@@ -1,4 +1,4 @@
-"""Extreme values, and what every answer must be: numbers, or one line that says why not."""
+"""Extreme values, and the law of every answer: numbers, or one line with the reason."""
 
 import math
 import os
@@ -24,7 +24,7 @@ Process = subprocess.Popen[str]
 
 
 def ended(process: Process) -> tuple[int, str]:
-    """Return the exit status of a command and what it said."""
+    """Return the exit status of a command and its message."""
     message = process.communicate()[1]
     return process.returncode, message
 
@@ -75,7 +75,7 @@ def arrays(elements: Any) -> Any:
 
 
 class Hang(BaseException):
-    """What ends a call that hangs; no Exception, which the program would turn into a line."""
+    """The signal that ends a call that hangs; no Exception, which the program would turn into a line."""
 
 
 @contextmanager
@@ -97,7 +97,7 @@ def watched() -> Iterator[None]:
 
 
 def answered(call: Callable[[], Any], place: str = "") -> Any:
-    """Return what a call answers, or None where it says in one line why it has no answer; never NaN."""
+    """Return the answer of a call, or None for an error of one line; never NaN."""
     try:
         with watched():
             answer = call()

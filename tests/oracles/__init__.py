@@ -1,1 +1,1 @@
-"""Independent references: they share no code with what they check."""
+"""Independent references: they share no code with the package."""

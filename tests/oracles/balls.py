@@ -7,7 +7,7 @@ Of (12) and (38), with K = R^T B',
 
 If no component of Omega and K exceeds s, their Taylor coefficients are at most those of the solution of y' = 3 y^2,
 y(0) = s, since |1-I| + I + |2-I| <= 3 for every body: |coefficient n| <= s (3 s)^n; and those of R at most (3 s)^n. So
-the remainder of every step is known, and what comes out is an enclosure.
+the remainder of every step is known, and the result is an enclosure.
 """
 
 from collections.abc import Iterable

@@ -25,7 +25,7 @@ def exact(x: Number) -> mpf:
 
 
 def _precisely(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give ``function`` the guard digits, and round what it returns to ``digits``."""
+    """Give ``function`` the guard digits, and round its result to ``digits``."""
 
     @wraps(function)
     def wrapper(*arguments: Any, digits: int = DIGITS, **named: Any) -> Any:

@@ -1,8 +1,8 @@
 """Search for motions that break a promise: `cd tests && python -m stress --samples 20000 --seed 7`.
 
 The exit status is 1 if an error exceeds the promise made for its quantity or a legal input is refused. With `--record`
-the worst error of each quantity goes to reports/data/worst_errors.json where it is larger than what is there, and
-OPENBLAS_CORETYPE says as on which kind of processor products of matrices are rounded; `--anew` forgets what was there.
+the worst error of each quantity goes to reports/data/worst_errors.json where it exceeds the recorded one, and
+OPENBLAS_CORETYPE says as on which kind of processor products of matrices are rounded; `--anew` forgets the record.
 """
 
 import argparse

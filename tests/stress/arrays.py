@@ -133,7 +133,7 @@ def _scalars(row: list[float], omega3: float, k: float, phi: float) -> tuple[flo
 
 
 def _error(value: float, true: fmpq) -> float:
-    """Return |found - true| in ulps of what was found; what over- or underflows is left to `check_motion`."""
+    """Return |found - true| in ulps of the values found; over- and underflow are left to `check_motion`."""
     if not 1e-290 < abs(value) < 1e300:
         return 0.0
     difference = (fmpq(*value.as_integer_ratio()) - true) / fmpq(*float(np.spacing(abs(value))).as_integer_ratio())

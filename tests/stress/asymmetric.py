@@ -9,7 +9,7 @@ from stress.regimes import Vector
 
 
 class Asymmetric(NamedTuple):
-    """What `atlas.AsymmetricMotion` takes."""
+    """Inputs of `atlas.AsymmetricMotion`."""
 
     inertia: Vector
     field: Vector

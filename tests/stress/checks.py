@@ -1,6 +1,6 @@
-"""Checks: what the register of families promises, and what holds beside, asked of kernels and compared with balls.
+"""Checks of kernels against balls: the promises of the register, and laws beside them.
 
-`check` goes through the quantities of any family; what only one has, as grids and structure, is checked beside.
+`check` goes through the quantities of any family; grids and structure, which few have, are checked beside.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -55,7 +55,7 @@ def check(
     """Check an object of a family made of `values`, by balls made of `exactly` where that differs.
 
     Numbers are checked in ulps of themselves, matrices in ulps of 1, vectors in ulps of their length, or of
-    `unit(name, t)`. `where` makes of the balls what names the regime of a time; `more` checks what else there is.
+    `unit(name, t)`. `where` gives by the balls the name of the regime of a time; `more` makes further checks.
     """
     family = FAMILIES[name]
     with worst.checking(name, regime, inputs):
@@ -82,7 +82,7 @@ def check(
 
 
 def by_clock(regime: str, *rates: str | float) -> Callable[[Any], Where]:
-    """Return what names the regime of a time by the largest phase that rates, quantities or numbers, make of it."""
+    """Return a function that names the regime of a time by its largest phase over rates, quantities or numbers."""
 
     def region(exact: Any) -> Where:
         sizes = (x if isinstance(x, float) else approximate(enclosed(partial(getattr, exact, x), BITS)) for x in rates)

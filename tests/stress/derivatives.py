@@ -3,7 +3,7 @@
 In the folder tests, `python -m stress.derivatives --samples 40 --seed 1` draws motions of the regimes of `stress`, of
 bodies in the laboratory with any attitude as well, moves all of their inputs by random amounts at once, and integrates
 the equations of motion with their variations by heyoka's Taylor series in numbers of 64 binary digits: no formula is
-shared. It prints for each regime the worst error of v, dOmega/dp and dK/dp, in parts of 1 + |v|, and what is refused.
+shared. It prints for each regime the worst error of v, dOmega/dp and dK/dp, in parts of 1 + |v|, and the refusals.
 General motions and tops are followed to t = 1e6 too, by differences of balls. The exit status is 1 if an error is
 above 1e-12. It needs heyoka (requirements-bench.lock), and a processor whose long double has 64 digits.
 """
@@ -30,7 +30,7 @@ ONE, E = np.eye(3), np.eye(3)
 
 
 class Case(NamedTuple):
-    """A motion, its state by name and what a unit of each input changes of that; a size of each input, and a time."""
+    """A motion, its state by name, the change of the state per unit of each input; sizes of the inputs, and a time."""
 
     regime: str
     motion: Any
@@ -123,7 +123,7 @@ def followed(case: Case, way: Mapping[str, Any]) -> tuple[np.ndarray, ...]:
 
 
 def _vectors(*names: str) -> dict[str, dict[str, Any]]:
-    """Return what a unit of each component of a vector changes: of B, omega and a."""
+    """Return the changes per unit of each component of a vector: of B, omega and a."""
     return {f"{name}{i + 1}": {{"omega": "w"}.get(name, name): E[i]} for name in names for i in range(3)}
 
 

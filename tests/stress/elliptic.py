@@ -9,7 +9,7 @@ from stress.regimes import Vector, close_to, number, sign, size
 
 
 class Elliptic(NamedTuple):
-    """What `atlas.EllipticMotion` takes."""
+    """Inputs of `atlas.EllipticMotion`."""
 
     inertia: Vector
     field: Vector

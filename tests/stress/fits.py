@@ -138,7 +138,7 @@ KINDS: dict[str, Callable[[np.random.Generator], Made]] = {
 
 
 class Outcome(NamedTuple):
-    """What a fit came to: parameters that are told and those within one standard error, seconds, why it is lost."""
+    """Outcome of a fit: parameters with an error and those within one standard error, seconds, reason of failure."""
 
     told: int
     within: int

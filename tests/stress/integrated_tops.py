@@ -31,7 +31,7 @@ ORDINARY = "top, ordinary"
 
 
 class Errors(NamedTuple):
-    """Errors of R, Omega and, of the integrator, what is left after there and back, in ulps."""
+    """Errors of R, Omega and, of the integrator, the residual after there and back, in ulps."""
 
     R: float
     Omega: float

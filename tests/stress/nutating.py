@@ -72,7 +72,7 @@ def check_asymmetric(draw: Asymmetric, regime: str, random: Random, worst: Worst
 def _structure(
     name: str, regime: str, inputs: Inputs, times: Sequence[float], worst: WorstErrors
 ) -> Callable[[Any, Any, Where], None]:
-    """Return what checks that R is orthogonal, and 1 at t = 0."""
+    """Return checks that R is orthogonal, and 1 at t = 0."""
 
     def compare_more(kernel: Any, *_: Any) -> None:
         R = kernel.rotation(np.array(times))

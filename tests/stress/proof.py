@@ -38,7 +38,7 @@ def forms(name: str) -> Iterator[tuple[str, str]]:
 def proofs_found(
     name: str, most: int, seed: str, change: Change = changes
 ) -> tuple[str, Counter[str], list[str], float]:
-    """Return how many changes of an entry came to what, those that are still proved, and the seconds."""
+    """Return the changes of an entry counted by verdict, those that are still proved, and the seconds."""
     started, counts, proved = time.process_time(), Counter[str](), list[str]()
     case = trial(name)
     for field, tex in forms(name):

@@ -46,12 +46,12 @@ PROMISES: Mapping[str, float] = {
     "general scalars": 0.51,
     "general kind": 0,
 }
-"""What the register promises, in ulps, and what holds of arrays beside."""
+"""Promises of the register, in ulps, and laws of arrays beside them."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """A stress run: what was found, from which seed."""
+    """A stress run: its largest errors and its seed."""
 
     seed: int
     samples: int
@@ -68,7 +68,7 @@ class Result:
         return listed
 
     def broken(self) -> list[Worst]:
-        """Return what exceeds the promise of its quantity."""
+        """Return errors above the promise of their quantity."""
         return [w for w in self.worst if w.ulps > PROMISES.get(w.quantity, math.inf)]
 
     def record(self) -> dict[str, Any]:

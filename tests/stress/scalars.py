@@ -2,7 +2,7 @@
 
 `cd tests && python -m stress.scalars --samples 300 --seed 7` draws so many inputs of each kind, hostile and ordinary,
 and prints how many values of each scalar were compared and the worst error in ulps of its size; the exit status is 1
-where one exceeds 4, which is what the package promises for sizes from 1e-140 to 1e140.
+where one exceeds 4, which the package promises for sizes from 1e-140 to 1e140.
 """
 
 import argparse
@@ -29,7 +29,7 @@ from stress.worst import WorstErrors
 
 PROMISED = 4.0
 EDGE = 1e-140, 1e140
-"""Sizes between which a scalar is promised; what is beyond is left out."""
+"""Sizes between which a scalar is promised; others are left out."""
 
 Comparisons = Iterator[tuple[str, Any, Any]]
 
@@ -112,7 +112,7 @@ def of_ball(random: Random, _: str) -> Comparisons:
 
 
 def of_particle(random: Random, _: str) -> Comparisons:
-    """Point charges, (94), (97): the radius is that of what remains of the velocity without the drift."""
+    """Point charges, (94), (97): the radius is that of the velocity without the drift."""
     m = extreme.particle_motion(random)
     motion = atlas.ParticleMotion(m.mu, m.E, m.B, m.position, m.velocity, m.c)
     E, B, v = ([mpf(x) for x in vector] for vector in (m.E, m.B, m.velocity))
@@ -192,11 +192,11 @@ KINDS: tuple[tuple[Callable[[Random, str], Comparisons], Sequence[str], int], ..
     (of_top, [*TOPS], 400),
     (of_general, [*GENERAL], 400),
 )
-"""What draws and compares, its regimes in turn, and digits at which nothing that doubles hold cancels."""
+"""Functions that draw and compare, regimes in turn, and digits at which nothing that doubles hold cancels."""
 
 
 def compare(values: Any, true: Any) -> list[float]:
-    """Return errors in ulps, of each number in ulps of itself; what no double in the range can be is left out."""
+    """Return errors in ulps, of each number in ulps of itself; numbers outside the doubles' range are left out."""
     errors = []
     for value, exact in zip(np.ravel(values), true if isinstance(true, list | tuple) else (true,), strict=True):
         size = abs(exact)

@@ -33,7 +33,7 @@ SMALL = 1e-14
 
 
 class Found(NamedTuple):
-    """The worst difference from the twin, in ulps and beside the stated bound; what is stated; time of the set-up."""
+    """The worst difference from the twin, in ulps and beside the stated bound; the statement; time of the set-up."""
 
     ulps: float
     beside: float

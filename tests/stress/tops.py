@@ -10,7 +10,7 @@ TwoNumbers = tuple[float, float]
 
 
 class Top(NamedTuple):
-    """What `atlas.TopMotion` takes, I2 = 1."""
+    """Inputs of `atlas.TopMotion`, I2 = 1."""
 
     inertia: TwoNumbers
     coupling: TwoNumbers

@@ -24,7 +24,7 @@ class Worst:
 
 @dataclass(frozen=True)
 class Refusal:
-    """An input that a kernel would not answer, and what it said."""
+    """An input that a kernel refused, and the message."""
 
     quantity: str
     regime: str
@@ -47,7 +47,7 @@ class WorstErrors:
 
     @contextmanager
     def checking(self, quantity: str, regime: str, inputs: Any) -> Iterator[None]:
-        """Check at the precision of the truth, and keep what a kernel says when it will not answer."""
+        """Check at the precision of the truth, and keep the message of a kernel that refuses."""
         try:
             with workprec(BITS + 16):
                 yield
@@ -55,7 +55,7 @@ class WorstErrors:
             self.refusals.append(Refusal(quantity, regime, str(reason), inputs))
 
     def merge(self, other: "WorstErrors") -> None:
-        """Take over what others found."""
+        """Take over the errors of others."""
         for worst in other.worst.values():
             self._take(worst)
         self.refusals.extend(other.refusals)

@@ -1,4 +1,4 @@
-"""Charged ball: core and exact say what the ledger's (26) to (30) say."""
+"""Charged ball: core and exact agree with the ledger's (26) to (30)."""
 
 from types import SimpleNamespace
 from typing import Any

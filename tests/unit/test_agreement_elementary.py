@@ -1,4 +1,4 @@
-"""Elementary motion and the free body beside it: core and exact say what the ledger's (71) to (88) say."""
+"""Elementary motion and the free body beside it: core and exact agree with the ledger's (71) to (88)."""
 
 from functools import partial
 from typing import Any
@@ -250,7 +250,7 @@ ALONE = (
         )
         for name in ("k", "phi")
     ),
-    *matrices("FreeMotion", f"{FREE_LABELS} {TWO_TURNS}", free_motion, partial(free_rotation, whole=True), SPINS),
+    *matrices("FreeMotion", f"{FREE_LABELS} {TWO_TURNS}", free_motion, partial(free_rotation, has_omega1=True), SPINS),
     of_free("FreeMotion.angular_velocity", f"{FREE_LABELS} {TWO_TURNS} text-momentum", free_spin, size=length),
 )
 

@@ -1,4 +1,4 @@
-"""Equations of motion, inertia and units: the kernels say what the ledger's (8) to (18) and (32) to (39) say."""
+"""Equations of motion, inertia and units: the kernels agree with the ledger's (8) to (18) and (32) to (39)."""
 
 from functools import partial
 from types import SimpleNamespace

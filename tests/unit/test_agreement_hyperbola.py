@@ -1,4 +1,4 @@
-"""Hyperbola: core and exact say what the ledger's (67) to (79) and the theorems on stability say."""
+"""Hyperbola: core and exact agree with the ledger's (67) to (79) and the theorems on stability."""
 
 import dataclasses
 from typing import Any
@@ -121,7 +121,7 @@ def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 
 def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The floors are held together from either end: (omega2 - 2 B2) for (omega2 + 2 B2) in what is tried as (72)."""
+    """Both floors notice (omega2 - 2 B2) for (omega2 + 2 B2) in the tried form of (72)."""
     trial_right = formula.trial("(72)")
     trial_wrong = dataclasses.replace(trial_right, tex=EQUATIONS["(72)"].tex.replace("+2B", "-2B"))
     assert trial_wrong.printed != trial_right.printed

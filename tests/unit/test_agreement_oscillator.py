@@ -1,4 +1,4 @@
-"""Integrals and pseudo-oscillator: core says what the ledger's (36) to (49) say."""
+"""Integrals and pseudo-oscillator: core agrees with the ledger's (36) to (49)."""
 
 from functools import partial
 from typing import Any
@@ -26,7 +26,7 @@ def state(p: Any) -> dict[str, Any]:
 
 
 def at_start(say: Ledger, p: Any) -> dict[str, Any]:
-    """Return E', K^2, c3, c5 by what they are at t = 0."""
+    """Return E', K^2, c3, c5 by their values at t = 0."""
     inputs = letters(p, "I B2 B3 omega1 omega2 omega3")
     sides = {"E": ("(36)", "at0(E)"), "Bsquare": ("(37)", "at0(K^2)")}
     sides |= {"c3": ("(40)", "at0(c3)"), "c5": ("(41)", "at0(c5)")}

@@ -1,4 +1,4 @@
-"""Point particle and flight: core and exact say what the ledger's (89) to (99) say, for either sign of the charge."""
+"""Point particle and flight: core and exact agree with the ledger's (89) to (99), for either sign of the charge."""
 
 from types import SimpleNamespace
 from typing import Any

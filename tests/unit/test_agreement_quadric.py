@@ -1,4 +1,4 @@
-"""Quadric: core and exact say what the ledger's (51) to (57) say."""
+"""Quadric: core and exact agree with the ledger's (51) to (57)."""
 
 from typing import Any
 
@@ -23,7 +23,7 @@ def coordinates(say: Ledger, p: Any, omega: Any) -> list[Any]:
 
 
 def axes(say: Ledger, p: Any) -> Any:
-    """Rows of (53): what the coordinates gain along e1, e2, e3."""
+    """Rows of (53): changes of the coordinates along e1, e2, e3."""
     steps = [[int(i == j) - sympy.Rational(b) for j, b in enumerate((0, p.B2, p.B3))] for i in range(3)]
     return sympy.Matrix([coordinates(say, p, omega) for omega in steps]).T
 
@@ -41,7 +41,7 @@ def semi_axes(say: Ledger, p: Any) -> list[Any]:
 
 
 def off_canonical(say: Ledger, p: Any) -> Any:
-    """Left side of (54) less the right one, times B3: what (50) has on its left."""
+    """Left side of (54) less the right one, times B3: the left side of (50)."""
     w = dict(zip(("w1", "w2", "w3"), coordinates(say, p, p.omega), strict=True))
     a = {name: say("(54)", name, beta=beta(say, p)) for name in ("a2", "a3")}
     left_side = say("(54)", "(1 - I)*B2^2", **w, **a)
@@ -68,5 +68,5 @@ TIES = (
 
 @each(TIES)
 def test_the_quadric_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
-    """Its shape, its frame and what it leaves of any point."""
+    """Shape, frame and residual of any point."""
     agree(tie, floor)

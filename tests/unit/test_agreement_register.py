@@ -196,7 +196,7 @@ def public_classes(floor: str) -> set[str]:
 
 
 def quantities(floor: str) -> set[str]:
-    """Return every public quantity of a floor; what an object says of itself, as all do, is none."""
+    """Return every public quantity of a floor; an object's description of itself, which all have, is none."""
     names = {
         f"{module}.{node.name}"
         for module, node in defined(floor)

@@ -1,4 +1,4 @@
-"""Moving figures: what rides on a path goes as the kernels say, frames share one view, files are whole or not there."""
+"""Moving figures: layers on a path go as the kernels say, frames share one view, files are whole or absent."""
 
 import re
 from base64 import b64decode

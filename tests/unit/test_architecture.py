@@ -73,7 +73,7 @@ def names_compared(code: str) -> list[str]:
 
 @pytest.mark.slow
 def test_no_name_of_a_family_is_tested_outside_its_folder() -> None:
-    """What a place needs to know of a family is said by its line in the register."""
+    """Code asks for a property of a family in its line in the register."""
     assert names_compared("motion.family == 'top'")
     assert names_compared("args[:1] == ['asymmetric']")
     assert names_compared("family.name not in ('general', 'free')")

@@ -41,7 +41,7 @@ def fractions(values: Any) -> list[Fraction]:
 
 
 def agrees(found: Any, true: mpmath.matrix, digits: int) -> bool:
-    """Whether balls are that narrow, and hold what an integration found to so many digits."""
+    """Whether balls are that narrow, and hold the integrated values to so many digits."""
     near = arb(10) ** -digits
     entries = [(arb(found[i][j]), arb(mpmath.nstr(true[i, j], digits + 8))) for i in range(3) for j in range(3)]
     return all(x.rad() < near and abs(x - y) < near for x, y in entries)
@@ -104,7 +104,7 @@ def state_of(motion: Any, t: Any) -> list[Any]:
 
 
 def test_the_series_about_zero_is_the_flow(monkeypatch: pytest.MonkeyPatch) -> None:
-    """At the end of its reach it gives what the steps of Taylor's series give, to 200 digits as to twenty."""
+    """At the end of its reach it agrees with the steps of Taylor's series, to 200 digits as to twenty."""
     t = fmpq(1, 1 << 18)
     for bits in (100, 800):
         with ctx.workprec(bits):
@@ -407,7 +407,7 @@ def test_the_start_is_known_without_a_closed_form(monkeypatch: pytest.MonkeyPatc
     ],
 )
 def test_impossible_motions_are_refused_in_one_line(case: tuple[Any, ...], words: str) -> None:
-    """Errors say what is wrong and what would be right, in one line."""
+    """Errors name fault and remedy in one line."""
     with pytest.raises(atlas.AtlasError, match=words) as raised:
         Balls(*case)
     assert "\n" not in str(raised.value)
@@ -415,7 +415,7 @@ def test_impossible_motions_are_refused_in_one_line(case: tuple[Any, ...], words
 
 @pytest.mark.slow
 def test_the_command_prints_proven_digits_or_one_line() -> None:
-    """`atlas motion` prints its kind and digits, or raises what becomes one line and status 2."""
+    """`atlas motion` prints its kind and digits, or raises an error of one line and status 2."""
     options = [w for name, v in zip(("inertia", "field", "omega"), QUICK, strict=True) for w in (f"--{name}", *v)]
     outcome = CliRunner().invoke(command, ["motion", *options, "--times", "0.5", "--digits", "25"])
     assert outcome.exit_code == 0
@@ -427,7 +427,7 @@ def test_the_command_prints_proven_digits_or_one_line() -> None:
 
 
 class Fake:
-    """A closed form of which nothing is known but what it says."""
+    """A closed form of which nothing is known but its values."""
 
     def __init__(self, proved: float | None, accuracy: float) -> None:
         self.proved, self.accuracy, self.fits = proved, accuracy, True

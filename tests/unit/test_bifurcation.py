@@ -1,4 +1,4 @@
-"""Critical values of H and F of a body with three moments: those of motions, what they border, and who is stable."""
+"""Critical values of H and F of a body with three moments: those of motions, their borders, and their stability."""
 
 from itertools import product
 from random import Random

@@ -90,7 +90,7 @@ def test_every_shape_is_cut_into_rings_here() -> None:
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_registry_names_the_parameters_of_the_constructor(name: str) -> None:
-    """What the command line asks for is what the constructor takes."""
+    """The command line and the constructor have the same parameters."""
     constructor, names = SHAPES[name]
     assert tuple(x for x in inspect.signature(constructor).parameters if x != "density") == names
     assert constructor == getattr(SymmetricBody, name)
@@ -157,7 +157,7 @@ def test_a_cube_of_points_is_totally_symmetric() -> None:
 
 
 def test_a_body_without_symmetry_is_refused() -> None:
-    """Three different principal moments raise, and say what would do; a looser tolerance takes nearly equal ones."""
+    """Three different principal moments raise, with the remedy; a looser tolerance takes nearly equal ones."""
     masses, positions = np.ones(3), np.array([[1, 0, 0], [0, 2, 0], [0, 0, 3.0]])
     with pytest.raises(DomainError, match="not symmetric"):
         SymmetricBody.from_point_masses(masses, positions)
@@ -233,7 +233,7 @@ def test_moments_keep_the_inputs_exact() -> None:
 
 @pytest.mark.parametrize("ratio", [np.nextafter(2, 3), 3, [1, 2.5], -1, 0, -0.0, np.nan, np.inf])
 def test_no_body_lies_outside_the_domain(ratio: float) -> None:
-    """Ratios outside (0, 2], and what is no number, raise one sentence."""
+    """Ratios outside (0, 2], and non-numbers, raise one sentence."""
     with pytest.raises(DomainError, match=r"^[^\n]*\.$"):
         moments(ratio)
 
@@ -260,7 +260,7 @@ def test_a_ratio_above_two_is_refused_with_the_reason() -> None:
     ],
 )
 def test_an_array_of_bodies_is_its_bodies(quantity: Callable[[SymmetricBody], Any]) -> None:
-    """What is computed of an array, made from arrays of masses and sizes, is what each body has, within 4e-15."""
+    """Quantities of an array, made from arrays of masses and sizes, are those of each body, within 4e-15."""
     mass, radius = np.array([[1.0], [2.0]]), np.array([1.0, 1.2, 1.4])
     bodies = SymmetricBody.cylindrical_shell(mass, radius, 0.8)
     bodies_alone = [[SymmetricBody.cylindrical_shell(m, r, 0.8) for r in radius.tolist()] for m in mass[:, 0].tolist()]

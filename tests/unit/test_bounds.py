@@ -22,7 +22,7 @@ FAMILIES = {"general": GENERAL, "top": TOPS}
 
 
 def motion_drawn(family: str) -> tuple[Any, list[Any], Any]:
-    """Return motions of all regimes in one array, what each is made of, and times from 1e-2 to 1e6 of their own.
+    """Return motions of all regimes in one array, the inputs of each, and times from 1e-2 to 1e6 of their own.
 
     Of the general ones half start in the plane of axis and field, of the tops a third have no kappa.
     """
@@ -63,7 +63,7 @@ def test_frequencies_of_elementary_motions_keep_their_bounds() -> None:
 
 
 def true_of(sample: Any) -> tuple[Any, Callable[[Any], Any]]:
-    """Return a motion in balls, and what makes of a turning point its distance from the start."""
+    """Return a motion in balls, and a function from a turning point to its distance from the start."""
     if isinstance(sample, Top):
         top = TopMotion(*sample)
         n2, n3 = (arb(x) for x in sample.direction)

@@ -25,7 +25,7 @@ def path_of(cache: Cache, key: str) -> Path:
 
 @pytest.mark.parametrize("damage", [b"", b"x", b"one", b"\n", b"[]", None])
 def test_a_damaged_entry_is_missing_and_heals(tmp_path: Path, damage: bytes | None) -> None:
-    """An entry that is not what was put there counts as missing, and can be put again."""
+    """A changed entry counts as missing, and can be put again."""
     cache = Cache(tmp_path)
     cache.put(KEY, b"one")
     path = path_of(cache, KEY)
@@ -36,7 +36,7 @@ def test_a_damaged_entry_is_missing_and_heals(tmp_path: Path, damage: bytes | No
 
 
 def test_the_entry_of_another_key_is_missing(tmp_path: Path) -> None:
-    """Two entries that were exchanged, by a copy or by hand, are no entries; what is made anew stays."""
+    """Two entries that were exchanged, by a copy or by hand, are no entries; new entries stay."""
     cache = Cache(tmp_path)
     cache.put(KEY, b"one")
     cache.put(OTHER, b"two")
@@ -83,7 +83,7 @@ def test_two_processes_that_put_the_same_do_no_harm(tmp_path: Path) -> None:
 
 
 def test_unused_cache_entries_are_removed(tmp_path: Path) -> None:
-    """Entries that nobody read for long go, and so does what a killed build left; what is in use stays."""
+    """Entries that nobody read for long go, and so do leftovers of a killed build; entries in use stay."""
     cache, now = Cache(tmp_path), time.time()
     for key in (KEY, OTHER):
         cache.put(key, b"x")

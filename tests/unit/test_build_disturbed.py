@@ -54,7 +54,7 @@ def run(words: list[str], **options: object) -> subprocess.CompletedProcess[str]
 
 
 def content(folder: Path) -> dict[str, str]:
-    """Return the digests of what a reader gets: the pages, the figures, the fonts, the PDF."""
+    """Return the digests of the reader's files: the pages, the figures, the fonts, the PDF."""
     out = folder / "out"
     files = [path for path in [*(out / "small").rglob("*"), out / "small.pdf"] if path.is_file()]
     return {path.relative_to(out).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
@@ -71,7 +71,7 @@ def peace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def undisturbed(peace: Path) -> dict[str, str]:
-    """Return what is built in peace."""
+    """Return the files of an undisturbed build."""
     files = content(peace)
     assert {"small/index.html", "small/manifest.json", "small.pdf"} <= files.keys()
     return files
@@ -79,7 +79,7 @@ def undisturbed(peace: Path) -> dict[str, str]:
 
 @pytest.fixture
 def copy(peace: Path, tmp_path: Path) -> Path:
-    """Return a copy of what is built in peace, with its cache."""
+    """Return a copy of an undisturbed build, with its cache."""
     return shutil.copytree(peace, tmp_path / "copy")
 
 
@@ -116,7 +116,7 @@ def _alive(group: int) -> bool:
 def test_workers_killed_at_random_moments_stop_nothing(
     undisturbed: dict[str, str], tmp_path: Path, *, loading: bool
 ) -> None:
-    """When the processes that draw are killed, the build draws again what they had, and ends in the same bytes."""
+    """When the processes that draw are killed, the build draws their figures again, and ends in the same bytes."""
     chance = random.Random(7)  # noqa: S311  reproducible, not secret
     with subprocess.Popen(
         command(tmp_path, "-j", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
@@ -135,7 +135,7 @@ def test_workers_killed_at_random_moments_stop_nothing(
 
 
 def _workers(parent: int, *, loading: bool = False) -> list[int]:
-    """Return the processes that draw for a build: the one that loads what they need, and its forks once there are."""
+    """Return the processes that draw for a build: the one that loads the libraries, and its forks once there are."""
     servers = [child for child in _children(parent) if b"forkserver" in Path(f"/proc/{child}/cmdline").read_bytes()]
     forks = [fork for server in servers for fork in _children(server)]
     return [*servers, *forks] if loading or forks else []
@@ -176,7 +176,7 @@ def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, 
 
 @pytest.mark.slow
 def test_a_full_disk_is_one_line_and_the_last_good_report_is_kept(undisturbed: dict[str, str], copy: Path) -> None:
-    """When a file cannot be written in full, the command says so in one line and leaves what was there."""
+    """When a file cannot be written in full, the command says so in one line and leaves the old file."""
     words = command(copy)
     (copy / "small.toml").write_text(REPORT.replace("A Small Report", "Another Title"))
 

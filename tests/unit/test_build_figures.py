@@ -1,4 +1,4 @@
-"""What is drawn again when something changes: exactly what depends on it. And what happens when drawing goes wrong."""
+"""After a change exactly the figures that depend on it are drawn again. And failures of drawing."""
 
 import gzip
 import os
@@ -201,7 +201,7 @@ def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_changes_that_cause_a_redraw_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A figure that is drawn again says which parts of what it depends on are new, or that a file was lost."""
+    """A figure that is drawn again names its changed dependencies, or a lost file."""
     cache = Cache(tmp_path)
     made([figure("lssc")], cache)
     for entry in tmp_path.glob("??/*"):
@@ -216,7 +216,7 @@ def test_changes_that_cause_a_redraw_are_named(tmp_path: Path, monkeypatch: pyte
 
 @pytest.mark.slow
 def test_whatever_the_cache_has_lost_the_files_are_the_same(tmp_path: Path) -> None:
-    """Any one entry of a drawing removed, or all but one, it is drawn as a whole, with what moves and what turns."""
+    """Any one entry of a drawing removed, or all but one, it is drawn as a whole, with its moving parts."""
     kinds, cache = ("svg", "narrow", "scene", "moves"), Cache(tmp_path)
     (first,) = made([figure("film_strip", *kinds)], cache)
     whole = Picture("film_strip", "film_strip", "vector", {})
@@ -306,7 +306,7 @@ def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) 
 
 @pytest.mark.slow
 def test_a_library_that_cannot_be_loaded_is_reported(tmp_path: Path) -> None:
-    """What Matplotlib refuses when it is loaded is a failure of each figure, in a line."""
+    """An error of Matplotlib while it is loaded is a failure of each figure, in a line."""
     broken = tmp_path / "broken" / "contourpy"
     broken.mkdir(parents=True)
     (broken / "__init__.py").write_text('raise ImportError("nonsense")\n', encoding="utf-8")
@@ -378,7 +378,7 @@ def scene(*, wrong: str = ""):
 def test_a_recipe_that_misbehaves_fails_alone(
     checkout: Path, capfd: pytest.CaptureFixture[str], wrong: str, complaint: str
 ) -> None:
-    """A recipe that ends the program is told of; what it prints is no result."""
+    """A recipe that ends the program is reported; its printed output is no result."""
     (checkout / "figures" / "misbehaving.py").write_text(MISBEHAVING)
     (one,) = made([figure("misbehaving", wrong=wrong)], Cache(checkout / "cache"))
     assert complaint in one.failure

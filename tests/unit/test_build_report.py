@@ -1,4 +1,4 @@
-"""A whole report on real input: what the pages and the PDF hold, and that the same input gives the same bytes."""
+"""A whole report on real input: the content of the pages and the PDF, and the same bytes for the same input."""
 
 import re
 import unicodedata
@@ -82,7 +82,7 @@ def italic(letter: str) -> str:
 
 
 def test_pages_hold_no_markup_that_was_not_set(built: Built) -> None:
-    """No TeX, no Markdown, no template syntax, no citation is left in what the reader sees."""
+    """No TeX, no Markdown, no template syntax, no citation is left in the reader's text."""
     for path, page in pages(built):
         for element in page.xpath(
             "//script[not(@src='page.js' or @src='minisearch.js' or @src='scene.js')] | //annotation"

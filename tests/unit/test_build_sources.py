@@ -123,13 +123,13 @@ def test_one_public_name_reaches_no_other(tmp_path: Path, memory: Cache) -> None
 
 
 def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path, memory: Cache) -> None:
-    """What a recipe borrows from another one is part of it."""
+    """Code that a recipe borrows from another one is part of it."""
     recipe = write(tmp_path / "recipe.py", "from figures.hyperbola import caption\n")
     assert folder("figures") / "hyperbola.py" in Sources(memory).reached([recipe])
 
 
 def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What an import leads to is looked up anew, even if the file with the import is remembered."""
+    """The target of an import is looked up anew, even if the file with the import is remembered."""
     package, cache = tmp_path / "atlas", Cache(tmp_path / "cache")
     (package / "motions").mkdir(parents=True)
     for name in ("__init__.py", "motions/__init__.py", "motions/ball.py"):

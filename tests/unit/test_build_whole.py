@@ -40,7 +40,7 @@ build_report(sys.argv[1], __import__("pathlib").Path(sys.argv[2]), tell)
 
 
 def state(folder: Path) -> dict[str, bytes]:
-    """Return what a reader gets: all files but hidden ones and the times that a build took."""
+    """Return the reader's files: all but hidden ones and the times that a build took."""
     names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
     names_shown = (
         name
@@ -133,7 +133,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("link", [False, True])
 def test_an_edited_file_is_kept_and_the_new_file_is_written_beside_it(tmp_path: Path, *, link: bool) -> None:
-    """It is told each time until it is as written; what is stale and edited stays, the new one of before goes."""
+    """It is told each time until it is as written; stale edited files stay, the new one of before goes."""
     place = tmp_path / "d"
     if link:
         (tmp_path / "there").mkdir()
@@ -155,7 +155,7 @@ def test_an_edited_file_is_kept_and_the_new_file_is_written_beside_it(tmp_path: 
 
 
 def test_a_pdf_or_a_page_beside_the_folder_is_kept_by_the_same_rule(tmp_path: Path) -> None:
-    """One that was edited, or is none of ours, stays; the new one is beside it, and what is beside it is as it was."""
+    """A file that was edited, or is none of ours, stays; the new one is beside it, and its neighbours are as before."""
     (tmp_path / "other.pdf").write_text("of somebody")
     publish(files_of("1", "c.html"), tmp_path, "plain")
     publish({"single": {"page.html": b"1"}}, tmp_path, "page")
@@ -246,7 +246,7 @@ def test_pages_take_their_places_at_once(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_pages_behind_a_link_are_written_there(tmp_path: Path) -> None:
-    """Where the folder of the pages is a link it stays one, and what is stale behind it goes."""
+    """Where the folder of the pages is a link it stays one, and stale files behind it go."""
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "plain").symlink_to(tmp_path / "elsewhere")

@@ -129,7 +129,7 @@ def test_a_digit_that_hangs_on_the_last_bit_is_decided_by_a_ball(write: Writer) 
 
 
 def test_an_error_of_any_size_can_be_drawn(write: Writer) -> None:
-    """What is off by 1e308 has -308 digits and is drawn at 1e17, and the caption says so; what is right is not."""
+    """An error of 1e308 has -308 digits and is drawn at 1e17, as the caption says; a right value is not."""
     text = SETTING + table(["t", "R11", "Omega1"], [[0.0, 1e308, 0.0], [1.0, 0.5, -1e308]])
     result = check(write(text))
     assert [round(column.worst) for column in result.columns] == [-308, -308]
@@ -282,7 +282,7 @@ def test_columns_may_have_units(write: Writer, heads: list[str], separator: str,
 
 
 def test_numbers_in_any_notation_are_the_same(write: Writer) -> None:
-    """What is no JSON, 1. or +1 or .5, is read as what is; separators and blank lines change nothing."""
+    """Numbers that JSON lacks, 1. or +1 or .5, are read as others are; separators and blank lines change nothing."""
     rows = [check(write(HEAD + text)) for text in ("t,R13\n1.0,0.5\n2,-1\n", "t;R13\n+1.;.5\n\n# x\n 2.\t;-01\n")]
     assert rows[0] == rows[1]
 

@@ -53,7 +53,7 @@ def trajectory_file(
 
 
 def lines(parameters: dict[str, tuple[float, ...]]) -> str:
-    """Return the lines of a file that say what motion it is."""
+    """Return the lines of a file that describe its motion."""
     return "".join(f"# {name} = {' '.join(map(repr, values))}\n" for name, values in parameters.items())
 
 
@@ -152,7 +152,7 @@ def test_a_top_has_its_digits(tmp_path: Path, of_top: np.ndarray) -> None:
 def test_impossible_motions_are_refused(
     tmp_path: Path, of_body: np.ndarray, inputs: dict[str, Any], words: str
 ) -> None:
-    """In one sentence that says what would be right."""
+    """In one sentence that names the remedy."""
     with pytest.raises(AtlasError, match=words) as caught:
         check(trajectory_file(tmp_path, of_body), **inputs)
     assert "\n" not in str(caught.value)

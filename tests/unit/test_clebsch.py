@@ -1,4 +1,4 @@
-"""The flow of a body with three moments by Taylor series: its error is proved, and what is stated of it."""
+"""The flow of a body with three moments by Taylor series: its error is proved, and the bound is stated."""
 
 from itertools import product
 from typing import Any

@@ -31,7 +31,7 @@ STATED = {
     "weak field": (6.68661e-15, 1.482e-32),
     "rod": (7.18929e-15, 5.909e-20),
 }
-"""What is stated of rounding errors and, as proved, of those of the formulas: wider ones would hold, and be a loss."""
+"""Stated rounding errors and proved errors of the formulas: wider bounds would hold, and be a loss."""
 
 
 ACROSS = (1.0, 0.75, 0.5), (1.0, 0.5, -0.25), (-1.25, 0.5, 1.25)

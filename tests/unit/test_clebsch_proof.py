@@ -129,7 +129,7 @@ def test_the_bounds_of_a_body_whose_times_are_complex() -> None:
 
 
 def test_the_defects_over_the_denominator_are_bounded_at_each_place() -> None:
-    """What K, M and N miss, by differences of balls at some places of the cell, is no more than the bound on it."""
+    """Defects of K, M and N, by differences of balls at some places of the cell, are within their bound."""
     theta = theta_copy()
     form, *forms = theta.K
     theta.K = [replace(form, weights=(form.weights[0] + acb(1e-9), form.weights[1])), *forms]
@@ -182,7 +182,7 @@ def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> N
 
 @pytest.mark.parametrize(("H", "F"), [(1.0, 0.0), (0.0, 1.0), (3.0, -3.0), (2.0, 3.0)])
 def test_errors_grow_no_faster_than_the_stated_rate(H: float, F: float) -> None:
-    """Lengths of small errors of M, K and N change by what the linearized equations make of them, at most."""
+    """Lengths of small errors of M, K and N change no faster than by the linearized equations."""
     sizes = clebsch_proof._sizes(theta_copy())
     growth, I = clebsch_proof._growth(theta_copy(), sizes, H, F), np.array([float(x) for x in torus().moments])
     draws = np.random.default_rng(7).standard_normal((20000, 6, 3))

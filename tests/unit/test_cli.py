@@ -33,7 +33,7 @@ def run(*words: str) -> subprocess.CompletedProcess[str]:
 
 
 def record(*words: str) -> dict:  # type: ignore[type-arg]
-    """Run a command with --json inside this process and read what it prints."""
+    """Run a command with --json inside this process and read its output."""
     result = CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return json.loads(result.stdout)
@@ -145,7 +145,7 @@ def test_control_characters_are_not_printed() -> None:
     ],
 )
 def test_a_path_below_a_file_is_refused_before_any_work(words: str, tmp_path: Path) -> None:
-    """What cannot be written is named as it was given, and no hidden file with it; a wrong place is a wrong input."""
+    """A file that cannot be written is named as given, and no hidden file with it; a wrong place is a wrong input."""
     file = tmp_path / "mine.csv"
     file.write_text("t,R11\n0,1\n", encoding="utf-8")
     place = file / "sub" / "x"
@@ -167,7 +167,7 @@ def test_a_read_only_folder_is_refused_before_any_work(tmp_path: Path, monkeypat
 
 @pytest.mark.slow
 def test_a_missing_library_is_an_error_of_one_line() -> None:
-    """As after new code came with new libraries: what is missing, and what installs it."""
+    """As after new code came with new libraries: the missing library, and the command that installs it."""
     block = "import sys; sys.modules['pylatexenc'] = None; from atlas.cli.app import main; main(['verify', '71'])"
     result = subprocess.run([sys.executable, "-c", block], capture_output=True, text=True, check=False)
     assert result.returncode == 1
@@ -175,7 +175,7 @@ def test_a_missing_library_is_an_error_of_one_line() -> None:
 
 
 def test_every_shape_that_is_listed_has_a_quadric() -> None:
-    """What `atlas list` names, `atlas classify` takes, with the dimensions that stand beside it."""
+    """`atlas classify` takes every shape of `atlas list`, with its listed dimensions."""
     for shape, sizes in record("list")["shapes"].items():
         dimensions = [word for size in sizes for word in (f"--{size}", "0.5")]
         kind = record("classify", "--shape", shape, *dimensions, "--field", "1", "2")["kind"]
@@ -314,7 +314,7 @@ def test_without_gl_a_line_drawing_replaces_a_shaded_figure_with_a_notice(
 
 @pytest.mark.slow
 def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
-    """Asked for shaded, a figure without a panel in space says in one line what drew it."""
+    """Asked for shaded, a figure without a panel in space says in one line which library drew it."""
     words = ["figure", "hyperbola", "--renderer", "shaded", "--out", str(tmp_path)]
     for _ in ("drawn", "taken from the store"):
         result = CliRunner().invoke(command, words, standalone_mode=False)
@@ -324,7 +324,7 @@ def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
 
 
 def test_a_failing_figure_names_the_fault_of_its_parameter(bad_recipe: Path) -> None:
-    """A wrong parameter is told in its own sentence; only what nobody expected comes with the name of its class."""
+    """A wrong parameter is told in its own sentence; only unexpected errors come with the name of their class."""
     (bad_recipe.parent / "figures" / "aa_bad.py").write_text(
         '"""Bad."""\ndef scene(*, ratio=1.0):\n    return 1 / 0\n', encoding="utf-8"
     )
@@ -474,7 +474,7 @@ def test_a_separatrix_lacks_angles_per_period_with_a_reason() -> None:
 
 
 def test_general_says_why_a_number_has_no_digits() -> None:
-    """What is zero by symmetry is printed as 0; what falls off as exp(-t) has a proven bound, and the table says so."""
+    """Quantities zero by symmetry are printed as 0; one that falls off as exp(-t) has a bound, as the table says."""
     motion = "--ratio 2 --field 1 0.5 --omega 1 -1 -0.5 --times 1e5"
     out = CliRunner().invoke(command, ["motion", *motion.split()], catch_exceptions=False).stdout
     assert len(re.findall(r"0 within 1e-\d{4}", out)) == 4

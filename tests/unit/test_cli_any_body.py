@@ -56,7 +56,7 @@ def run(*words: str) -> tuple[int, str]:
 
 
 def numbers(*words: str) -> dict[str, Any]:
-    """Return what a command prints as JSON but its parameters."""
+    """Return a command's output as JSON without its parameters."""
     status, out = run(*words)
     assert status == 0, out
     return {name: value for name, value in json.loads(out).items() if name != "parameters"}
@@ -234,7 +234,7 @@ def test_one_command_takes_any_body_and_any_start() -> None:
 
 
 def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -> None:
-    """Late, too, where certified steps give no quaternion: what `atlas.motion` has; proven digits are of balls."""
+    """Late, too, where certified steps give no quaternion: `atlas.motion` has one; proven digits are of balls."""
     words = "motion --inertia 1 1 1.5 --field 0.3 1 2 --omega 0.3 0.7 0.2 --times".split()
     late = numbers(*words, "1e6", "--json")["samples"][0]
     R = atlas.motion((1, 1, 1.5), (0.3, 1, 2), (0.3, 0.7, 0.2)).rotation(1e6)
@@ -468,7 +468,7 @@ def test_columns_of_a_sweep_in_turned_axes_say_so(tmp_path: Path) -> None:
 def test_an_unstable_start_in_any_field_is_that_of_every_command(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What page, sliders and sweep evaluate of a symmetric body is what was typed: after t = 60 it still agrees."""
+    """Page, sliders and sweep evaluate a symmetric body as typed: after t = 60 it still agrees."""
     monkeypatch.chdir(tmp_path)
     I, field, omega = 0.7157322617930502, (-0.765050795081338, 1.0200677267751173, 0.19211036905670717), (
         0.8801646474639836, -1.1735528632853114, 0.2745993411764893

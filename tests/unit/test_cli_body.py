@@ -22,7 +22,7 @@ TETRAGON = "x [m],y,z,mass [kg],charge\n1e-6,0,0,1,-2\n0,1e-6,0,1,-2\n-1e-6,0,0,
 
 
 def record(*words: str) -> dict:  # type: ignore[type-arg]
-    """Read what a command prints with --json."""
+    """Read a command's output with --json."""
     result = CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return json.loads(result.stdout)
@@ -67,7 +67,7 @@ def test_decimals_of_a_shape_are_taken_as_typed() -> None:
 
 @pytest.mark.parametrize("units", [["--units", "gaussian"], []])
 def test_mass_and_charge_are_their_ratio(units: list[str]) -> None:
-    """--mass and --charge do what --mu does with their quotient; without --units they are in SI."""
+    """--mass and --charge act as --mu with their quotient; without --units they are in SI."""
     base = "motion --ratio 1.5 --magnetic 1 2 --omega2 0.7".split()
     by_charge = record(*base, "--mass", "4", "--charge", "-3", *units)
     by_ratio = record(*base, "--mu", "-0.75", *(units or ["--units", "si"]))

@@ -60,7 +60,7 @@ def test_floats_are_the_certified_digits_rounded(words: str) -> None:
     floats, texts = answer(words), answer(f"{words} --digits 25")
     for name in ("certified_digits", "inputs"):
         del texts[name]
-    floats.pop("input_error", None)  # of floats alone: what is typed is exact where digits are proven
+    floats.pop("input_error", None)  # of floats alone: typed numbers are exact where digits are proven
     compare(floats, texts, "")
 
 
@@ -131,7 +131,7 @@ def test_the_field_of_a_charge_is_exact(units: str, c: int) -> None:
 
 
 def test_rounding_of_typed_numbers_is_reported(tmp_path: Path) -> None:
-    """The sentence on the inputs names what is computed in doubles first, in a table as in JSON; none is a decimal."""
+    """The sentence on the inputs names the values in doubles first, in a table as in JSON; none is a decimal."""
     (tmp_path / "ring.csv").write_text("x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n", encoding="utf-8")
     start = "motion --digits 40"
     for words, says in (
@@ -173,7 +173,7 @@ def test_a_charge_is_in_coulomb_unless_another_system_is_named(words: str, syste
 
 
 def test_one_time_that_cannot_be_had_does_not_lose_the_others() -> None:
-    """Where a higher precision can't be had a row keeps what it had at the last one; else it says so, with a reason."""
+    """Where a higher precision can't be had a row keeps its last value; else it says so, with a reason."""
     best, vector = Best(), Sampled("Omega_i", "angular_velocity", "")
 
     class Motion:

@@ -1,4 +1,4 @@
-"""``atlas top`` with a heavy or a charged body: what Python makes of the same, units, and what is wrong in a line."""
+"""``atlas top`` with a heavy or a charged body: the numbers of Python, units, and faults in a line."""
 
 import json
 import math
@@ -17,7 +17,7 @@ CHARGED = "--inertia 2e-27 1e-27 --charged 1e-23 2e-23 --magnetic 1 2 --omega 0.
 
 
 def record(words: str) -> dict[str, Any]:
-    """Return what the command prints as JSON."""
+    """Return the command's output as JSON."""
     outcome = CliRunner().invoke(TOP, [*words.split(), "--json"], catch_exceptions=False)
     assert outcome.exit_code == 0, outcome.output
     return json.loads(outcome.stdout)  # type: ignore[no-any-return]
@@ -96,7 +96,7 @@ def test_point_masses_may_have_any_charges(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("up", "sign"), [("", 1), ("--direction -3 -4", -1)])
 def test_a_charged_heavy_top_has_both_forces(tmp_path: Path, up: str, sign: int) -> None:
-    """A charged ring on a rod, from its shape, its moments and its points: what m, e, g, l and B make by hand."""
+    """A charged ring on a rod, from its shape, its moments and its points: the values of m, e, g, l and B by hand."""
     m, e, r, g, l, B = 3.0, 0.5, 2.0, 9.81, 0.7, 5.0
     J2, J3 = e * (r * r / 2 + l * l), e * r * r
     byhand = atlas.TopMotion(

@@ -1,4 +1,4 @@
-"""Numbers typed with an uncertainty: what is printed of them, against a Monte Carlo and against closed forms."""
+"""Numbers typed with an uncertainty: printed deviations against a Monte Carlo and against closed forms."""
 
 import json
 import math
@@ -41,7 +41,7 @@ def test_answers_that_take_long_are_drawn_less_often(monkeypatch: pytest.MonkeyP
 
 
 def numbers(words: str) -> dict[str, Any]:
-    """Return what a command prints as JSON."""
+    """Return a command's output as JSON."""
     status, out = run(f"{words} --json")
     assert status == 0, out
     return dict(json.loads(out))

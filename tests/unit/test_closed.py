@@ -27,7 +27,7 @@ def _true_frequency(ratio: float, field: tuple[float, float], r: Fraction) -> mp
 
 @pytest.mark.parametrize(("ratio", "field", "p", "q"), CASES)
 def test_a_closed_motion_is_an_elementary_motion(ratio: float, field: tuple, p: int, q: int) -> None:
-    """Its frequencies and omega3 are those of the nearest omega2, within what the rounding of omega2 moves them."""
+    """Its frequencies and omega3 are those of the nearest omega2, within the effect of the rounding of omega2."""
     motion = atlas.Hyperbola(ratio, field).closed(p, q)
     motion_typed = atlas.ElementaryMotion(ratio, field, motion.omega2)
     assert motion.case == motion_typed.case == "precession"
@@ -81,7 +81,7 @@ def test_the_two_excluded_numbers_are_refused() -> None:
 
 
 def test_inputs_without_a_unique_closed_motion_are_refused() -> None:
-    """I = 1, B3 = 0, B2 = 0, and what is no quotient of whole numbers."""
+    """I = 1, B3 = 0, B2 = 0, and numbers that are no quotient of integers."""
     for ratio, field, why in ((1.0, (1.0, 2.0), "I = 1"), (1.5, (1.0, 0.0), "B3 = 0"), (1.5, (0.0, 1.0), "B2 = 0")):
         with pytest.raises(atlas.DomainError, match=why):
             atlas.Hyperbola(ratio, field).closed(1, 2)

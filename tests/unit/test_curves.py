@@ -1,4 +1,4 @@
-"""What is drawn is as near to the true curve as asked, takes no more points than needed, and asks for nothing else."""
+"""A drawn curve is as near to the true one as asked, takes no more points than needed, and asks for nothing else."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -48,7 +48,7 @@ def lines(panel: Any) -> Iterator[FloatArray]:
 
 
 def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], FloatArray | None]]:
-    """Yield for each panel what brings its points to final pixels, and the window of a panel with two axes."""
+    """Yield for each panel the map of its points to final pixels, and the window of a panel with two axes."""
     figure = to_figure(scene)
     figure.dpi = DPI
     for panel, axes in zip(scene.panels, figure.axes, strict=True):
@@ -78,7 +78,7 @@ def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], Fl
     ],
 )
 def test_every_recipe_draws_to_a_quarter_of_a_pixel(name: str, parameters: dict[str, Any]) -> None:
-    """In final pixels, inside the view, the same curves sampled densely lie that near to what is drawn."""
+    """In final pixels, inside the view, the same curves sampled densely lie that near to the drawn ones."""
     scene, true = recipes.load(name).scene(**parameters), true_scene(name, parameters)
     compared = 0
     for panel, model, (pixels, edges) in zip(scene.panels, true.panels, views(scene), strict=True):

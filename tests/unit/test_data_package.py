@@ -1,4 +1,4 @@
-"""`atlas data`: each table and each drawn point of a report, with what it is, the same bytes each time."""
+"""`atlas data`: each table and each drawn point of a report, described, the same bytes each time."""
 
 import csv
 import hashlib
@@ -59,7 +59,7 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def described(data: Path) -> dict[str, Any]:
-    """Return what the description says of each file."""
+    """Return the description of each file."""
     text = (data / "datapackage.json").read_text("utf-8")
     record = json.loads(text)
     assert f"{json.dumps(record, indent=1, ensure_ascii=False)}\n" == text  # for people, too
@@ -116,7 +116,7 @@ def test_parquet_holds_the_nearest_doubles(data: Path, described: dict[str, Any]
 
 
 def test_without_pyarrow_there_is_csv_and_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The line has the words of `atlas sweep`, and the description names what is there."""
+    """The line has the words of `atlas sweep`, and the description names the files."""
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     (tmp_path / "small.toml").write_text(REPORT, encoding="utf-8")
     ended = CliRunner().invoke(program, ["data", str(tmp_path / "small.toml"), "--out", str(tmp_path)])
@@ -139,7 +139,7 @@ def test_samples_agree_with_the_motion(data: Path) -> None:
 
 
 def test_a_column_of_words_and_numbers_is_one_of_words(data: Path, described: dict[str, Any]) -> None:
-    """What stands in a table of words is text; its heads become names, its caption's equations are named."""
+    """Cells of a table of words are text; its heads become names, its caption's equations are named."""
     resource = described["resources"]["tables/words.csv"]
     assert [(f["name"], f["type"]) for f in resource["schema"]["fields"]] == [("omega2", "string"), ("What", "string")]
     assert resource["equations"] == ["(71)"]
@@ -157,7 +157,7 @@ def test_a_figure_gives_the_points_that_it_draws(data: Path, described: dict[str
 
 
 def test_the_same_report_gives_the_same_bytes(data: Path) -> None:
-    """Made again in its place, every file has the same bytes, and what the user put there stays."""
+    """Made again in its place, every file has the same bytes, and files of the user stay."""
     before = {path: path.read_bytes() for path in data.rglob("*") if path.is_file()}
     (data / "tables" / "own.csv").write_text("own\n", encoding="utf-8")
     build_data(data.parents[1] / "small.toml", data.parent)
@@ -169,7 +169,7 @@ def test_the_same_report_gives_the_same_bytes(data: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["folder", "link"])
 def test_files_of_the_user_are_kept(data: Path, tmp_path: Path, kind: str) -> None:
-    """What is there stays; so does what a link leads to."""
+    """Existing files stay; so do targets of a link."""
     place, theirs = tmp_path / "small", tmp_path / "theirs"
     theirs.mkdir()
     (theirs / "thesis.tex").write_text("x", encoding="utf-8")
@@ -193,7 +193,7 @@ def test_a_failing_figure_keeps_existing_files(data: Path, tmp_path: Path) -> No
 
 
 def test_heads_become_names() -> None:
-    """Greek letters are spelt out, a prime is named, what has no name in ASCII falls away."""
+    """Greek letters are spelt out, a prime is named, characters without a name in ASCII fall away."""
     assert [ascii_name(head) for head in ("ω_2", "Ω_3", "B'_2", "ϕ/k", "E′", "What it is", "𝕀", "ν_n^2")] == [
         "omega2", "Omega3", "B_prime2", "phi_k", "E_prime", "What_it_is", "I", "nu_n_2",
     ]  # fmt: skip

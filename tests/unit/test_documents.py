@@ -1,4 +1,4 @@
-"""README and CONTRIBUTING say what there is."""
+"""README and CONTRIBUTING agree with the code."""
 
 import io
 import json
@@ -55,7 +55,7 @@ def test_every_command_has_an_example() -> None:
 
 @pytest.mark.slow
 def test_the_readme_in_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What the README types in Python runs as it stands; its animation has few frames here."""
+    """Python in the README runs as it stands; its animation has few frames here."""
     monkeypatch.setattr(animation, "FRAMES", 4)
     monkeypatch.chdir(tmp_path)
     (lines,) = re.findall(r"^```python\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
@@ -93,7 +93,7 @@ def test_the_table_of_blocks_lists_all_block_kinds() -> None:
 def test_every_document_names_the_same_version_and_licence() -> None:
     """CITATION.cff and codemeta.json agree with the package, whose version hatchling takes; a release has its heading.
 
-    What comes after one has a later version, of development.
+    Commits after one have a later version, of development.
     """
     project = tomllib.loads((CHECKOUT / "pyproject.toml").read_text("utf-8"))["project"]
     cited = dict(re.findall(r"^(\w+): (.+)$", (CHECKOUT / "CITATION.cff").read_text("utf-8"), re.MULTILINE))
@@ -147,7 +147,7 @@ def test_a_citation_is_a_number_in_brackets_that_belongs_to_nothing(text: str, n
 
 
 def test_a_caption_is_marked_where_the_ledger_has_the_number() -> None:
-    """What the ledger does not have stays as it is written."""
+    """Names that the ledger lacks stay as written."""
     assert (
         marked("the hyperbola (67), $f (67)$, panel (105)", EQUATIONS) == "the hyperbola @(67), $f (67)$, panel (105)"
     )
@@ -164,7 +164,7 @@ def test_every_citation_of_the_sources_is_in_the_ledger() -> None:
 
 @pytest.mark.parametrize("path", sorted(files().values()), ids=lambda path: path.stem)
 def test_every_equation_that_a_report_cites_is_in_the_ledger(path: Path) -> None:
-    """What stands after the sign of citation and begins as the names of the ledger do."""
+    """Words after the sign of citation that begin as the names of the ledger do."""
     names = {name for name in citations(path.read_text("utf-8")) if name.startswith(("(", "text-", "theorem-"))}
     assert names
     assert names <= set(EQUATIONS)

@@ -59,7 +59,7 @@ def test_a_root_keeps_its_bound(a: float, b: float) -> None:
 
 
 def test_cancellation_beyond_double_double_is_flagged() -> None:
-    """A sum of inexact terms that cancels to nothing is not certain, nor what is made of it; exact zeros are."""
+    """A sum of inexact terms that cancels to nothing is not certain, nor are its products; exact zeros are."""
     third = number(1.0) / number(3.0)
     sixth = number(0.5) / number(3.0)
     with np.errstate(all="ignore"):
@@ -142,7 +142,7 @@ def test_one_turn_is_two_pi_to_250_digits() -> None:
 
 @given(st.floats(-1e30, 1e30))
 def test_a_phase_less_whole_turns_is_within_half_a_turn(x: float) -> None:
-    """What is left of a number differs from it by a whole number and is at most 1/2."""
+    """The reduced number differs from the given one by an integer and is at most 1/2."""
     reduced = turn_of(rational(x))
     assert abs(nearest(reduced)) <= 0.5
     with workprec():

@@ -91,7 +91,7 @@ def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
 
 
 def test_a_pdf_is_a_drawing_of_the_size_of_the_scene(tmp_path: Path) -> None:
-    """It has one page of the scene's size and no picture of pixels, and says its title; what SVG draws is on it."""
+    """It has one page of the scene's size and no picture of pixels, and says its title; the marks of SVG are on it."""
     scene = recipes.load("hyperbola").scene()
     pdf = PdfReader(draw(scene, tmp_path / "a.pdf"))
     (page,) = pdf.pages
@@ -148,7 +148,7 @@ def test_an_unknown_format_or_renderer_is_refused(
 
 
 def test_without_gl_a_shaded_figure_is_drawn_on_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same file in the other style, and a line that says so and what to do."""
+    """The same file in the other style, and a line with the fact and the remedy."""
     monkeypatch.setenv(gl.CHOICE, "none")
     gl.library.cache_clear()
     try:
@@ -206,7 +206,7 @@ def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None
 
 @pytest.mark.parametrize("name", IN_SPACE)
 def test_a_plate_fills_its_page(name: str, tmp_path: Path) -> None:
-    """What is drawn reaches within a tenth of the page's width or height from both edges, and is not cut off."""
+    """Marks reach within a tenth of the page's width or height from both edges, and are not cut off."""
     from matplotlib.image import imread
 
     picture = imread(draw(recipes.load(name).scene(), tmp_path / "figure.png", dpi=50.0))
@@ -301,7 +301,7 @@ def test_dark_marks_stand_off_a_map_by_a_white_ring(mapped: bool) -> None:
 
 
 def test_a_path_of_an_svg_is_short_and_the_same() -> None:
-    """To a hundredth of a point, each point from the one before, none twice; what is no path stays."""
+    """To a hundredth of a point, each point from the one before, none twice; other text stays."""
     path = (
         '<path d="M 1.234567 2 \nL 1.2349 2.001 \nL 3.5 -0.001 \nQ 1 2 3.14159 4 \nL 5 6 \nz\nM 1 1 \n" '
         'style="w: 1.2345"/>'

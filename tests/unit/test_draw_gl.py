@@ -1,4 +1,4 @@
-"""Which GL library can draw, and what is said when none can."""
+"""The GL library that draws, and the message when none can."""
 
 import json
 import os
@@ -41,7 +41,7 @@ def test_the_first_that_draws_is_taken_and_remembered(fresh: Path, monkeypatch: 
 
 
 def test_a_no_is_remembered_until_libraries_are_installed(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nobody is asked again until what the answer depends on has changed; then what was installed is found."""
+    """Nobody is asked again until a dependency of the answer has changed; then installed libraries are found."""
     drivers, drivers_tried = fresh / "dri", list[str]()
     monkeypatch.setattr(gl, "DRIVERS", (str(drivers),))
     monkeypatch.setattr(gl, "_draws", lambda name: drivers_tried.append(name) or drivers.exists())

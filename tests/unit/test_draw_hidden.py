@@ -114,14 +114,14 @@ def test_a_circle_on_a_ball_is_hidden_on_the_far_half_only() -> None:
 
 
 def test_curves_in_front_of_a_surface_are_visible() -> None:
-    """A surface hides what is behind it, not what is before it."""
+    """A surface hides curves behind it, not before it."""
     plane = solids.rectangle(np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
     points = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [-1.0, 1.5, 0.0], [0.0, 0.2, 0.2]])
     assert hidden(points, [plane], np.array([1.0, 0.0, 0.0])).tolist() == [False, True, False, False]
 
 
 def test_a_disk_hides_a_disk() -> None:
-    """A plane cut out by a quadric hides just what is behind that: a line is cut on the edge of the disk."""
+    """A plane cut out by a quadric hides just the curves behind that: a line is cut on the edge of the disk."""
     disk = solids.disk(np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.5, 1e-2)
     line = np.array([[-1.0, -3.0, 0.3], [-1.0, 3.0, 0.3]])
     pieces = split(line, [disk], np.array([1.0, 0.0, 0.0]))

@@ -31,7 +31,7 @@ def pixels(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArr
 
 
 def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
-    """Nothing is kept of what was drawn before: other things between two equal scenes change no byte."""
+    """Nothing is kept of earlier drawings: other things between two equal scenes change no byte."""
     ball = [solids.sphere(np.zeros(3), 1.0, 1e-2)]
     picture = pixels(ball, tmp_path / "a.png")
     pixels([Curve(np.eye(3), "main"), solids.rectangle(np.zeros(3), *np.eye(3)[:2])], tmp_path / "b.png", dpi=130.0)

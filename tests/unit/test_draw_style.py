@@ -1,4 +1,4 @@
-"""What a user gets and may change: ordinary figures and plotters, style sheets, text that can be searched, PGF."""
+"""Objects that a user gets and may change: figures and plotters, style sheets, text that can be searched, PGF."""
 
 import shutil
 import subprocess
@@ -79,7 +79,7 @@ def test_dashes_of_a_sheet_agree_with_matplotlib() -> None:
 
 
 def test_a_style_sheet_of_the_user_changes_the_look(tmp_path: Path) -> None:
-    """A file or a dict is layered over the sheet of the package: what it says holds, what it does not say stays."""
+    """A file or a dict is layered over the sheet of the package: its settings hold, the others stay."""
     sheet = tmp_path / "mine.mplstyle"
     sheet.write_text("axes.labelsize: 13\naxes.prop_cycle: cycler('color', ['ff0000'])\n", encoding="utf-8")
     for style in (sheet, str(sheet), {"axes.labelsize": 13, "axes.prop_cycle": mpl.cycler(color=["#ff0000"])}):
@@ -140,7 +140,7 @@ def test_a_style_is_never_fetched(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     ],
 )
 def test_a_style_sheet_that_is_none_says_why(tmp_path: Path, content: bytes, words: str) -> None:
-    """What is wrong and in which line, without advice about a file of Matplotlib's."""
+    """The fault and its line, without advice about a file of Matplotlib's."""
     (tmp_path / "mine.mplstyle").write_bytes(content)
     with pytest.raises(AtlasError, match=words):
         to_figure(lines(), tmp_path / "mine.mplstyle")
@@ -174,7 +174,7 @@ def test_pgf_compiles(tmp_path: Path) -> None:
 
 
 def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
-    """PGF holds no pixels: the error says what to ask for instead."""
+    """PGF holds no pixels: the error names the format to ask for."""
     image = Image(np.arange(3.0), np.arange(3.0), np.ones((2, 2)), "error")
     line = Curve(np.eye(2), "main")
     with pytest.raises(AtlasError, match="ask for a PDF"):
@@ -183,7 +183,7 @@ def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
 
 
 def test_a_plotter_needs_a_panel_in_space() -> None:
-    """The error says what draws the scene."""
+    """The error names the library that draws the scene."""
     with pytest.raises(AtlasError, match="to_figure"):
         atlas.pictures.drawing.to_plotter(lines())
 
@@ -324,7 +324,7 @@ def test_the_key_of_a_tinted_surface_holds_on_both_sides() -> None:
 def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:
     """In shaded pictures a line is 1 to 2.6 times as wide as on paper, a mark up to 1.2 points wider; all print."""
     for role, look in STYLES.items():
-        assert look.width >= 0.25, role  # what journals print
+        assert look.width >= 0.25, role  # as journals print
         if look.marker:
             assert look.size <= look.tube <= look.size + 1.2, role
         elif role != "silhouette" and not look.fill and look.tube != Style(look.colour).tube:
@@ -334,7 +334,7 @@ def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:
 
 
 def test_line_widths_follow_importance() -> None:
-    """Vectors of the physics have one weight within 30 %, what only helps is thinner, and no curve is twice as wide."""
+    """Vectors of the physics have one weight within 30 %, auxiliary lines are thinner, no curve is twice as wide."""
     wide = {role: look.width for role, look in STYLES.items()}
     thinnest, widest = min(wide[role] for role in VECTORS), max(wide[role] for role in VECTORS)
     assert widest <= 1.3 * thinnest

@@ -1,4 +1,4 @@
-"""Scenes for the viewer of the pages: what is handed over says the same as the scene, and no more than is needed."""
+"""Scenes for the viewer of the pages: its data say the same as the scene, and no more than is needed."""
 
 import json
 import re
@@ -23,7 +23,7 @@ HTML = folder("templates") / "html"
 
 
 def handed(name: str) -> dict[str, Any]:
-    """Return what the script of a recipe's scene hands over."""
+    """Return the data in the script of a recipe's scene."""
     text = script(recipes.load(name).scene())
     scene_data: dict[str, Any] = json.loads(text.removeprefix("atlasScene(").removesuffix(");\n"))
     return scene_data
@@ -35,7 +35,7 @@ def line(packed: str) -> FloatArray:
 
 
 def test_the_program_counts_as_we_do() -> None:
-    """Steps of points, letters and turns, and where names may stand at what cost, are the same on both sides."""
+    """Steps of points, letters and turns, and places of names with their costs, are the same on both sides."""
     files = {name: HTML / name for name in ("scene.js", "motion.js")}
     text = {name: " ".join(file.read_text(encoding="utf-8").split()) for name, file in files.items()}
 

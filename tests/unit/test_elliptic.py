@@ -417,7 +417,7 @@ def test_stability_is_decided_exactly_or_left_open() -> None:
     ],
 )
 def test_impossible_elliptic_motions_are_refused_in_one_line(case: tuple[object, ...], words: str) -> None:
-    """Errors say what is wrong and what would be right."""
+    """Errors name fault and remedy."""
     with pytest.raises(atlas.AtlasError, match=words):
         atlas.EllipticMotion(*case)
 

@@ -1,4 +1,4 @@
-"""The equations of section II on random clouds of points: the body is what (8) says, particles held together."""
+"""The equations of section II on random clouds of points: the body is that of (8), particles held together."""
 
 from dataclasses import dataclass
 
@@ -112,7 +112,7 @@ def test_every_body_conserves_energy_field_and_momentum_along_the_field(seed: in
 
 
 def test_arrays_broadcast() -> None:
-    """Many states of many bodies at once give what each gives alone."""
+    """Many states of many bodies at once have the values of each alone."""
     clouds = [Cloud.random(seed) for seed in range(4)]
     I, R, K, Omega, B = (np.array([getattr(c, name) for c in clouds]) for name in ("inertia", "R", "K", "Omega", "B"))
     m = np.einsum("nij,njk,nk->ni", R, I, Omega)

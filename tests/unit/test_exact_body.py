@@ -67,7 +67,7 @@ def test_wrong_shapes_are_refused() -> None:
 
 
 def test_a_rod_is_refused_for_the_same_reason_as_by_the_kernels() -> None:
-    """Both floors say of a thin rod what is wrong with it, in the same words."""
+    """Both floors name the fault of a thin rod, in the same words."""
     rod = SymmetricBody.thin_rod(1.0, 2.0)
     with pytest.raises(DomainError) as certified:
         ratio_of(rod)

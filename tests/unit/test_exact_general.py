@@ -1,4 +1,4 @@
-"""The general motion in balls: enclosed by what integrates the equations, its laws, its cases decided exactly."""
+"""The general motion in balls: enclosed by integrated equations, its laws, its cases decided exactly."""
 
 from collections.abc import Iterator
 from fractions import Fraction

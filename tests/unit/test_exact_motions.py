@@ -1,4 +1,4 @@
-"""Every certified quantity contains what mpmath finds at 60 digits, and is narrow."""
+"""Every certified quantity contains the value of mpmath at 60 digits, and is narrow."""
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction

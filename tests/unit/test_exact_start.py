@@ -1,4 +1,4 @@
-"""What is typed is what is evaluated: any field, any attitude and products of inputs reach the constants unrounded."""
+"""Typed inputs are evaluated: any field, any attitude and products of inputs reach the constants unrounded."""
 
 import json
 from fractions import Fraction

@@ -67,7 +67,7 @@ def answer_of(server: Explorer, place: str, **query: Any) -> dict[str, Any]:
 
 
 def shell_as_another_user(script: str, *words: str) -> str:
-    """Return what a shell prints that runs as user and group 1001, without further groups."""
+    """Return the output of a shell that runs as user and group 1001, without further groups."""
     words_user = ["setpriv", "--reuid=1001", "--regid=1001", "--clear-groups"]
     done = subprocess.run([*words_user, "sh", "-c", script, "sh", *words], capture_output=True, text=True, check=False)
     return done.stdout
@@ -165,7 +165,7 @@ def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*FAMILIES])
 def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
-    """The command that is shown, asked for as many digits, prints what the page shows as proven."""
+    """The command that is shown, asked for as many digits, prints the page's proven digits."""
     answer = answer_of(server, "state", subject=name, proven=1)
     words = shlex.split(answer["command"])[1:]
     done = CliRunner().invoke(command_line, [*words, "--digits", "10", "--json"])
@@ -240,7 +240,7 @@ def test_panels_that_turn_fill_the_picture(server: Explorer, name: str, places: 
 
 @pytest.mark.slow
 def test_figures_are_saved(server: Explorer) -> None:
-    """PDF, SVG and PNG of what is shown; another format is refused in a sentence."""
+    """PDF, SVG and PNG of the shown picture; another format is refused in a sentence."""
     for kind, head in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):
         answer, content = ask(server, f"/{server.folder}/figure?subject=hyperbola&format={kind}")
         assert answer.getheader("Content-Type").startswith(answers.FILES[kind])
@@ -346,7 +346,10 @@ def test_everything_has_sliders_that_start_within_their_ends() -> None:
             assert slider.step == 0.05 if slider.name == "t" else f"{slider.step:e}".startswith("1.000000e")
     assert next((x.low, x.high) for x in OfFamily(FAMILIES["general"]).sliders if x.name == "t") == (0.0, 60.0)
     three = {(x.low, x.start, x.high) for name in ("flight_poster", "tipping_disk") for x in subject(name).sliders}
-    assert three >= {(1, 15, 45), (-3.0, 1e-3, 3.0)}  # what has no range ends at three times its start, or at three
+    assert three >= {
+        (1, 15, 45),
+        (-3.0, 1e-3, 3.0),
+    }  # a slider without a range ends at three times its start, or at three
     ranges = {slider.name: (slider.low, slider.high) for slider in subject("film_strip").sliders}
     assert ranges["field.2"] == next(p.range for p in FAMILIES["elementary"].parameters if p.name == "field")
     assert (
@@ -388,7 +391,7 @@ def test_a_body_that_cannot_be_is_said_before_a_server_starts() -> None:
 
 
 def test_a_port_in_use_is_reported(server: Explorer) -> None:
-    """One line that names the port and says what would be right, as for any wrong input."""
+    """One line that names the port and the remedy, as for any wrong input."""
     with pytest.raises(AtlasError, match=f"port {server.server_address[1]} cannot be used .*another, or none"):
         Explorer("general", server.server_address[1])
 

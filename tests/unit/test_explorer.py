@@ -92,7 +92,7 @@ def check_quadric(I: float, B2: float, B3: float, axis: Any, form: Any, kind: st
 
 
 def run(program: str, data: Any) -> Any:
-    """Return what a program beside the script prints of some input."""
+    """Return the output of a program beside the script for some input."""
     words = [str(node), "-e", f"{script('explorer.js')}const given={GIVEN};{program}"]
     done = subprocess.run(words, input=json.dumps(data), capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -137,7 +137,7 @@ def test_axis_through_the_pole_is_drawn_beside_it() -> None:
 
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_turning_points_of_the_script_are_proven_ones() -> None:
-    """From anywhere, from a turning point, from next to the hyperbola: within 1e-9 of what the kernel proves."""
+    """From anywhere, from a turning point, from next to the hyperbola: within 1e-9 of the kernel's proven values."""
     random, inputs = np.random.default_rng(61), [(1.5, (1.0, 2.0), (0.0, 0.7, 0.2)), (1.0, (1.0, 2.0), (0.3, 0.7, 0.2))]
     for k in range(200):
         I, angle = random.uniform(0.05, 2.0), random.uniform(0.02, 1.55)
@@ -192,7 +192,7 @@ class Texts:
 
 
 def test_an_explorer_has_the_sliders_that_are_asked_for() -> None:
-    """They start where the block says, with the time if anything moves; what there is not is refused by name."""
+    """They start at the block's values, with the time if anything moves; unknown sliders are refused by name."""
     block = Explorer("x", panels=("portrait",), sliders=("I", "omega1"), start={"omega1": 0.3}, at=(1.0, 0.1))
     block_view: Any = view(block, Texts())  # type: ignore[arg-type]
     assert [(slider.name, slider.start) for slider in block_view.sliders] == [("I", 1.5), ("omega1", 0.3), ("t", 0.0)]
@@ -276,7 +276,7 @@ def test_a_thumbnail_is_the_place_that_is_asked_for() -> None:
 
 
 def test_plotted_lines_have_the_colours_of_the_figures() -> None:
-    """What the style sheet of the pages says of the first three is the cycle of Matplotlib's."""
+    """The first three in the style sheet of the pages are the cycle of Matplotlib's."""
     css = (folder("templates") / "html" / "style.css").read_text("utf-8")
     with context(None):
         for role in LINES[:3]:

@@ -1,4 +1,4 @@
-"""The register of families: both classes have what it lists, and agree at its defaults as well as it promises."""
+"""The register of families: both classes have its quantities, and agree at its defaults as well as it promises."""
 
 import inspect
 from collections.abc import Mapping
@@ -24,7 +24,7 @@ TIMES = np.array([0.0, 0.3, -2.5, 40.0])
 
 
 def values(family: Family, *, end: int | None = None) -> list[Any]:
-    """Return the parameters at their defaults, or those needed at one end of their range; None for what is left out."""
+    """Return the parameters at their defaults, or those needed at one end of their range; None if left out."""
     arguments: list[Any] = []
     for p in family.parameters:
         default = p.default if end is None or not p.needed else (p.range[end],) * len(p.names)
@@ -34,7 +34,7 @@ def values(family: Family, *, end: int | None = None) -> list[Any]:
 
 @cache
 def kernel_and_balls(name: str) -> tuple[Any, Any]:
-    """Return what the kernels and what the balls of a family make of its defaults."""
+    """Return the objects of the kernels and of the balls of a family at its defaults."""
     family = FAMILIES[name]
     return family.kernels()(*values(family)), family.balls()(*values(family))
 
@@ -144,7 +144,7 @@ def test_sliders_end_inside_the_domain(family: Family, end: int) -> None:
 
 @EVERY
 def test_every_promise_is_of_something_that_is_checked(family: Family) -> None:
-    """What a quantity is checked by is promised, but of the particle; and the stress run takes each promise over."""
+    """The checked quantity is promised, but of the particle; and the stress run takes each promise over."""
     checked = [x.checked for x in (*family.quantities, *family.sampled) if x.checked]
     assert family.name == "particle" or set(checked) <= set(family.promises)
     assert family.promises.items() <= PROMISES.items()

@@ -1,4 +1,4 @@
-"""The recipes in the plane: what their scenes hold, as arrays."""
+"""The recipes in the plane: their scenes, as arrays."""
 
 import ast
 import re
@@ -160,7 +160,7 @@ def test_a_flight_ends_at_the_given_time() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_recipes_import_only_the_floors_below(name: str) -> None:
-    """A recipe imports motions and what they stand on, scenes, errors, NumPy and small parts of the library."""
+    """A recipe imports motions and modules below them, scenes, errors, NumPy and small parts of the library."""
     tree = ast.parse(load(name).source.read_text(encoding="utf-8"))
     modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     modules |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
@@ -500,7 +500,7 @@ def test_a_free_spin_stands_in_the_middle_of_its_window() -> None:
 
 
 def test_the_potential_is_that_of_the_cubic() -> None:
-    """V is minus the integral of the cubic (47) from the start on, and the level is what Omega3 has there to move."""
+    """V is minus the integral of the cubic (47) from the start on, and the level is the kinetic part of Omega3."""
     omega = (0.3, 0.7, 0.2)
     scene = load("pseudo_oscillator").scene(omega=omega)
     panel = scene.panels[1]

@@ -1,4 +1,4 @@
-"""The figures in space as arrays: what is drawn is what the paper says."""
+"""The figures in space as arrays: the drawing agrees with the paper."""
 
 from typing import Any
 

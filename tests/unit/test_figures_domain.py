@@ -168,7 +168,7 @@ GOOD: list[tuple[str, dict[str, Any]]] = [
 
 
 def test_every_refusal_of_a_recipe_is_reached_and_named() -> None:
-    """One sentence of the recipe's own names what was wrong, and each statement that raises in figures/ is reached."""
+    """One sentence of the recipe's own names the fault, and each statement that raises in figures/ is reached."""
     reached = set()
     for name, parameters, tells in BAD:
         with pytest.raises(AtlasError) as refused:

@@ -1,4 +1,4 @@
-"""The figures of bodies and of the general motion as arrays: what is drawn is what the theory says."""
+"""The figures of bodies and of the general motion as arrays: the drawing agrees with the theory."""
 
 import re
 import sys
@@ -343,7 +343,7 @@ def test_no_amplitude_is_beyond_the_scale_of_colours(field: tuple[float, float],
 
 
 def test_the_drawn_curves_of_three_moments_are_starts_of_elliptic_motions() -> None:
-    """Drawn points are on the curve that leaves z out, 1e-9; what is dashed is unstable, and what is not is stable."""
+    """Drawn points are on the curve that leaves z out, 1e-9; dashed motions are unstable, and others stable."""
     count = 0
     for panel, I1 in zip(panels("elliptic_family"), (1.3, 1.03, 0.97), strict=True):
         curves = [layer for layer in panel.layers if isinstance(layer, Curve)]

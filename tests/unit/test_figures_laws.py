@@ -1,4 +1,4 @@
-"""What holds of every figure: another unit scales its axes and changes nothing else; labels stand where things are."""
+"""Laws of every figure: another unit scales its axes and changes nothing else; labels stand at their places."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -71,7 +71,7 @@ OTHERS: list[tuple[str, dict[str, Any]]] = [
     ("particle_motion", {"magnetic": (0.0, 0.0, 0.0), "velocity": (0.0, 0.0, 0.0)}),
     ("particle_motion", {"magnetic": (0.0, 0.0, 0.0), "electric": (0.0, 0.0, 0.0)}),
 ]
-"""Parameters at which recipes draw what they do not draw at their defaults."""
+"""Parameters at which recipes draw layers absent at their defaults."""
 EVERY = [*((name, {}) for name in NAMES), *OTHERS]
 UNITS = [
     (name, {"pushes": (1e-1,)} if name == "turnover" else parameters_any, unit)  # a push takes seconds
@@ -190,7 +190,7 @@ def test_an_electric_field_along_an_axis_is_drawn_along_it(E: tuple[float, float
 
 
 BESIDE = {"kinds_of_quadric": 0.06, "two_turns": 0.03}
-"""How far names may stand from what they name, as a part of a panel: between levels, and over an arc."""
+"""Largest distance of a name from its curve, as a part of a panel: between levels, and over an arc."""
 INSIDE = ("stability", "unstable")
 """The name of a region stands in it."""
 

@@ -76,7 +76,7 @@ def test_a_recipe_of_the_user_may_say_it(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("name", "parameters"), CASES[: len(recipes.names())], ids=lambda value: str(value)[:40])
 def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str, Any]) -> None:
-    """Fewer than 60 words, a formula being one; what the reader may type stands in the line of the files."""
+    """Fewer than 60 words, a formula being one; the reader's command stands in the line of the files."""
     caption = scene_of(name, **parameters).caption
     assert len(re.sub(r"\$[^$]*\$", "F", caption).split()) < WORDS
     assert "`" not in caption

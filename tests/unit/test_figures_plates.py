@@ -1,4 +1,4 @@
-"""The figures of the bodies' scale, of the quadrics' sizes and of closed motions: what is drawn is what it says."""
+"""The figures of the bodies' scale, of the quadrics' sizes and of closed motions: drawings agree with captions."""
 
 from fractions import Fraction
 from unittest.mock import patch

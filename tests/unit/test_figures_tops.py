@@ -1,4 +1,4 @@
-"""The figures of the chapter on tops as arrays: what is drawn is what the theory says."""
+"""The figures of the chapter on tops as arrays: the drawing agrees with the theory."""
 
 from typing import Any
 

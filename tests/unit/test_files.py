@@ -115,7 +115,7 @@ def test_the_libraries_agree_with_the_project() -> None:
 
 
 def test_the_locks_have_every_dependency_in_its_range() -> None:
-    """What sweeps, tests and the benchmark need stands apart; no range is a single version, which few could share."""
+    """Libraries of sweeps, tests and the benchmark stand apart; no range is a single version, which few could share."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
     for name in ("", "-sweep", "-test", "-bench"):

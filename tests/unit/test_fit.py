@@ -115,7 +115,7 @@ def test_slopes_agree_with_the_residuals(kind: str, family: str) -> None:
 
 @pytest.mark.slow
 def test_an_elementary_motion_does_not_tell_ratio_and_field_apart() -> None:
-    """It is said in words, with the combination, which leaves the motion as it is; and what is known else is found."""
+    """It is said in words, with the combination, which leaves the motion as it is; and other parameters are found."""
     rng = np.random.default_rng(2)
     t = np.linspace(0, 30, 150)
     exact = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(t)
@@ -210,7 +210,7 @@ def test_a_wider_family_is_named() -> None:
 
 @pytest.mark.parametrize("seed", [2, pytest.param(6, marks=pytest.mark.slow)])
 def test_the_small_nutation_of_a_fast_spin_is_found_in_axes(seed: int) -> None:
-    """A spin of 30 that nutates by a hundredth: chi square is that of noise, what is told of the body is right."""
+    """A spin of 30 that nutates by a hundredth: chi square is that of noise, statements about the body are right."""
     rng = np.random.default_rng(seed)
     t = np.arange(400) * 1e-2
     true = atlas.GeneralMotion(1.8, (0.6, 0.8), omega=(0.2, 0.5, 30.0))
@@ -226,7 +226,7 @@ def test_the_small_nutation_of_a_fast_spin_is_found_in_axes(seed: int) -> None:
 
 @pytest.mark.slow
 def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
-    """Noise as large as the changes of the rates is no doubt where chi square is what it should be."""
+    """Noise as large as the changes of the rates is no doubt where chi square is as expected."""
     rng, t = np.random.default_rng(0), np.linspace(0.0, 40.0, 400)
     true = atlas.GeneralMotion(RATIO, FIELD[1:], omega=OMEGA).angular_velocity(t)
     sigma = 0.3 * float(true.std(0).max())
@@ -237,7 +237,7 @@ def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
 
 @pytest.mark.slow
 def test_bounds_and_expressions_are_kept() -> None:
-    """As lmfit has them: what is tied follows, and is none of the varied ones."""
+    """As lmfit has them: tied parameters follow, and are none of the varied ones."""
     t, R = measured("rotation", 80, 15.0)
     fit = atlas.fit(t, rotation=R, sigma=NOISE, params={"ratio": {"value": 1.2, "max": 1.4}, "B2": {"expr": "-2*B1"}})
     assert abs(fit.params["ratio"].value - RATIO) < 5 * fit.params["ratio"].stderr
@@ -333,7 +333,7 @@ def squares(R: Any) -> Any:
 
 
 def exchanged(R: Any) -> Any:
-    """Return what does not tell the axes 1 and 2 of the laboratory from each other, nor the direction of the third."""
+    """Return data that distinguish neither the axes 1 and 2 of the laboratory nor the direction of the third."""
     return np.column_stack([R[:, 0, 2] + R[:, 1, 2], R[:, 0, 2] * R[:, 1, 2], R[:, 2, 0] ** 2 - R[:, 2, 1]])
 
 
@@ -639,7 +639,7 @@ def test_confidence_intervals_agree_with_lmfit(attitudes: Any) -> None:
 
 @pytest.mark.slow
 def test_a_start_is_taken() -> None:
-    """A value that is given is where all motions start, at the epoch; what is far off is left."""
+    """A value that is given is where all motions start, at the epoch; distant starts are left."""
     t, w = measured("angular_velocity", 60, 10.0)
     fit = atlas.fit(t, angular_velocity=w, sigma=NOISE, params={"ratio": 1.2, "omega1": 1.0})
     assert abs(fit.params["ratio"].value - RATIO) < 5 * fit.params["ratio"].stderr
@@ -658,7 +658,7 @@ def test_a_fast_turn_by_little_is_found() -> None:
 
 @pytest.mark.parametrize("size", [pytest.param(0.0, marks=pytest.mark.slow), 0.0009, 0.01])
 def test_a_small_nutation_is_never_silent(size: float) -> None:
-    """None is an elementary motion, which says what it does not tell; one of 3 sigma is told with its size."""
+    """None is an elementary motion, which names its undetermined parameters; one of 3 sigma is told with its size."""
     rng = np.random.default_rng(8)
     t = np.linspace(0, 40, 200)
     steady = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)
@@ -720,7 +720,7 @@ def test_a_rotation_vector_follows_a_small_turn() -> None:
 
 
 def test_a_top_from_rest_is_determined() -> None:
-    """What the data do not see is measured by how fast they change, not by the rate at the start, which is none."""
+    """Undetermined parameters are measured by how fast the data change, not by the rate at the start, which is none."""
     tilted = [0.0, float(np.sin(0.3)), float(np.cos(0.3))]
     t = np.linspace(0.0, 20.0, 200)
     top = atlas.TopMotion((1.0, 1.0), (0.0, 0.0), tilted[1:], (0.0, 0.0, 0.0), linear=-900.0)
@@ -759,7 +759,7 @@ def test_a_value_that_cannot_be_is_refused_by_name(
 
 
 def test_a_held_value_is_within_its_own_bounds() -> None:
-    """Also where lmfit has moved it already; what is sought may begin anywhere, and what is tied follows."""
+    """Also where lmfit has moved it already; varied parameters may begin anywhere, and tied ones follow."""
     import lmfit
 
     attitudes = Data("rotation", np.arange(9.0), np.tile(np.eye(3), (9, 1, 1)), np.ones((9, 1)))

@@ -1,4 +1,4 @@
-"""`atlas page --fit`: the page of a fit, its numbers and words, the commands on it, and what it refuses."""
+"""`atlas page --fit`: the page of a fit, its numbers and words, the commands on it, and its refusals."""
 
 import json
 import re
@@ -195,7 +195,7 @@ def test_evidence_against_the_family_is_reported(tmp_path: Path, capsys: pytest.
 
 @pytest.mark.slow
 def test_a_bad_file_or_a_changed_one_leaves_the_page(folder: Path, tmp_path: Path) -> None:
-    """What is no data, a recipe that was edited and a folder that is read-only are refused; what is there stays."""
+    """Files without data, an edited recipe and a folder that is read-only are refused; existing files stay."""
     place = shutil.copytree(folder, tmp_path / "copy")
     contents = {file.name: file.read_bytes() for file in (place / "out").iterdir()}
     recipe, file = place / "out" / "fit-mine-predict-20.py", place / "mine.csv"

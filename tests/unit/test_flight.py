@@ -170,7 +170,7 @@ def test_a_top_may_fly_anywhere() -> None:
 
 
 def test_a_flight_keeps_its_own_point() -> None:
-    """An array that is changed later does not change what the flight says it was made of."""
+    """An array that is changed later does not change the inputs of the flight."""
     point = np.array([0.3, -0.1, 0.7])
     flight = Flight(PARTICLE, Tabulated(), point)
     point[0] = 7.0

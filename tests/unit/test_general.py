@@ -182,7 +182,7 @@ def test_columns_and_the_momentum_belong_to_the_matrix(inputs: Any) -> None:
 
 @pytest.mark.parametrize("inputs", ORDINARY)
 def test_a_motion_goes_on_from_any_of_its_states(inputs: Any) -> None:
-    """The motion that starts in the laboratory from the state at s is at t what the first one is at s + t."""
+    """The motion that starts in the laboratory from the state at s is at t where the first one is at s + t."""
     I, B, _ = inputs
     motion, s, t = GeneralMotion(*inputs), 1.7, np.linspace(-2, 2, 21)
     R, Omega = motion.rotation(s), motion.angular_velocity(s)

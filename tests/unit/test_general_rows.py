@@ -227,7 +227,7 @@ def test_nothing_depends_on_the_unit(power: int) -> None:
 
 
 def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
-    """Return what arrays make of some rows, none of them alone: columns, Omega, and scalars that are sure."""
+    """Return values of some rows in arrays, none of them alone: columns, Omega, and scalars that are sure."""
     I, B, omega = (x[..., rows] for x in inputs)
     blocks, values = Blocks((1.0, I, 0.0, *B, *omega), I.shape), []
     for name in ("rotation", "angular_velocity"):

@@ -1,4 +1,4 @@
-"""The guide: what stands in it can be typed, and gives what stands below it."""
+"""The guide: its commands can be typed, and print the text below them."""
 
 import doctest
 import inspect
@@ -65,12 +65,12 @@ def test_every_block_of_the_guide_prints_its_output(
 
 
 def sessions(text: str) -> list[tuple[str, str]]:
-    """Return the command lines of a block, each with what it prints."""
+    """Return the command lines of a block, each with its output."""
     return re.findall(r"^\$ atlas (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE)
 
 
 def shell(command: str, output: str, capsys: pytest.CaptureFixture[str]) -> str:
-    """Run a command line in this process; return what is wrong with what it prints, or nothing."""
+    """Run a command line in this process; return the difference of its output, or nothing."""
     capsys.readouterr()
     with pytest.raises(SystemExit) as ended:
         main(shlex.split(command))
@@ -97,7 +97,7 @@ def test_the_reference_holds_every_public_name() -> None:
 
 @pytest.mark.slow
 def test_examples_in_docstrings_print_their_output() -> None:
-    """What `help` shows of the package and of its classes of motions and surfaces can be typed."""
+    """Examples that `help` shows of the package and of its classes of motions and surfaces can be typed."""
     texts = {"atlas": atlas.__doc__ or ""} | {name: entry.docstring for name, entry in described().items()}
     examples = {
         name: doctest.DocTestParser().get_doctest(text, {"atlas": atlas}, name, None, None)

@@ -1,4 +1,4 @@
-"""What is given to the kernels becomes floats, or one sentence says why it does not."""
+"""Inputs of the kernels become floats, or one sentence gives the reason."""
 
 from collections.abc import Callable
 from decimal import Decimal

@@ -1,4 +1,4 @@
-"""Bodies that could exist: the charge that they hold and what they radiate, against sums over point charges."""
+"""Bodies that could exist: their charge and radiation, against sums over point charges."""
 
 from math import pi, sqrt
 from typing import Any
@@ -214,7 +214,7 @@ def test_deviations_agree_with_a_fit(spin: float) -> None:
 
 
 def test_the_precession_beyond_larmors_turn_is_that_of_the_general_motion() -> None:
-    """By the charge alone; without a susceptibility there is no other, and all of it is what the charge changes."""
+    """By the charge alone; without a susceptibility there is no other, and the charge makes all of it."""
     parameters = {"radii": [1e-6], "spin": 3.0, "inclination": 0.7}
     ((_, larmor, precession, *_),) = cells(table("beyond_larmor", **DESIGN, **parameters))
     body = atlas.SymmetricBody.spheroid(mass=1.0, equatorial=1.0, polar=0.5)

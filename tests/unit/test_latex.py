@@ -1,4 +1,4 @@
-r"""`atlas tex`: numbers by key that LaTeX can't print beyond what is proven, tables that fit their numbers, a paper."""
+r"""`atlas tex`: numbers by key with proven digits only, tables that fit their numbers, a paper."""
 
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""What each entry point of the package loads: of the heavy libraries only what it needs, in any process it starts."""
+"""Modules loaded by each entry point: of the heavy libraries only the necessary ones, in any process it starts."""
 
 import math
 import os
@@ -148,7 +148,7 @@ FONTS = "fontTools"
 
 
 class Step(NamedTuple):
-    """What is changed in a report that was built, and the heavy modules that its next build loads in any process."""
+    """A change in a report that was built, and the heavy modules that its next build loads in any process."""
 
     what: str
     old: str
@@ -166,7 +166,7 @@ STEPS = [
 
 
 class Room:
-    """A folder to run the command line in, and a log of what its processes load."""
+    """A folder to run the command line in, and a log of the modules that its processes load."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -1,4 +1,4 @@
-"""What a motion made alone is made of: lines in two words, the further turn of a top."""
+"""Parts of a motion made alone: lines in two words, the further turn of a top."""
 
 from collections.abc import Callable, Iterator
 from random import Random
@@ -185,7 +185,7 @@ OF_TIME = (
 @pytest.mark.parametrize("make", FAMILIES, ids=lambda make: type(make(1.0)).__name__)
 @pytest.mark.parametrize("shape", [(), (1,), (0, 2), (3, 2), (1001, 2)], ids=str)
 def test_functions_of_time_of_an_array_agree_with_each_motion(make: Callable[[Any], Any], shape: Any) -> None:
-    """Shapes too, at no, a few and many times each, within 24 ulp(1); what is constant is so to the bit."""
+    """Shapes too, at no, a few and many times each, within 24 ulp(1); constants are so to the bit."""
     many, motions = make(TWO), [make(float(x)) for x in TWO]
     t = np.linspace(-2.0, 3.0, int(np.prod(shape))).reshape(shape)
     for name in OF_TIME:

@@ -19,7 +19,7 @@ CASES: dict[str, tuple[Any, ...]] = {
     "charged heavy top": (0.5, (0.3, 0.4), 0.5, 0.5, 1.0, -0.25, (-1, 1)),
     "disk, neither": (1.5, (1.0, 1.5), 0.5, 0.0, 0.0, 0.0, (0, 0)),
 }
-"""I, coupling, M3, p of the middle of the loop, linear, quadratic; and g1, g2 in what becomes of g3."""
+"""I, coupling, M3, p of the middle of the loop, linear, quadratic; and g1, g2 in the image of g3."""
 
 
 def potential(name: str) -> Wells:

@@ -180,7 +180,7 @@ def test_a_motion_in_given_axes_is_copied_and_has_a_repr() -> None:
     [(1.5, (600.0, 800.0), (3e-13, 1e-13, -2e-13)), (0.5, (1.0, 0.1), (1e-16, -0.5, -0.2))],
 )
 def test_a_start_beside_an_elementary_one_is_not_taken_for_it(ratio: float, field: Any, omega: Any) -> None:
-    """In the axes of its class nothing is rounded: a slow start in a strong field, a push off what is unstable."""
+    """In the axes of its class nothing is rounded: a slow start in a strong field, a push off an unstable motion."""
     motion, true = atlas.motion(ratio, (0.0, *field), omega), atlas.GeneralMotion(ratio, field, omega)
     assert motion.family == "general"
     for t in (100.0, 1e11 if ratio > 1 else 60.0):
@@ -202,7 +202,7 @@ def test_given_arrays_broadcast() -> None:
 
 
 def test_later_changes_of_given_arrays_have_no_effect_on_copies() -> None:
-    """Copies are of what was given then; and of an attitude as it was, which is made orthogonal again."""
+    """Copies are of the inputs at that time; and of an attitude as it was, which is made orthogonal again."""
     moments, start = np.array([0.8, 1.0, 1.3]), np.array([0.1, 0.7, 0.2])
     motions = [
         atlas.motion(moments, *FIELD_AND_START),
@@ -221,7 +221,7 @@ def test_later_changes_of_given_arrays_have_no_effect_on_copies() -> None:
     ],
 )
 def test_an_argument_of_another_class_is_led_there(call: Any, says: str) -> None:
-    """The line names the class that takes it, and what this one takes."""
+    """The line names the class that takes it, and the arguments of this one."""
     with pytest.raises(TypeError, match=says):
         call()
 

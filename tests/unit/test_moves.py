@@ -49,7 +49,7 @@ def test_the_script_carries_a_scene_as_the_paths_do(name: str) -> None:
 
 
 def viewed(panel: Any, frame: list[float]) -> dict[str, list[Any]]:
-    """Return what the viewer has of a panel, in the view that another one has."""
+    """Return the viewer's layers of a panel, in the view of another one."""
     layers_seen: dict[str, list[Any]] = {"surfaces": [], "arrows": [], "dots": []}
     centre, size = np.array(frame[:3]), frame[3]
     for layer in panel.layers:
@@ -67,7 +67,7 @@ def viewed(panel: Any, frame: list[float]) -> dict[str, list[Any]]:
 
 
 def compare(true: dict[str, list[Any]], riders: list[Any], layers_script: list[Any]) -> None:
-    """Compare what rides, in the order of the riders: to a thousandth of a panel, a fraction of a pixel."""
+    """Compare moving layers, in the order of the riders: to a thousandth of a panel, a fraction of a pixel."""
     layers_moving = [(kind, true[kind][i]) for kind, start, end, _ in riders for i in range(start, end) if kind in true]
     layers_carried = [layer for layer in layers_script if layer[0] in true]
     assert len(layers_moving) == len(layers_carried) > 0

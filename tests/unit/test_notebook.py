@@ -1,4 +1,4 @@
-"""What objects, figures and plotters say of themselves in a terminal and in a notebook."""
+"""Texts of objects, figures and plotters in a terminal and in a notebook."""
 
 import copy
 import pickle
@@ -63,11 +63,11 @@ ONE: list[Any] = [
 ]
 STRAIGHT = ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
 TABLED = [motion for motion in ONE if getattr(motion, "family", "") not in {"", "asymmetric"} and not motion.made_by]
-"""What the register has a table of; the balls of a body with three moments take seconds."""
+"""Objects with a table in the register; the balls of a body with three moments take seconds."""
 
 
 def name(instance: Any) -> str:
-    """Return what a case is called."""
+    """Return the name of a case."""
     return getattr(instance, "made_by", "") or type(instance).__name__
 
 
@@ -84,7 +84,7 @@ def test_a_repr_is_one_line_that_makes_the_same_again(instance: Any) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("instance", [*ONE, ONE[2].closed(2, 3)], ids=name)
 def test_it_can_be_copied_and_sent_to_another_process(instance: Any) -> None:
-    """A copy and what pickle makes of it are the same object, with the same matrices to the last bit."""
+    """A copy and its pickle are the same object, with the same matrices to the last bit."""
     for again in (copy.deepcopy(instance), pickle.loads(pickle.dumps(instance))):  # noqa: S301  our own bytes
         assert type(again) is type(instance)
         assert repr(again) == repr(instance)
@@ -329,7 +329,7 @@ def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
     ],
 )
 def test_objects_that_cannot_be_shown_give_a_reason(refused_call: Any, says: str) -> None:
-    """In one line, with what would be right."""
+    """In one line, with the remedy."""
     with pytest.raises(AtlasError, match=re.escape(says)) as refused:
         refused_call()
     assert "\n" not in str(refused.value)

@@ -1,4 +1,4 @@
-"""The guide's notebook runs as it is written, and prints what stands in it."""
+"""The guide's notebook runs as it is written, and prints its recorded output."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from atlas.places import folder
 
 @pytest.fixture(scope="module")
 def ran(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """Run it, in a folder of its own, and ask at the end what was loaded."""
+    """Run it, in a folder of its own, and ask at the end which modules were loaded."""
     import jupytext
     import nbclient
     import nbformat
@@ -27,14 +27,14 @@ def ran(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 def outputs(ran: Any) -> list[tuple[str, list[Any], str]]:
-    """Return each cell with code, what it gave, and the text below it."""
+    """Return each cell with code, its outputs, and the text below it."""
     below = [cell.source if cell.cell_type == "markdown" else "" for cell in ran.cells[1:]] + [""]
     return [(cell.source, cell.outputs, text) for cell, text in zip(ran.cells, below, strict=True) if "outputs" in cell]
 
 
 @pytest.mark.slow
 def test_cells_print_the_output_below_them(ran: Any) -> None:
-    """A block of text below a cell is what it prints."""
+    """A block of text below a cell is its output."""
     printed = 0
     for source, outputs_given, below in outputs(ran)[:-1]:
         text = "".join(

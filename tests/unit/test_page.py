@@ -1,4 +1,4 @@
-"""`atlas page`: parts of the report of one object, its numbers, one file that asks for nothing, what it refuses."""
+"""`atlas page`: parts of the report of one object, its numbers, one file that asks for nothing, its refusals."""
 
 import base64
 import hashlib
@@ -57,14 +57,14 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def page(words: str, out: Path) -> list[str]:
-    """Make a page and return what is printed."""
+    """Make a page and return the printed lines."""
     result = CliRunner().invoke(command, ["page", *words.split(), "--out", str(out)], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return result.stdout.splitlines()
 
 
 def test_the_pdf_begins_with_its_title_and_its_numbers(page_file: Path) -> None:
-    """No cover, no contents, no lists: the first pages have the title, the card, what is given and omega3."""
+    """No cover, no contents, no lists: the first pages have the title, the card, the inputs and omega3."""
     pages = [page.extract_text() for page in PdfReader(page_file.with_suffix(".pdf")).pages]
     text_first = " ".join(" ".join(pages[:2]).split())
     assert text_first.startswith(
@@ -129,7 +129,7 @@ def test_the_nearest_closed_motions_are_convergents(page_file: Path) -> None:
 
 
 def test_it_stands_in_one_file(page_file: Path) -> None:
-    """Nothing is fetched: what is shown or saved is inside, links are anchors, and each script is allowed."""
+    """Nothing is fetched: shown and saved parts are inside, links are anchors, and each script is allowed."""
     tree = reader.fromstring(page_file.read_bytes())
     addresses = [*tree.xpath("//@src"), *tree.xpath("//@srcset"), *tree.xpath("//link/@href")]
     assert addresses
@@ -174,7 +174,7 @@ def test_the_code_of_a_page_gives_its_numbers(page_file: Path) -> None:
     """The lines of Python print doubles that round to the digits of the table."""
     (code,) = reader.fromstring(page_file.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
     with redirect_stdout(StringIO()) as out:
-        exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
+        exec(code.text_content(), {})  # noqa: S102  the page's own code
     cells = rows(page_file, "properties-elementary")
     printed = dict(zip(("case", "omega3", "k", "phi", "period"), out.getvalue().splitlines(), strict=True))
     for name in ("omega3", "k", "phi", "period"):
@@ -187,7 +187,7 @@ def test_the_code_of_a_page_asks_for_no_number_that_there_is_not(tmp_path: Path)
     page_made = Path(page("--ratio 1.5 --field 0 0 --omega 0 0 0", tmp_path)[0])
     (code,) = reader.fromstring(page_made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
     with redirect_stdout(StringIO()) as out:
-        exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
+        exec(code.text_content(), {})  # noqa: S102  the page's own code
     assert out.getvalue().splitlines() == ["at rest", "(0.0, 0.0)", "inf", "0.0", "0.0"]
 
 
@@ -195,7 +195,7 @@ def test_the_code_of_a_page_asks_for_no_number_that_there_is_not(tmp_path: Path)
 def test_a_report_file_that_was_changed_is_not_overwritten(
     ball: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The page says what to do instead, in one line with status 2, and the good page stays."""
+    """The page names the remedy, in one line with status 2, and the good page stays."""
     page_copy = shutil.copytree(ball[0].parent, tmp_path, dirs_exist_ok=True) / ball[0].name
     content, file = page_copy.read_bytes(), page_copy.parent / f"{page_copy.name.removesuffix('.html')}.md"
     assert file.read_text("utf-8").startswith("+++\n# Made by `atlas page --larmor 0.5 --momentum 0.3 -0.7`")
@@ -255,7 +255,7 @@ def test_the_family_is_that_of_the_options(words: str, name: str) -> None:
 
 @pytest.fixture
 def unbuilt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], dict[str, Any]]:
-    """Return what gives the report file of a page, which is not built."""
+    """Return a function that gives the report file of a page, which is not built."""
 
     def build(*_: object, **__: object) -> None:
         raise AtlasError("not built here")
@@ -320,7 +320,7 @@ def test_the_code_of_a_page_has_the_names_of_the_class(unbuilt: Callable[[str], 
         r"```python\n(.*?)```", "".join(b.get("text", "") for b in record["pages"][0]["blocks"]), re.DOTALL
     )
     with redirect_stdout(StringIO()) as out:
-        exec(code, {})  # noqa: S102  what the page tells the reader to type
+        exec(code, {})  # noqa: S102  the page's own code
     assert out.getvalue().split() == ["-1.0", "0.5"]
 
 
@@ -345,7 +345,7 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
     code = re.search(r"```python\n(.*?)```", texts, re.DOTALL)
     assert code
     with redirect_stdout(StringIO()) as out:
-        exec(code[1], {})  # noqa: S102  what the page tells the reader to type
+        exec(code[1], {})  # noqa: S102  the page's own code
     motion = ElementaryMotion(2.0, (0.375, 0.65), 0.35)
     assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14, abs=0.0)
 
@@ -477,7 +477,7 @@ def test_each_root_has_a_row_of_its_own() -> None:
 
 
 def test_a_neighbour_has_no_negative_zero() -> None:
-    """What a link to it says is what would be typed."""
+    """A link to it has the text that one would type."""
     neighbour = Asked(FAMILIES["general"], {"ratio": ("1.5",), "omega": ("1", "2", "3")}, {}).changed(
         "general", omega=(-0.0, -1.0, 2.0)
     )

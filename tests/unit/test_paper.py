@@ -32,7 +32,7 @@ TWICE = {"mf61a": "mf61", "mf61b": "mf61"}
 
 
 def test_every_labelled_equation_of_the_paper_is_in_the_ledger() -> None:
-    """No label is missing, and what has none is a claim in words or a theorem of our own."""
+    """No label is missing, and an entry without one is a claim in words or a theorem of our own."""
     aliases = [alias for entry in EQUATIONS.values() if (alias := entry.alias)]
     assert Counter(aliases) == Counter([*(TWICE.get(label, label) for label in LABELS), "Aff100"])
     unlabelled = [name for name, entry in EQUATIONS.items() if not entry.alias]
@@ -118,7 +118,7 @@ def test_no_letter_stands_outside_a_formula() -> None:
 
 
 def test_every_citation_is_one_of_the_ledger() -> None:
-    """What follows a sign of citation is the name of an entry."""
+    """After a sign of citation stands the name of an entry."""
     names = [name for text in TEXTS for name in re.findall(r"@(\(\d+\)|[\w-]+)", text)]
     assert len(names) > 200
     assert set(names) <= set(EQUATIONS)

@@ -167,7 +167,7 @@ def test_times_of_any_shape() -> None:
 
 
 def test_many_times_are_each_met() -> None:
-    """More times than are evaluated at once give, one by one, what each gives alone."""
+    """More times than are evaluated at once have, one by one, the values of each alone."""
     p = ParticleMotion(-1.3, [0.2, 0.3, 0.4], [1, -2, 0.5], ORIGIN, [0.1, 0.2, -0.3], 2.0)
     t = np.linspace(-50, 50, 10001)
     position, velocity = p.position(t), p.velocity(t)

@@ -103,7 +103,7 @@ def test_one_time_of_no_and_of_extreme_frequencies() -> None:
 
 
 def test_the_tangent_is_within_an_ulp() -> None:
-    """What the bound supposes of NumPy, at 30000 angles up to 0.9."""
+    """The bound's assumption on NumPy, at 30000 angles up to 0.9."""
     x = np.random.default_rng(0).uniform(0.0, 0.9, 30000)
     with ctx.workprec(120):
         errors = [abs(float(arb(a).tan() - arb(b))) for a, b in zip(x.tolist(), np.tan(x).tolist(), strict=True)]

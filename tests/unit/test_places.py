@@ -54,7 +54,7 @@ def test_built_figures_are_cached_in_the_checkout_or_the_users_cache(
 
 
 def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """`atlas figure --out .` leaves only the figure and the record of what it wrote, and draws nothing twice."""
+    """`atlas figure --out .` leaves only the figure and the record of its files, and draws nothing twice."""
     from atlas.book.building.figures import build_figures
 
     monkeypatch.chdir(tmp_path)
@@ -86,7 +86,7 @@ def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, c
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
 def test_no_letter_fails(encoding: str) -> None:
-    """What the terminal's encoding does not have is written in ASCII, as near as it gets; JSON keeps its turn."""
+    """Characters that the terminal's encoding lacks are written in ASCII, as near as it gets; JSON keeps its turn."""
     program = (
         "import json, sys; from atlas.cli.app import write_plainly; from atlas.cli.present import dump\n"
         "write_plainly(); print('\u2212\u00d7\u2192\u03c9 \u00e9\u2075'); dump({'a': '\u03c9'})"

@@ -29,7 +29,7 @@ MAKERS: list[Callable[[], Any]] = [
 
 
 def doubles(make: Callable[[], Any]) -> dict[str, list[float]]:
-    """Return what a motion has at some times, alone and in a grid, and its numbers."""
+    """Return the values of a motion at some times, alone and in a grid, and its numbers."""
     motion = make()
     names = ("rotation", "angular_velocity", "field_in_body", "angular_momentum")
     found = {name: getattr(motion, name)(TIMES) for name in names if hasattr(motion, name)}

@@ -1,4 +1,4 @@
-"""Signals and the processes of a command: what Ctrl-C and SIGTERM end, and that they leave nothing behind."""
+"""Signals and the processes of a command: Ctrl-C and SIGTERM end them all, and leave nothing behind."""
 
 import os
 import signal
@@ -115,7 +115,7 @@ def _wait(seconds: float, _: bytes) -> None:
 
 
 def test_workers_are_never_interrupted() -> None:
-    """SIGINT is blocked in each from its start; what means an end is decided by the process that started it."""
+    """SIGINT is blocked in each from its start; the process that started it decides about the end."""
     for context in ("spawn", "fork", processes.prepare("json")):
         with processes.pool(2, None, context) as pool:
             assert pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, []).result() == {signal.SIGINT}

@@ -1,4 +1,4 @@
-"""The trial of the equations: what is proved is proved again here, what is refuted is refuted by hand."""
+"""The trial of the equations: proved verdicts are proved again here, refuted ones refuted by hand."""
 
 import re
 from dataclasses import replace
@@ -21,10 +21,10 @@ from atlas.trial.proofs.verdict import GRADES, slips
 
 RECORDED = recorded.load()
 REFUTED = [name for name, verdict in RECORDED.items() if verdict.verdict == "refuted"]
-# of what is quickly decided every sixth entry, and in the stress run every second; the slips are tried below
+# every sixth of the quickly decided entries, and in the stress run every second; the slips are tried below
 QUICK = [name for name in RECORDED if RECORDED[name].seconds < 1][::2]
 AGAIN = [pytest.param(name, marks=[pytest.mark.slow] * (k % 6 > 0)) for k, name in enumerate(QUICK)]
-# what the readers of the paper had found before; the trial must find it, and more
+# slips that readers of the paper had found before; the trial must find them, and more
 KNOWN_SLIPS = ["(48)", "(46)", "(100)", "text-parallel-acceleration", "(97)", "(98)", "(99)", "text-constant-omega3"]
 KNOWN_SLIPS += ["text-momentum-plane", "text-cone-semi-axes", "(102)"]
 NEW_SLIPS = [
@@ -64,7 +64,7 @@ def test_the_recorded_verdicts_agree_with_the_present_proofs() -> None:
 
 @pytest.mark.parametrize("stem", sorted({topic(name) for name in EQUATIONS}))
 def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
-    """What of a record needs no proof stands in the trial or in the ledger, word for word."""
+    """Texts of a record that need no proof stand in the trial or in the ledger, word for word."""
     for name in trials(stem):
         entry, case = EQUATIONS[name], trial(name)
         lines = [
@@ -90,7 +90,7 @@ def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
 
 
 def test_every_verdict_is_sound() -> None:
-    """Each entry is proved as printed, a definition, or refuted; what needs an erratum has a form that is proved."""
+    """Each entry is proved as printed, a definition, or refuted; each with an erratum has a form that is proved."""
     for name, verdict in RECORDED.items():
         decisions = "proved definition".split() + ["refuted"] * bool(verdict.grade)
         assert verdict.verdict in decisions, name
@@ -99,7 +99,7 @@ def test_every_verdict_is_sound() -> None:
 
 
 def test_definitions_are_not_called_proved() -> None:
-    """These entries only say what their letters mean."""
+    """These entries only define their letters."""
     assert [name for name, verdict in RECORDED.items() if verdict.verdict == "definition"] == DEFINITIONS
 
 
@@ -139,7 +139,7 @@ def test_an_exception_that_the_paper_does_not_state_leaves_a_claim_proved() -> N
 
 
 def test_every_claim_in_words_has_a_false_sentence_beside_it() -> None:
-    """The trial refutes a false sentence near each claim, so it can fail; what is refuted as printed has shown it."""
+    """The trial refutes a false sentence near each claim, so it can fail; a claim refuted as printed has shown it."""
     assert [name for name in IN_WORDS if RECORDED[name].false_verdict != "refuted"] == []
     assert [name for name in IN_WORDS if not RECORDED[name].false] == []
 
@@ -155,7 +155,7 @@ def test_a_trial_that_cannot_fail_is_found_out() -> None:
 
 
 def test_a_false_sentence_that_changes_nothing_is_refused() -> None:
-    """It must change what stands in the claim, or say it of something else."""
+    """It must change the words of the claim, or say them of something else."""
     with pytest.raises(ValueError, match="not there"):
         _ = replace(trial("text-beta"), false=Falsehood("B3/(I*B4)", "B3")).false_part
     for false in (None, Falsehood()):
@@ -207,7 +207,7 @@ def test_the_slips_of_the_paper_are_found(name: str) -> None:
 
 @pytest.mark.parametrize("name", REFUTED)
 def test_a_corrected_form_refutes_the_printed_one(name: str) -> None:
-    """What the corrected form says is not what is printed: the lines differ, or what they are said of."""
+    """The corrected form differs from the printed one: in the lines, or in their subjects."""
     case = trial(name)
     assert case.corrected
     assert case.corrected != case.printed or case.corrected_model not in {None, case.model}
@@ -308,7 +308,7 @@ def _verdict_of(name: str, **changes: str) -> run.Verdict:
     ],
 )
 def test_a_broken_entry_turns_the_run_red(name: str, term: str, term_changed: str) -> None:
-    """A formula of the ledger that is changed is refuted, and that differs from what is recorded."""
+    """A formula of the ledger that is changed is refuted, and that differs from the record."""
     assert term in EQUATIONS[name].tex
     verdict = _verdict_of(name, tex=EQUATIONS[name].tex.replace(term, term_changed, 1))
     assert verdict.verdict == "refuted"
@@ -337,7 +337,7 @@ def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_sampling_proves_nothing() -> None:
-    """What was only sampled is supported, with the count."""
+    """A sampled claim is supported, with the count."""
     x = sympy.Symbol("x", real=True)
     outcome = decide("x = 2*x - x", Model({"x": x}), sample_only=True)
     assert outcome.decision == "supported"
@@ -393,7 +393,7 @@ def test_a_letter_that_is_compared_with_itself_is_refused() -> None:
 
 
 def test_a_definition_may_be_used_through_another_letter() -> None:
-    """What is checked depends on z, z on a, and nothing on b."""
+    """The checked side depends on z, z on a, and nothing on b."""
     z, s = sympy.Symbol("z", positive=True), sympy.Symbol("s", positive=True)
     model = Model({"z": z, "s": s, "square": z**2})
     assert decide("a = 2*s; z = a; square = 4*s^2", model, defines=("a", "z")).decision == "proved"
@@ -466,7 +466,7 @@ def test_signs_are_decided_term_by_term() -> None:
 
 
 def test_verify_reports_progress_and_uses_its_cache(tmp_path: Path) -> None:
-    """Labels come back in the ledger's order; a second run reads what the first has written."""
+    """Labels come back in the ledger's order; a second run reads the verdicts that the first has written."""
     progress: list[tuple[str, int, int]] = []
     store = Cache(tmp_path)
     verdicts = verify(["(77)", "(39)"], lambda *call: progress.append(call), store=store)

@@ -1,4 +1,4 @@
-r"""What an entry assumes is held against the model of its trial: a changed definition or domain is noticed."""
+r"""Assumptions of an entry are held against the model of its trial: a changed definition or domain is noticed."""
 
 import re
 from dataclasses import replace
@@ -31,7 +31,7 @@ TRUE_OUTSIDE = {
         for i, j in ("12", "13", "23")
     ),
 }
-"""Domains outside which the line that is tried is true as well: what the entry says besides needs them."""
+"""Domains outside which the tried line is true as well: other sentences of the entry need them."""
 
 
 @pytest.mark.parametrize(

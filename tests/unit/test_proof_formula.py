@@ -1,4 +1,4 @@
-"""The proved form of an equation as a number: what other floors are held against."""
+"""The proved form of an equation as a number: the reference of other floors."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from atlas.trial.proofs.formula import value
 
 
 def test_functions_are_letters_too() -> None:
-    """What d does is for the caller to say, and a function that is not given is missed."""
+    """The caller defines d, and a function that is not given is missed."""
     assert value("(37)", "0", d=lambda square: square, K=[1, 2, 3]) == 14
     with pytest.raises(AtlasError, match="needs the value of d too"):
         value("(37)", "0", K=[1, 2, 3])

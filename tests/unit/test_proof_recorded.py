@@ -39,7 +39,7 @@ def test_the_command_saves_its_verdicts(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_scripts_of_some_entries_keep_the_others(tmp_path: Path) -> None:
-    """What is recorded of one entry stays when another is recorded."""
+    """The record of one entry stays when another is recorded."""
     path = tmp_path / "scripts.json"
     recorded.save_scripts({"(72)": "one", "(48)": "two"}, path)
     recorded.save_scripts({"(48)": "three"}, path)

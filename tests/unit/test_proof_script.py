@@ -1,4 +1,4 @@
-"""Proofs as scripts of plain SymPy: they run without atlas, say what is recorded, and notice a changed sign."""
+"""Proofs as scripts of plain SymPy: they run without atlas, repeat the record, and notice a changed sign."""
 
 import io
 import re
@@ -77,14 +77,14 @@ def test_every_entry_has_a_short_script() -> None:
 
 
 def test_without_a_verdict_one_line_says_why_there_is_no_script() -> None:
-    """What is undecided has none."""
+    """An undecided entry has none."""
     text = script_of(replace(RECORDED["(72)"], verdict="undecided", method="out of time"))
     assert text == "No script: it is undecided (out of time) before anything is computed."
 
 
 @pytest.mark.parametrize("name", SAMPLE)
 def test_a_recorded_script_is_that_of_the_proof(name: str) -> None:
-    """What pages show was made from the line that is tried now; `atlas verify --record` makes it anew."""
+    """Scripts on the pages were made from the line that is tried now; `atlas verify --record` makes them anew."""
     assert script_of(RECORDED[name]) == SCRIPTS[name]
 
 
@@ -102,7 +102,7 @@ def test_the_command_shows_both_sides() -> None:
 
 
 def test_the_command_shows_no_tex() -> None:
-    """What a formula says beside its relations stands in plain letters, and what became of it."""
+    """Sentences beside the relations of a formula stand in plain letters, with their verdict."""
     output = CliRunner().invoke(command, ["verify", "71"]).stdout
     assert "also says:      if ω_2≠-B'_2: supposed, or tried in a further line" in output
     assert "\\" not in output

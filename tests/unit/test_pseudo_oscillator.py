@@ -56,7 +56,7 @@ def test_the_start_is_met_without_cancellation(I: float, field: tuple[float, flo
 
 
 def test_arrays_broadcast() -> None:
-    """Many initial velocities and many u at once give what each gives alone."""
+    """Many initial velocities and many u at once have the values of each alone."""
     rng = np.random.default_rng(3)
     omega, u = rng.normal(size=(4, 3)), rng.normal(size=(5, 1))
     together = PseudoOscillator([0.5, 1.0, 1.5, 2.0], (1.0, rng.normal(size=4)), omega)

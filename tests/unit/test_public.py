@@ -1,4 +1,4 @@
-"""The public interface: names, what they take, in which order, and what is taken where something is left out."""
+"""The public interface: names, parameters in their order, and defaults."""
 
 import ast
 import inspect
@@ -18,7 +18,7 @@ from atlas.places import folder
 
 
 def signature_of(call: Callable[..., Any]) -> str:
-    """Return what a function takes, without the types."""
+    """Return the parameters of a function, without the types."""
     parameters = inspect.signature(call).parameters.values()
     return str(inspect.Signature([parameter.replace(annotation=inspect.Parameter.empty) for parameter in parameters]))
 
@@ -58,13 +58,13 @@ reveal_type(atlas.sweep("free", {}, ["kind"], "free.csv"))
 
 
 def checked(path: Path, text: str) -> str:
-    """Return what mypy says of a file with this text."""
+    """Return mypy's output for a file with this text."""
     path.write_text(text, encoding="utf-8")
     return said_of(path)
 
 
 def said_of(path: Path) -> str:
-    """Return what mypy says of a file, with the cache of `make lint`."""
+    """Return mypy's output for a file, with the cache of `make lint`."""
     command = [sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--follow-imports", "silent", str(path)]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout
 
@@ -88,7 +88,7 @@ def test_a_type_checker_takes_right_calls_and_refuses_each_wrong_one() -> None:
 
 
 def test_no_public_parameter_or_result_is_of_any_type() -> None:
-    """What a user passes and gets has a type, so that an editor knows it."""
+    """Each argument and result of a user has a type, so that an editor knows it."""
     assert [
         f"{name}: {key}"
         for name, call in public()

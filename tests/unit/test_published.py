@@ -1,4 +1,4 @@
-"""Published benchmarks of a turning body: the reference values are met, and the guide's table says what is computed."""
+"""Published benchmarks of a turning body: the reference values are met, and the guide's table has computed values."""
 
 import re
 from decimal import Decimal

@@ -130,7 +130,7 @@ def test_the_loop_touches_its_two_planes() -> None:
 
 
 def test_degenerate_kinds_have_a_value_or_a_reason() -> None:
-    """A plane pair, a line and all space answer what has an answer."""
+    """A plane pair, a line and all space answer every question that has an answer."""
     pair, line, space = (Quadric(*KINDS[kind]) for kind in ("plane pair", "line", "all space"))
     assert (pair.beta, pair.a2, pair.a3, pair.semi_axes[1:]) == (0.0, 0.0, 0.0, (0.0, 0.0))
     assert Quadric(1.5, (-1.0, 0.0)).beta == np.pi

@@ -1,4 +1,4 @@
-"""What the public names raise on a wrong input stands in their docstrings."""
+"""Errors that the public names raise on a wrong input stand in their docstrings."""
 
 import inspect
 from collections.abc import Callable, Iterator
@@ -46,7 +46,7 @@ OBJECTS: dict[tuple[str, str], Any] = {
     ("Flight", "particle"): PARTICLE,
     ("Flight", "motion"): MADE["ElementaryMotion"],
 }
-"""Arguments that are objects of the atlas: a type checker knows what these are."""
+"""Arguments that are objects of the atlas: a type checker knows their types."""
 
 
 def calls() -> Iterator[Any]:
@@ -82,7 +82,7 @@ TABLE = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.5, 0.7]}
 
 
 def swept(**changed: Any) -> Any:
-    """Return what a table would be made of."""
+    """Return the plan of a table."""
     arguments = {"parameters": TABLE, "quantities": ["k"]} | changed
     return Plan.of("elementary", **arguments)
 

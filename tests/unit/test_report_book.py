@@ -59,7 +59,7 @@ FIGURES = """  { kind = "figure", recipe = "magn", width = 150.0 },
   { kind = "figure", recipe = "ball", width = 160.0 },
   { kind = "figure", recipe = "magn", width = 155.0 },
 """
-"""Too tall for what is left of a page."""
+"""Too tall for the rest of a page."""
 THIRD = """
 [[pages]]
 slug = "third"
@@ -134,7 +134,7 @@ def test_figures_stand_in_their_chapter_and_in_order(book: list[str]) -> None:
 
 
 def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:
-    """What the prose says of a computed number is what the table says, with a power of ten only far from 1."""
+    """The prose gives a computed number as the table does, with a power of ten only far from 1."""
     assert "and beta is 1.107148718." in " ".join(book[2:])
     assert Number("-1.2e-5").words() == "−1.2×10^−5^"
     assert [Number(digits).words() for digits in ("1.2e2", "-3.5e-2", "7", "")] == ["120", "−0.035", "7", "?"]
@@ -268,7 +268,7 @@ def test_a_style_that_there_is_not_is_refused_before_anything_is_written(tmp_pat
 
 @pytest.mark.slow
 def test_a_report_has_its_style_wherever_it_is_drawn(tmp_path: Path) -> None:
-    """`style` in the file, a sheet beside it, draws what `--style` does, in LaTeX, data and pages; the latter wins."""
+    """`style` in the file, a sheet beside it, draws as `--style` does, in LaTeX, data and pages; the latter wins."""
     (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
     (tmp_path / "wide.mplstyle").write_text("axes.linewidth: 3", encoding="utf-8")
 

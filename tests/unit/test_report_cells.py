@@ -206,7 +206,7 @@ def test_the_cells_of_companions() -> None:
 
 
 def test_the_cells_of_body_and_field() -> None:
-    """What was given; the moments of a shell, their ratio, mu, and B' of (32), where e2 makes B'_2 positive."""
+    """The inputs; the moments of a shell, their ratio, mu, and B' of (32), where e2 makes B'_2 positive."""
     shell = Body(title="shell", shape="cylindrical_shell", mass=0.75, radius=0.25, height=0.375, charge=-0.3)
     magnet = Field(title="magnet", B=(0.0, 3.0, 4.5), E=(0.5, 0.0, -2.5))
     with mp.workdps(40):
@@ -215,7 +215,7 @@ def test_the_cells_of_body_and_field() -> None:
         mu = mpf(-0.3 / 0.75)
         values = (0.75, 0.25, 0.375, -0.3, 0, 3, mpf("4.5"), mpf("0.5"), 0, mpf("-2.5"))
         follows = (I2, I3, I3 / I2, mu, mpf(float(-mu * 3 / 2)), mpf(float(mu * mpf("2.25"))))
-        with mp.workdps(17):  # what was given is shown as it was given
+        with mp.workdps(17):  # inputs are shown as typed
             values = tuple(mpf(repr(float(value))) for value in values)
         holds(table("body_and_field", bodies=[shell], field=magnet), *((value,) for value in (*values, *follows)))
 

@@ -99,14 +99,14 @@ def _runs(process: int) -> bool:
 
 @pytest.mark.slow
 def test_a_program_has_no_more_than_its_seconds() -> None:
-    """One that computes without end is ended after a second of a processor; one that ends well says what it wrote."""
+    """One that computes without end is ended after a second of a processor; one that ends well names its files."""
     with pytest.raises(subprocess.TimeoutExpired):
         programs.run([sys.executable, "-c", "while True: pass"], 1)
     assert programs.run([sys.executable, "-c", "print(input())"], 30, "word").stdout == f"word{os.linesep}"
 
 
 def test_toml_nested_too_deeply_is_a_mistake_in_one_line(tmp_path: Path) -> None:
-    """3000 brackets: a report says so in one line, and `toml.loads` raises what any other mistake raises."""
+    """3000 brackets: a report says so in one line, and `toml.loads` raises the error of any other mistake."""
     file = tmp_path / "deep.toml"
     file.write_text("a = " + "[" * 3000 + "]" * 3000)
     with pytest.raises(ValueError, match="too deeply"):
@@ -118,7 +118,7 @@ def test_toml_nested_too_deeply_is_a_mistake_in_one_line(tmp_path: Path) -> None
 
 
 def test_code_is_printed_as_it_stands() -> None:
-    """What mends the bars and spaces of formulas leaves code and words alone, and still mends formulas beside them."""
+    """The repair of bars and spaces of formulas leaves code and words alone, and still mends formulas beside them."""
     span, words, block, formula = set_in_typst(
         r"`grep 'a\|b\|c'` and `#h(0em)`",
         r"#h(0em) and \\\| a \\\|",

@@ -59,7 +59,7 @@ def test_faults_of_a_formula_are_reported_in_a_line(tex: str, reason: str) -> No
 
 
 def test_of_a_long_formula_a_message_shows_the_beginning_and_where_it_goes_wrong() -> None:
-    """Ninety characters of it, with the mark of what is left out, and twenty from the mistake on."""
+    """Ninety characters of it, with the mark of an omission, and twenty from the mistake on."""
     tail = "+b" * 60
     with pytest.raises(AtlasError) as caught:
         formula_in(rf"$\begin{{pmatrix}}a\end{{matrix}}{tail}$")
@@ -121,14 +121,14 @@ def test_thin_spaces_keep_their_width_in_print() -> None:
 
 
 def test_a_comma_stays_on_the_line_of_its_formula() -> None:
-    """What follows a formula in a sentence without a space is kept together with it; a display formula stands alone."""
+    """Signs that follow a formula in a sentence without a space stay with it; a display formula stands alone."""
     assert re.search(r'<span class="together"><math[^>]*>.*</math>,</span> and', formula_in("With $a$, and so on"))
     assert "together" not in formula_in("With $a$ and so on")
     assert "together" not in formula_in("$$a$$, and so on")
 
 
 def test_units_and_brackets_stay_on_the_line_of_their_formula() -> None:
-    """A unit keeps number and exponent, a bracket its formula, both what ends the clause; a word and a space don't."""
+    """A unit keeps number and exponent, a bracket its formula, both the end of the clause; a word and a space don't."""
     assert re.fullmatch(
         '30\xa0<span class="together">s<math.*</math>,</span> and', formula_in("30 s$^{-1}$, and"), re.DOTALL
     )
@@ -161,7 +161,7 @@ def letters(tex: str) -> set[str]:
 
 
 def rows() -> list[set[str]]:
-    """Return the letters that each row explains: what stands before the sign of equality."""
+    """Return the letters that each row explains: those before the sign of equality."""
     heads = ["".join(re.findall(r"\$([^$]+)\$", row[0])) for row in TABLE.rows]
     return [set().union(*(letters(item.partition("=")[0]) for item in head.split(r",\ "))) for head in heads]
 
@@ -185,7 +185,7 @@ def test_every_letter_of_the_atlas_is_in_its_table() -> None:
 
 
 def test_a_letter_has_one_row() -> None:
-    """What has two meanings has them in one row, where both can be seen."""
+    """A letter with two meanings has them in one row, where both can be seen."""
     twice = {letter for letter, count in Counter(letter for row in rows() for letter in row).items() if count > 1}
     assert twice == set()
 

@@ -175,9 +175,9 @@ def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElemen
 
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
-    """As many errata as entries with a slip, the grave ones first; each with both forms and what breaks the printed.
+    """As many errata as entries with a slip, the grave ones first; each with both forms and the counterexample.
 
-    What several have in common is said once.
+    A remark common to several is made once.
     """
     refuted = {name: verdict for name, verdict in recorded.load().items() if verdict.grade}
     anchors = {f"erratum-{slug(name)}": name for name in refuted}
@@ -256,7 +256,7 @@ def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatc
 
 
 def test_an_entry_without_a_verdict_is_undecided(toml: Path) -> None:
-    """What the record does not hold is not passed off as proved."""
+    """An entry outside the record is not passed off as proved."""
     document = compose(load(toml), {}, _with(Finding("supported", "1000 samples", "(71)")))
     entries_shown = [
         entry for page in document.pages for block in page.blocks for entry in getattr(block, "entries", ())

@@ -1,4 +1,4 @@
-"""Reports in Markdown: what stands where becomes what a report in TOML says, and a mistake is told by its line."""
+"""Reports in Markdown: each part becomes that of a report in TOML, and a mistake is told by its line."""
 
 from pathlib import Path
 from typing import Any
@@ -154,7 +154,7 @@ MISTAKES: dict[str, tuple[str, str, int, str]] = {
 
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_reported_with_its_line(mistake: str, tmp_path: Path) -> None:
-    """In one sentence: file, line of the file from its first on, what is wrong, what was meant."""
+    """In one sentence: file, line of the file from its first on, fault, remedy."""
     text, text_wrong, line, message = MISTAKES[mistake]
     assert MARKDOWN.count(text) == 1 or text == "title = "
     file = report_file(tmp_path, MARKDOWN.replace(text, text_wrong, 1))
@@ -200,7 +200,7 @@ SIGNS = (
 
 @pytest.mark.parametrize("line", SIGNS)
 def test_text_is_text(line: str, tmp_path: Path) -> None:
-    """What is neither a heading nor a fence reaches the text letter by letter, separators of lines of Unicode too."""
+    """Lines that are neither heading nor fence reach the text letter by letter, separators of lines of Unicode too."""
     block: Any = (
         load(report_file(tmp_path, MARKDOWN.replace("The data", f"A\u2028B\n\n{line}\n\nThe data"))).pages[0].blocks[0]
     )

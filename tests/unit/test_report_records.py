@@ -1,4 +1,4 @@
-"""What a report file may say, and what is said about what it may not."""
+"""The content of a report file, and the messages about mistakes."""
 
 import re
 from pathlib import Path
@@ -84,7 +84,7 @@ MISTAKES = {
 
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_reported_with_file_place_and_nearest_key(tmp_path: Path, mistake: str) -> None:
-    """Every mistake names the file, where it is, and what was probably meant."""
+    """Every mistake names the file, the place, and the probable meaning."""
     text, *expected = MISTAKES[mistake]
     file = tmp_path / "mine.toml"
     file.write_text(text, encoding="utf-8")
@@ -134,7 +134,7 @@ def test_an_unknown_report_is_answered_with_the_nearest_name() -> None:
 
 
 def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
-    """A file that is there but bears another ending is told what a report is."""
+    """A file that is there but bears another ending is told the form of a report."""
     (tmp_path / "data.csv").write_text("1,2\n")
     with pytest.raises(AtlasError, match=r"data\.csv is no report: a report is a \.md or a \.toml file\.$"):
         find(str(tmp_path / "data.csv"))

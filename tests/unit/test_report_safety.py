@@ -126,7 +126,7 @@ def test_markup_in_a_text_is_shown_and_not_obeyed(text: str, tmp_path: Path) -> 
 
 
 def test_a_formula_in_a_title_is_set_and_stands_elsewhere_in_plain_words(tmp_path: Path) -> None:
-    """The rest of a title is letters; bookmarks and what names a page have no markup."""
+    """The rest of a title is letters; bookmarks and names of pages have no markup."""
     report = definition(r"The *rate* $\nu^2$ & a~b for $5")
     page, printed = visible(document(report), tmp_path)
     assert [node.text_content() for node in page.xpath("//h1/math | //p[@class='h']/math")] == ["ν2", "ν2"]
@@ -215,7 +215,7 @@ def test_names_that_become_anchors_and_files_are_letters_digits_and_hyphens(name
 
 
 def test_the_scripts_of_a_page_agree_with_its_templates() -> None:
-    """What the pages ask for lies beside them, as it is in the templates whatever the report says."""
+    """Files that the pages ask for lie beside them, as in the templates whatever the report says."""
     files = html.pages(document(definition(MARKUP[0])))
     for script in SCRIPTS:
         assert files[script["src"]] == (folder("templates") / "html" / script["src"]).read_text(encoding="utf-8")
@@ -267,7 +267,7 @@ def test_values_of_a_key_agree_with_the_library(kind: Any) -> None:
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
 def test_a_number_is_finite(value: float) -> None:
-    """What TOML can write, but no key can be."""
+    """Keys that TOML can write, but no block has."""
     with pytest.raises(AtlasError, match=r"finite|number"):
         convert(value, float)
 
@@ -333,7 +333,7 @@ WRONG = {
 
 @pytest.mark.parametrize("line", WRONG)
 def test_a_parameter_of_another_type_is_reported_with_its_key(line: str, tmp_path: Path) -> None:
-    """One line names the block, the key and what would be right."""
+    """One line names the block, the key and the remedy."""
     file = tmp_path / "mine.toml"
     lines = f"omega2 = 0.5, {line}" if line and "omega_2" not in line else line
     file.write_text(
@@ -361,7 +361,7 @@ def test_a_parameter_of_another_type_is_reported_with_its_key(line: str, tmp_pat
     ],
 )
 def test_a_body_of_another_type_is_reported_with_its_key(line: str, words: str, tmp_path: Path) -> None:
-    """The sentence names file, line where it can, body, key and what would be right."""
+    """The sentence names file, line where it can, body, key and remedy."""
     file = tmp_path / "mine.toml"
     file.write_text(
         '\ufeffname = "mine"\ntitle = "T"\npages = [{slug = "index", title = "", blocks = []}]\n'
@@ -375,7 +375,7 @@ def test_a_body_of_another_type_is_reported_with_its_key(line: str, words: str, 
 
 
 def test_citations_are_found_as_pandoc_finds_them() -> None:
-    """What counts as a use and what becomes a link are the same names."""
+    """Counted uses and links are the same names."""
     text = "See @(50), (@theorem-points); `@(89)`, $x@y$ and a@b.c, @fig:curve and [@tab:points; see @(90), p. 3]."
     texts, citations_found = Texts(), []
     texts.add(text, "here", inline=True)

@@ -113,14 +113,14 @@ def test_titles_have_the_apostrophes_of_print() -> None:
 
 
 def test_the_search_box_needs_no_network(files: dict[str, str]) -> None:
-    """Its library lies beside the page, with its licence, and is loaded before what uses it."""
+    """Its library lies beside the page, with its licence, and is loaded before its users."""
     assert "Permission is hereby granted" in files["minisearch.js"]
     scripts = reader.fromstring(files["index.html"]).xpath("//script/@src")
     assert scripts == ["minisearch.js", "page.js"]
 
 
 def test_an_equation_is_named_where_it_is_cited(files: dict[str, str]) -> None:
-    """Without a script the link of a citation says in words what the equation says."""
+    """Without a script the link of a citation gives the equation in words."""
     (link,) = reader.fromstring(files["index.html"]).xpath("//main//a[@href='index.html#eq-71']")
     assert "hyperbola" in link.get("title").lower()
 
@@ -134,7 +134,7 @@ def test_the_front_page_shows_the_report(files: dict[str, str]) -> None:
 
 
 def test_a_cover_must_be_a_figure(tmp_path: Path) -> None:
-    """The message names what was asked for."""
+    """The message names the request."""
     (tmp_path / "mine.toml").write_text(REPORT.replace('cover = "curve"', 'cover = "curves"'))
     report = load(tmp_path / "mine.toml")
     document = compose(report, pictures(report))
@@ -175,7 +175,7 @@ def test_related_reports_stand_beside(files: dict[str, str], tmp_path: Path) -> 
     [{}, {"ratio": 0.5, "field": (1.0, 1e-7)}, {"ratios": (0.3,), "unit": "s", "words": "a b", "on": True}],
 )
 def test_the_command_under_a_figure_makes_it(parameters: dict[str, object]) -> None:
-    """What is typed is read as the parameters that the figure has."""
+    """Typed words are read as the parameters that the figure has."""
     name, *arguments = shlex.split(Picture("", "quadric", "shaded", parameters).command)[1:]
     context = command_line.commands[name].make_context(name, arguments, click.Context(command_line, info_name="atlas"))
     assert context.params["names"] == ("quadric",)

@@ -1,4 +1,4 @@
-"""The atlas, the paper on trial and the guide: what one cites and only another has is found there."""
+"""The atlas, the paper on trial and the guide: a citation of one that only another has is found there."""
 
 import re
 from collections.abc import Iterator
@@ -120,7 +120,7 @@ def test_the_volumes_are_built_from_one_another() -> None:
 
 
 def test_the_atlas_is_about_physics() -> None:
-    """What tries the paper and the program stands in the second volume; no sources of records in the first."""
+    """Trials of the paper and the program stand in the second volume; no sources of records in the first."""
     text = find("atlas").read_text(encoding="utf-8")
     assert not re.search(r'kind = "(recorded|errata)"', text)
 
@@ -159,7 +159,7 @@ def _write(folder: Path, report: str = REPORT, works: str = WORKS) -> Path:
 
 @pytest.mark.slow
 def test_page_and_print_cite_alike(tmp_path: Path) -> None:
-    """Author and year, in brackets or in the sentence, and the list holds what is cited and nothing else."""
+    """Author and year, in brackets or in the sentence, and the list holds the cited works and nothing else."""
     built = build_report(_write(tmp_path), tmp_path / "out")
     citation = "As Klein (1897) says, tops spin (Euler 1765; Klein 1897, p. 3)."
     first, second = (html.parse(built.index.parent / name).getroot() for name in ("index.html", "sources.html"))

@@ -31,7 +31,7 @@ def test_points_read_back_as_they_are_drawn() -> None:
 
 
 def test_every_kind_of_layer_has_its_rows() -> None:
-    """An arrow has a tail and a tip, a surface its wires and rims, a map its cells; what is not finite is empty."""
+    """An arrow has a tail and a tip, a surface its wires and rims, a map its cells; infinite values are empty."""
     line = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 0.1]])
     surface = Surface(np.eye(4), np.empty((0, 4)), (), wires=(line,), rims=(line, line))
     cells = Image(np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0]), np.array([[1 / 3, np.inf]]), "map of $x$")

@@ -72,7 +72,7 @@ def test_parameters_may_be_named_or_in_order(folder: Path, star: str) -> None:
 
 
 def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:
-    """What a recipe takes is read without running it, so that its defaults are plain values."""
+    """The parameters of a recipe are read without running it, so that its defaults are plain values."""
     (folder / "clever.py").write_text('"""Clever."""\ndef scene(*, ratio=1.0 + RATIO): ...\n', encoding="utf-8")
     with pytest.raises(AtlasError, match=r"default of the parameter 'ratio' of figures/clever.py is not a plain value"):
         recipes.load("clever")
@@ -150,7 +150,7 @@ def test_a_parameter_comes_in_its_type(folder: Path, arguments: dict[str, Any], 
     ],
 )
 def test_a_parameter_of_another_type_is_one_sentence(folder: Path, arguments: dict[str, Any], tells: str) -> None:
-    """It names the parameter and says what would be right."""
+    """It names the parameter and the remedy."""
     (folder / "typed.py").write_text(RECIPE, encoding="utf-8")
     with pytest.raises(AtlasError, match=re.escape(tells)) as caught:
         recipes.load("typed").scene(**arguments)
@@ -158,7 +158,7 @@ def test_a_parameter_of_another_type_is_one_sentence(folder: Path, arguments: di
 
 
 def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
-    """The error says what is missing."""
+    """The error names the missing part."""
     (folder / "empty.py").write_text('"""Empty."""\n', encoding="utf-8")
     (folder / "mute.py").write_text("def scene(): ...\n", encoding="utf-8")
     with pytest.raises(AtlasError, match=r"no function scene\(\)"):
@@ -224,7 +224,7 @@ def test_styles_of_lines_that_meet_in_a_plot_differ_in_grey_or_in_dash() -> None
 
 
 def test_a_recipe_is_a_file_anywhere_and_is_read_again_when_it_changes(tmp_path: Path) -> None:
-    """What ends with .py is a place; nothing is left beside the file, and an edited one counts at once."""
+    """A name that ends with .py is a path; nothing is left beside the file, and an edited one counts at once."""
     file = tmp_path / "mine.py"
     file.write_text(RECIPE, encoding="utf-8")
     assert recipes.load(str(file)).scene(size=2).parameters["size"] == 2.0
@@ -240,7 +240,7 @@ def test_a_recipe_is_a_file_anywhere_and_is_read_again_when_it_changes(tmp_path:
 
 
 def test_types_of_parameters_are_described_in_words(tmp_path: Path) -> None:
-    """Each kind of annotation has its words, and what is typed after --set reads back."""
+    """Each kind of annotation has its words, and words typed after --set read back."""
     file = tmp_path / "mine.py"
     file.write_text(RECIPE, encoding="utf-8")
     recipe = recipes.load(str(file))

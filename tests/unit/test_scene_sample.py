@@ -45,7 +45,7 @@ def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
 
 
 def test_a_flat_curve_knows_paper_and_view() -> None:
-    """Drawn twice as wide and high it takes more points; what its limits do not show takes none."""
+    """Drawn twice as wide and high it takes more points; parts outside its limits take none."""
     circle = lambda s: np.stack([np.cos(s), np.sin(s)], axis=-1)  # noqa: E731  a curve in one line
     window, upper = ((-1.0, 1.0), (-1.0, 1.0)), ((-1.0, 1.0), (0.0, 1.0))
     points_whole = flat(circle, 0.0, 2.0 * np.pi, window, (40.0, 40.0))
@@ -60,6 +60,6 @@ def test_a_flat_curve_knows_paper_and_view() -> None:
 
 @pytest.mark.parametrize(("size", "turns"), [(1.0, 1e7), (1e300, 1e7), (np.inf, 1.0), (np.nan, 1.0)])
 def test_a_curve_that_needs_too_many_points_is_refused(size: float, turns: float) -> None:
-    """What turns ten million times, or is no number, is one sentence and no endless cutting."""
+    """A curve that turns ten million times, or has no numbers, is one sentence and no endless cutting."""
     with np.errstate(all="ignore"), pytest.raises(DomainError, match="more than 1000000 points"):
         curve(lambda s: np.stack([s, size * np.sin(turns * s)], axis=1), 0.0, 6.0, 1e-3)

@@ -24,7 +24,7 @@ STEADY = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).omega3
 
 
 class Differences:
-    """What two motions in balls that differ by 1e-40 in one input tell of its derivatives."""
+    """Derivatives by two motions in balls that differ by 1e-40 in one input."""
 
     def __init__(self, make: Any, values: Any, place: int) -> None:
         exact = [rational(x) for x in values]

@@ -1,4 +1,4 @@
-"""Motions whose quartic has a double root, in elementary functions of time, and what comes of a push."""
+"""Motions whose quartic has a double root, in elementary functions of time, and the effect of a push."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""The set-up of the Makefile on machines that lack something: one line says what, and the reason stands below it."""
+"""The set-up of the Makefile on machines that lack something: one line names it, and the reason stands below it."""
 
 import fcntl
 import hashlib
@@ -21,7 +21,7 @@ LOCK = "nosuch-library==1.0 --hash=sha256:" + 64 * "0" + "\n"
 
 
 def set_up(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables: str) -> tuple[int, str]:
-    """Run `make setup` as `begin` has it; return its status and what it says."""
+    """Run `make setup` as `begin` has it; return its status and its message."""
     with begin(tmp_path, programs, lock, **variables) as done:
         output, _ = done.communicate()
         return done.returncode, output
@@ -68,7 +68,7 @@ def begin(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables:
     ids=["old", "broken", "no venv, no network", "no venv, a user"],
 )
 def test_an_unsuitable_python_is_named(tmp_path: Path, programs: dict[str, str], says: str) -> None:
-    """Its version, or what it says itself, or what the installer says."""
+    """Its version, or its own message, or that of the installer."""
     status, message = set_up(tmp_path, programs)
     assert status == 2
     assert says in message

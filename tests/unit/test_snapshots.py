@@ -1,4 +1,4 @@
-"""What each recipe draws at its defaults, as it was when it was looked at: what changes it has to be meant.
+"""Each recipe's drawing at its defaults, as it was when it was looked at: every change has to be meant.
 
 `pytest tests/unit/test_snapshots.py --snapshot-update` renews them, `-k NAME` one of them. How they are written and
 compared stands in `lines`.
@@ -26,7 +26,7 @@ MEASURED = ("cost", "work_precision")
 
 
 def scene_of(name: str) -> Scene:
-    """Return the scene of a recipe, which opens of reports/data what its RECORDS say: its key depends on them."""
+    """Return the scene of a recipe, which opens of reports/data its RECORDS: its key depends on them."""
     data, opened, recipe = places.folder("reports") / "data", set[str](), recipes.load(name)
 
     def noting(method: Any) -> Any:

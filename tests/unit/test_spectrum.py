@@ -84,7 +84,7 @@ def test_lines_of_an_elementary_motion() -> None:
 
 
 def test_motions_without_spectral_lines_are_refused() -> None:
-    """A separatrix, arrays, and what no motion has."""
+    """A separatrix, arrays, and quantities that no motion has."""
     motion = MOTIONS["general"]()
     with pytest.raises(atlas.DomainError, match="separatrix"):
         atlas.TopMotion((1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 2.0).spectrum()

@@ -167,7 +167,7 @@ def test_kernels_and_balls_agree_as_on_another_processor() -> None:
 
 
 def test_a_record_takes_the_larger_error_of_two_runs(tmp_path: Path, short_run: Result, other_run: Result) -> None:
-    """What is written covers each run that it was made from, rounded up, and forgets nothing worse."""
+    """The record covers each run that it was made from, rounded up, and forgets nothing worse."""
     path = tmp_path / "worst_errors.json"
     recorded(other_run, {}, path)
     recorded(short_run, json.loads(path.read_text()), path)

@@ -67,7 +67,7 @@ def test_a_new_data_set_replaces_only_an_old_one(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_data_set_at_an_address_is_read_from_there() -> None:
-    """What fsspec knows is written and read as a folder is, and nothing is left beside it."""
+    """Addresses that fsspec knows are written and read as a folder is, and nothing is left beside it."""
     fsspec, pandas = pytest.importorskip("fsspec"), pytest.importorskip("pandas")
     memory = fsspec.filesystem("memory")
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:  # which has a memory of its own

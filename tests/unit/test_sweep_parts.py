@@ -29,7 +29,7 @@ STARTS = list(range(0, 154, 20))
 
 
 class Stopped(BaseException):
-    """What ends a sweep in the middle, as a signal would."""
+    """The signal that ends a sweep in the middle."""
 
 
 def sweep(out: Path | str, **options: Any) -> Any:
@@ -104,7 +104,7 @@ def test_any_rows_agree_with_the_table() -> None:
 def test_a_damaged_part_is_made_again(
     tmp_path: Path, table_bytes: bytes, monkeypatch: pytest.MonkeyPatch, damage: Any, kind: str
 ) -> None:
-    """A part that does not hold what its name says is no part: the table is that of a sweep that nobody disturbed."""
+    """A part whose content is not that of its name is no part: the table is that of an undisturbed sweep."""
     if kind == "parquet":
         pytest.importorskip("pyarrow")
     out = tmp_path / f"t.{kind}"
@@ -268,7 +268,7 @@ class Lost(ThreadPoolExecutor):
     calls = 0
 
     def submit(self, *call: Any, **options: Any) -> Future[Any]:
-        """Call, or give back what is lost."""
+        """Call, or give back a lost future."""
         self.calls += 1
         if self.calls < 5:
             return super().submit(*call, **options)
@@ -281,7 +281,7 @@ class Lost(ThreadPoolExecutor):
 def test_lost_workers_are_reported_and_a_second_call_resumes(
     tmp_path: Path, table_bytes: bytes, reason: BaseException, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In one sentence; what was made by then is not made again."""
+    """In one sentence; finished parts are not made again."""
     message = str(reason).removesuffix(".") or "CancelledError"
     with Lost(1) as executor:
         executor.reason = reason
@@ -314,7 +314,7 @@ def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
 
 
 def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_for_one(tmp_path: Path) -> None:
-    """What a killed process left behind counts for nothing; a file of the user's own is not written over."""
+    """Leftovers of a killed process count for nothing; a file of the user's own is not written over."""
     lock = tmp_path / ".t.csv.lock"
     kill = "import os, signal; from atlas.sweeps.store import Table\n"
     kill += f"with Table({str(tmp_path / 't.csv')!r}, '').held(): os.kill(os.getpid(), signal.SIGKILL)"
@@ -368,7 +368,7 @@ def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float,
 
 
 def test_a_sweep_resumes_with_other_part_sizes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Another measure of the time of a row, on a busier machine, does not begin it anew: what is missing is made."""
+    """Another measure of the time of a row, on a busier machine, does not begin it anew: missing parts are made."""
     parts_before = set[str]()
     for seconds in (1e-3, 5e-3, 1e-9):
         monkeypatch.setattr(run, "PART_SECONDS", seconds)

@@ -38,7 +38,7 @@ def read(path: Path) -> dict[str, Any]:
 @pytest.mark.parametrize("index", [True, False])
 @pytest.mark.parametrize("name", MOTIONS)
 def test_own_tables_are_read_to_the_same_bits(tmp_path: Path, name: str, index: bool) -> None:
-    """What to_dataframe gives and pandas writes, with an index or without, comes back as it was."""
+    """Files of to_dataframe and pandas, with an index or without, come back as they were."""
     motion, path = MOTIONS[name], tmp_path / "own.csv"
     motion.to_dataframe(TIMES).to_csv(path, index=index)
     columns = read(path)

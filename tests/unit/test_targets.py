@@ -178,7 +178,7 @@ def test_a_poster_has_all_larger() -> None:
 
 @pytest.mark.parametrize(("name", "target"), [("hyperbola", "aps"), ("motion", "aps-double"), ("cone", "aps")])
 def test_a_figure_of_a_report_gets_the_place_that_suits_it(name: str, target: str) -> None:
-    """What is not much wider than a column by itself is given one, the rest both."""
+    """A figure not much wider than a column by itself is given one, others both."""
     assert suited(recipes.load(name).scene(), [find("aps"), find("aps-double")]) is find(target)
 
 
@@ -217,7 +217,7 @@ def test_savefig_keeps_the_settings_of_the_target(tmp_path: Path) -> None:
 
 
 def test_a_style_of_the_user_does_not_break_the_law(tmp_path: Path) -> None:
-    """What a target asks comes after the style: small type, thin lines and Type 3 fonts are put right."""
+    """Demands of a target come after the style: small type, thin lines and Type 3 fonts are put right."""
     style = {"font.size": 4.0, "xtick.labelsize": 4.0, "axes.linewidth": 0.1, "pdf.fonttype": 3}
     scene = recipes.load("trochoids").scene()
     assert faults(to_figure(scene, style, target=find("aps")), find("aps")) == []
@@ -256,7 +256,7 @@ def test_a_scene_without_a_name_is_laid_out_too() -> None:
 
 
 def test_the_guide_lists_the_sizes_of_each_target() -> None:
-    """Its table names every target with its sizes, what is asked, and every source, which is an address or a class."""
+    """Its table names every target with its sizes, its demands, and every source, which is an address or a class."""
     data = compute("targets", Request((), {}, 3))
     assert [row[0] for row in data.rows] == [f"`{name}`" for name in TARGETS]
     assert data.rows[0][1:] == ("86", "215", "8.6", "0.52", "600")

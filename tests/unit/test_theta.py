@@ -1,4 +1,4 @@
-"""Theta functions as sums, of nutation and of a top's turn about its own axis: what they leave out."""
+"""Theta functions as sums, of nutation and of a top's turn about its own axis: their remainders."""
 
 from collections.abc import Callable
 from itertools import count

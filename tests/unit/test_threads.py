@@ -1,4 +1,4 @@
-"""Objects that threads share: what the first calls give, in any order and at any precision of flint, is one thing."""
+"""Objects that threads share: the first calls have one result, in any order and at any precision of flint."""
 
 import sys
 import time
@@ -66,7 +66,7 @@ def calls(subject: Any, *, slow: bool) -> dict[str, Callable[[Any], Any]]:
 
 
 def answered(call: Callable[[Any], Any], subject: Any) -> str:
-    """Return all digits of what a call gives, or its error."""
+    """Return all digits of a call's result, or its error."""
     try:
         answer = call(subject)
     except (atlas.AtlasError, TypeError) as error:  # no line in closed form, no such input
@@ -78,7 +78,7 @@ def answered(call: Callable[[Any], Any], subject: Any) -> str:
 
 
 def answers_alone(name: str) -> dict[str, str]:
-    """Return what each call gives as the first of a new object."""
+    """Return the result of each call as the first of a new object."""
     answers = {}
     for key, call in calls(FRESH[name](), slow=name == SLOW).items():
         forget()
@@ -173,7 +173,7 @@ def test_all_threads_get_the_value_that_was_stored_first() -> None:
 
 
 def test_a_motion_is_made_while_another_thread_holds_the_precision() -> None:
-    """What is lazily made waits for the precision, and who has the precision does not wait for it."""
+    """A lazily computed value waits for the precision, and the holder of the precision does not wait for it."""
     inside = Event()
 
     def hold() -> None:

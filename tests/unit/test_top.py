@@ -271,7 +271,7 @@ def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:
     ],
 )
 def test_impossible_tops_are_refused_in_one_line(case: tuple[object, ...], words: str | None) -> None:
-    """Errors say what is wrong and what would be right."""
+    """Errors name fault and remedy."""
     if words is None:
         atlas.TopMotion(*case)
         return

@@ -43,7 +43,7 @@ def arrayed(tops: list[Top]) -> atlas.TopMotion:
 
 
 def evaluated(motion: atlas.TopMotion, times: Any, quantity: str) -> tuple[Any, Any]:
-    """Return what rows give of R, Omega or b, and which rows have to be made alone."""
+    """Return R, Omega or b of rows, and the rows that have to be made alone."""
     rows, out = (
         motion._rows.at(slice(None), times),
         np.empty((len(times), *((3, 3) if quantity == "rotation" else (3,)))),

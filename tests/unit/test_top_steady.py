@@ -33,7 +33,7 @@ def change_of(motion: atlas.TopMotion, *times: float) -> Any:
 
 @pytest.mark.parametrize("name", TOPS)
 def test_theta_stays_at_the_rates_of_steady_precession_and_at_no_other(name: str) -> None:
-    """By integration to t = 2, but for what rounding errors grow to; halfway between the rates it moves."""
+    """By integration to t = 2, but for the growth of rounding errors; halfway between the rates it moves."""
     precessions = top_of(name).steady_precessions
     assert len(precessions) == (1 if name == "horizontal" else 2)
     for precession in precessions:

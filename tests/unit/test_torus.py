@@ -30,7 +30,7 @@ def torus_kept() -> Torus:
 
 
 def torus_copy() -> Torus:
-    """Return it without what was found of it but for the lattice."""
+    """Return it without cached values but for the lattice."""
     torus = Torus(torus_kept().moments, torus_kept().W, torus_kept().K)
     torus.__dict__["lattice"] = torus_kept().lattice
     return torus
@@ -82,7 +82,7 @@ TYPED = "motion --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --curv
 
 @pytest.fixture(scope="module")
 def numbers() -> dict[str, Any]:
-    """Return what the command prints, with 40 digits, of the decimals as typed."""
+    """Return the command's output, with 40 digits, of the decimals as typed."""
     result = CliRunner().invoke(command, [*TYPED.split(), "--digits", "40"])
     assert result.exit_code == 0, result.output
     return dict(json.loads(result.stdout)["curve"])
@@ -114,7 +114,7 @@ def test_branch_points_lie_on_the_curve(numbers: dict[str, Any]) -> None:
 
 @pytest.mark.slow
 def test_periods_and_frequencies_belong_together(numbers: dict[str, Any]) -> None:
-    """(f1, f2) is dual to the periods; f3 turns R about B: what is left of K's turn in the laboratory has f1 and f2."""
+    """(f1, f2) is dual to the periods; f3 turns R about B: the other turn of K in the laboratory has f1 and f2."""
     motion = atlas.AsymmetricMotion(BODY, FIELD, OMEGA)
     f = np.array([float(x) for x in numbers["frequencies"]])
     assert f == pytest.approx(motion.frequencies, rel=1e-13)

@@ -1,4 +1,4 @@
-"""What is given to an object and what it hands out is apart from what it computes with: no array changes it later."""
+"""Inputs and outputs of an object are apart from its own arrays: no array changes it later."""
 
 import math
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ SLOW = {"accuracy"}
 
 
 def arrays(value: Any) -> Iterator[np.ndarray]:
-    """Return the arrays of numbers within what an attribute is."""
+    """Return the arrays of numbers within an attribute."""
     if isinstance(value, np.ndarray):
         yield value
     elif isinstance(value, tuple | list | dict):

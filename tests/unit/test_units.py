@@ -201,7 +201,7 @@ def test_a_particle_is_in_si(q: Units) -> None:
     ],
 )
 def test_another_dimension_is_one_line(q: Units, refused_call: Callable[[Units], Any], says: str) -> None:
-    """What was given, of what, and what would be right."""
+    """The input, its parameter, and the remedy."""
     with pytest.raises(atlas.AtlasError, match=re.escape(says)) as refused:
         refused_call(q)
     assert "\n" not in str(refused.value)

@@ -44,7 +44,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def run(program: Path, tmp_path: Path) -> Run:
-    """Return what runs the wheel's program in an empty folder."""
+    """Return a function that runs the wheel's program in an empty folder."""
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     environment |= {"PYTHONPATH": str(program.parents[1] / "site"), "ATLAS_CACHE": str(tmp_path.parent / "cache")}
 
@@ -56,7 +56,7 @@ def run(program: Path, tmp_path: Path) -> Run:
 
 
 def message_of(done: subprocess.CompletedProcess[str]) -> list[str]:
-    """Return what is on standard error but for how far the work is, which a busy machine tells: 1 of 2 (50 %) after."""
+    """Return standard error without the progress that a busy machine tells: 1 of 2 (50 %) after."""
     return [line for line in done.stderr.splitlines() if not re.search(r": \d+ of \d+ \(\d+ %\) after \d", line)]
 
 
@@ -79,7 +79,7 @@ def test_modules_of_the_users_own_break_nothing(run: Run, tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_the_guides_own_recipe_works_anywhere(run: Run, tmp_path: Path) -> None:
-    """What the guide says of it, word for word, in an empty folder, and every other format too."""
+    """The guide's words, one for one, in an empty folder, and every other format too."""
     assert RECIPE
     assert COMMAND
     (tmp_path / RECIPE[1]).write_text(RECIPE[2], encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What commands write stands whole in its place, or not at all; what stops them is one line."""
+"""Files of commands stand whole in their place, or not at all; a failure is one line."""
 
 import os
 import re
@@ -63,7 +63,7 @@ def run(folder: Path, words: str, program: str = "", **variables: str) -> subpro
 
 
 def one_line(done: subprocess.CompletedProcess[str], status: int, *words: str) -> None:
-    """Hold an answer against what every refusal is; on a busy machine a line may tell before how far the work is."""
+    """Check an answer against the law of every refusal; on a busy machine a line may tell its progress before."""
     lines = [line for line in done.stderr.splitlines() if not re.search(r" after \d+ s$", line)]
     assert (done.returncode, done.stdout, len(lines)) == (status, "", 1), done.stderr
     assert all(word in done.stderr for word in words), done.stderr
@@ -100,7 +100,7 @@ LONE = {
 @pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), LONE.items(), ids=[words.split()[0] for words in LONE])
 def test_an_edited_or_user_file_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, name: str) -> None:
-    """What a command wrote it replaces; what somebody else put there stays, the new one is beside it, status 2."""
+    """A command replaces its own files; files of others stay, the new one is beside them, status 2."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ATLAS_CACHE", str(tmp_path / "cache"))
     t, motion = np.linspace(0, 9, 40), atlas.ElementaryMotion(1.5, (1, 2), 0.7)
@@ -148,7 +148,7 @@ def test_a_full_disk_keeps_existing_files(tmp_path: Path, words: str) -> None:
 
 @pytest.mark.parametrize("reads", ["", pytest.param("cat >/dev/null; ", marks=pytest.mark.slow)])
 def test_an_ffmpeg_that_fails_is_one_line(tmp_path: Path, reads: str) -> None:
-    """What it says is passed on, whether it goes at once or after the last frame."""
+    """Its message is passed on, whether it goes at once or after the last frame."""
     program = tmp_path / "ffmpeg"
     program.write_text(f"#!/bin/sh\n{reads}echo 'No space left on device' >&2\nexit 1\n")
     program.chmod(0o755)
@@ -211,7 +211,7 @@ def test_folders_take_turns_and_are_whole_at_any_moment(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_was_being_written_is_cleared_by_the_next(tmp_path: Path) -> None:
-    """Killed between its files, it leaves the folder as it was; the next one clears what is left beside it."""
+    """Killed between its files, it leaves the folder as it was; the next one clears leftovers beside it."""
     program = (
         "import os, signal; from pathlib import Path; from atlas.book.building.publish import replace\n"
         "def killed(*_): os.kill(os.getpid(), signal.SIGKILL)\n"
