@@ -93,8 +93,8 @@ def narrow() -> list[Run]:
     """Return the closed forms of `NARROW` in a process whose NumPy and C do without AVX-512."""
     held_back = os.environ | {"NPY_DISABLE_CPU_FEATURES": "X86_V4 AVX512_ICL AVX512_SPR"}
     command = [sys.executable, "-m", "benchmarks.precision"]
-    told = subprocess.run(command, capture_output=True, check=True, env=held_back).stdout
-    return msgspec.json.decode(told, type=list[Run])
+    output = subprocess.run(command, capture_output=True, check=True, env=held_back).stdout
+    return msgspec.json.decode(output, type=list[Run])
 
 
 def one_time(case: Case, rounds: int) -> Rows:

@@ -66,9 +66,10 @@ def section() -> str:
     }
     rows = [(words, runs[method, tolerance]) for words, method, tolerance in ROWS]
     closed = [
-        [run for run in part if run.horizon == HORIZON and not run.tolerance] for part in (record.runs, record.narrow)
+        [run for run in runs_of_table if run.horizon == HORIZON and not run.tolerance]
+        for runs_of_table in (record.runs, record.narrow)
     ]
-    both = [{(run.case, run.method): run.seconds / run.samples for run in part} for part in closed]
+    timings = [{(run.case, run.method): run.seconds / run.samples for run in part} for part in closed]
     missed = [limit for limit in record.limits if limit.verdict != "met"]
     return TEXT.format(
         processor=re.sub(r"\(\w+\)", "", record.machine.processor),
@@ -77,9 +78,9 @@ def section() -> str:
         ),
         compiled=runs["compiled", None].seconds / runs["ours", None].seconds,
         ratios="\n".join(
-            f"| {words} | " + " | ".join(f"{times[of] / times['elementary', 'plain']:.2f}" for times in both) + " |"
+            f"| {words} | " + " | ".join(f"{times[of] / times['elementary', 'plain']:.2f}" for times in timings) + " |"
             for words, of in RATIOS.items()
-            if all(of in times for times in both)
+            if all(of in times for times in timings)
         ),
         count=len(record.limits),
         missed=len(missed),

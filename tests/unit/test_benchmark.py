@@ -53,14 +53,14 @@ def test_every_pair_of_the_record_is_drawn() -> None:
     """The diagram shows each measured run up to its horizon once, at its error and its time a sample."""
     record = results.read()
     for case in ("elementary", "ball", "particle"):
-        drawn = recipes.load("work_precision").scene(cases=(case,), horizon=1000.0)
-        found = {tuple(p) for layer in layers(drawn) if isinstance(layer, Points) for p in layer.points.tolist()}
-        wanted = {
+        scene = recipes.load("work_precision").scene(cases=(case,), horizon=1000.0)
+        points = {tuple(p) for layer in layers(scene) if isinstance(layer, Points) for p in layer.points.tolist()}
+        points_recorded = {
             (run.error, (run.seconds or 0.0) / run.samples * 1e6)
             for run in record.runs
             if run.case == case and run.horizon == 1000.0 and run.status == "done" and run.method not in BESIDE
         }
-        assert found == wanted
+        assert points == points_recorded
 
 
 def places(panel: Any) -> set[tuple[float, ...]]:
@@ -71,12 +71,14 @@ def places(panel: Any) -> set[tuple[float, ...]]:
 def test_costs_agree_with_the_record() -> None:
     """Left stand the nanoseconds of one thread, right the multiples of filling the memory, from 10^4 matrices on."""
     costs = [cost for cost in results.read().costs if cost.nanoseconds is not None]
-    each, multiples = recipes.load("cost").scene().panels
+    costs_panel, multiples = recipes.load("cost").scene().panels
     methods = {"fill", "plain_out", "lambdify", "rotation", "ours_out", "grid_out"}
-    assert places(each) == {(c.count, c.nanoseconds) for c in costs if c.threads == 1 and c.method in methods}
+    assert places(costs_panel) == {(c.count, c.nanoseconds) for c in costs if c.threads == 1 and c.method in methods}
     two = {(c.count, c.to_fill) for c in costs if c.method in {"ours_out", "grid_out"} and c.threads == 2}
-    one = {(c.count, c.to_fill) for c in costs if c.method in {"plain_out", "ours_out", "grid_out"} and c.threads == 1}
-    assert places(multiples) == {place for place in one | two if place[0] >= 10_000}
+    fills = {
+        (c.count, c.to_fill) for c in costs if c.method in {"plain_out", "ours_out", "grid_out"} and c.threads == 1
+    }
+    assert places(multiples) == {place for place in fills | two if place[0] >= 10_000}
 
 
 def test_every_method_of_the_record_has_a_name_and_a_look() -> None:

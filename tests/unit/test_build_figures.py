@@ -65,10 +65,10 @@ def figure(recipe: str, *kinds: str, renderer: str = "vector", **parameters: Any
     return FigureBuild(recipe, parameters, renderer, kinds or ("svg",))
 
 
-def made(figures: list[FigureBuild], cache: Cache, jobs: int = 1) -> list[FigureBuild]:
+def drawn_builds(figures: list[FigureBuild], cache: Cache, jobs: int = 1) -> list[FigureBuild]:
     """Take or draw figures."""
     find(figures, cache, Sources(), None)
-    draw(figures, cache, jobs, lambda _done, _total, _what: None)
+    draw(figures, cache, jobs, lambda _done, _total, _name: None)
     return figures
 
 
@@ -79,12 +79,12 @@ Keys = Callable[..., dict[str, str]]
 def keys(pristine: Path) -> Keys:
     """Give a function that makes the keys of the wanted figures and of a report from the sources as they are then."""
 
-    def found(gl: str | None = "egl", **changed: FigureBuild) -> dict[str, str]:
+    def keys_of(gl: str | None = "egl", **changed: FigureBuild) -> dict[str, str]:
         sources = Sources(Cache(pristine / "cache"))
-        wanted = {name: digest(parts_of(one, sources, gl)) for name, one in (WANTED | changed).items()}
-        return wanted | {"report": key_of(places.folder("reports") / "atlas.md", sources)}
+        keys_now = {name: digest(parts_of(build, sources, gl)) for name, build in (WANTED | changed).items()}
+        return keys_now | {"report": key_of(places.folder("reports") / "atlas.md", sources)}
 
-    return found
+    return keys_of
 
 
 def different(before: dict[str, str], after: dict[str, str]) -> set[str]:
@@ -188,29 +188,29 @@ def test_the_place_of_the_checkout_does_not_matter(checkout: Path, keys: Keys, m
 def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
     """The first time a figure is drawn, the second time it is taken; both have the same files and facts."""
     cache = Cache(tmp_path)
-    first = made([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
-    again = made([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
-    for one, two in zip(first, again, strict=True):
-        assert one.reason == "drawn: it was never drawn here"
+    builds = drawn_builds([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
+    again = drawn_builds([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
+    for build, two in zip(builds, again, strict=True):
+        assert build.reason == "drawn: it was never drawn here"
         assert two.reason == "taken: nothing it depends on has changed"
-        assert one.contents == two.contents
-        assert one.facts == two.facts
+        assert build.contents == two.contents
+        assert build.facts == two.facts
         assert two.contents["svg"].startswith(b"<?xml")
-    assert first[0].contents != first[1].contents
+    assert builds[0].contents != builds[1].contents
 
 
 @pytest.mark.slow
 def test_changes_that_cause_a_redraw_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A figure that is drawn again names its changed dependencies, or a lost file."""
     cache = Cache(tmp_path)
-    made([figure("lssc")], cache)
+    drawn_builds([figure("lssc")], cache)
     for entry in tmp_path.glob("??/*"):
         if b"<svg" in entry.read_bytes():
             entry.write_bytes(b"spoiled")
-    (lost,) = made([figure("lssc")], cache)
-    assert lost.reason == "drawn: a file of it was not there, or damaged"
+    (build_lost,) = drawn_builds([figure("lssc")], cache)
+    assert build_lost.reason == "drawn: a file of it was not there, or damaged"
     monkeypatch.setattr(figures_module, "versions", dict)
-    (new,) = made([figure("lssc")], cache)
+    (new,) = drawn_builds([figure("lssc")], cache)
     assert new.reason == "drawn: changed: libraries"
 
 
@@ -218,49 +218,49 @@ def test_changes_that_cause_a_redraw_are_named(tmp_path: Path, monkeypatch: pyte
 def test_whatever_the_cache_has_lost_the_files_are_the_same(tmp_path: Path) -> None:
     """Any one entry of a drawing removed, or all but one, it is drawn as a whole, with its moving parts."""
     kinds, cache = ("svg", "narrow", "scene", "moves"), Cache(tmp_path)
-    (first,) = made([figure("film_strip", *kinds)], cache)
-    whole = Picture("film_strip", "film_strip", "vector", {})
-    describe(first, whole)
-    assert {"scene", "moves"} <= {*whole.beside}
-    keys = list(first.keys.values())
-    for lost in (keys[:1], keys[2:3], keys[3:], keys[1:]):
-        for key in lost:
+    (build,) = drawn_builds([figure("film_strip", *kinds)], cache)
+    picture = Picture("film_strip", "film_strip", "vector", {})
+    describe(build, picture)
+    assert {"scene", "moves"} <= {*picture.beside}
+    keys = list(build.keys.values())
+    for keys_lost in (keys[:1], keys[2:3], keys[3:], keys[1:]):
+        for key in keys_lost:
             (cache.folder / key[:2] / key).unlink()
-        (again,) = made([figure("film_strip", *kinds)], cache)
-        shown = Picture("film_strip", "film_strip", "vector", {})
-        describe(again, shown)
-        assert shown == whole
-        assert again.contents == first.contents
+        (again,) = drawn_builds([figure("film_strip", *kinds)], cache)
+        picture_again = Picture("film_strip", "film_strip", "vector", {})
+        describe(again, picture_again)
+        assert picture_again == picture
+        assert again.contents == build.contents
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_figure_that_fails_does_not_stop_the_others(tmp_path: Path, jobs: int) -> None:
     """A recipe that raises is returned with its reason, and the others are drawn."""
-    failed, drawn = made([figure("trochoids", mu=0.0), figure("magn")], Cache(tmp_path), jobs)
+    failed, build_drawn = drawn_builds([figure("trochoids", mu=0.0), figure("magn")], Cache(tmp_path), jobs)
     assert "mu" in failed.failure
     assert "Error" not in failed.failure
-    assert drawn.contents
+    assert build_drawn.contents
 
 
 @pytest.mark.slow
 def test_a_worker_that_dies_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """When a worker is killed, the figures that were not finished are drawn by another."""
     cache, killed = Cache(tmp_path), list[int]()
-    wanted = [figure("trochoids"), figure("magn"), figure("lssc"), figure("work_precision")]
-    find(wanted, cache, Sources(), None)
-    whole = processes.pool
+    builds = [figure("trochoids"), figure("magn"), figure("lssc"), figure("work_precision")]
+    find(builds, cache, Sources(), None)
+    pool_of = processes.pool
 
     def pool(*arguments: Any) -> Any:
-        found = whole(*arguments)
+        new_pool = pool_of(*arguments)
         if not killed:
-            monkeypatch.setattr(found, "submit", _killing(found, killed))
-        return found
+            monkeypatch.setattr(new_pool, "submit", _killing(new_pool, killed))
+        return new_pool
 
     monkeypatch.setattr(processes, "pool", pool)
-    draw(wanted, cache, 2, lambda _done, _total, _what: None)
+    draw(builds, cache, 2, lambda _done, _total, _name: None)
     assert killed
-    assert [bool(one.contents) for one in wanted] == [True] * 4
+    assert [bool(build.contents) for build in builds] == [True] * 4
 
 
 def _killing(pool: Any, killed: list[int]) -> Any:
@@ -286,9 +286,9 @@ class Deadly:
 @pytest.mark.slow
 def test_compressed_data_are_the_data(tmp_path: Path) -> None:
     """The file of gzip holds the CSV, and in its header no date and no system, so that its bytes are the same."""
-    (one,) = made([figure("trochoids", "csv", "csv.gz")], Cache(tmp_path))
-    assert gzip.decompress(one.contents["csv.gz"]) == one.contents["csv"]
-    assert one.contents["csv.gz"][:10] == b"\x1f\x8b\x08\0\0\0\0\0\0\xff"
+    (build,) = drawn_builds([figure("trochoids", "csv", "csv.gz")], Cache(tmp_path))
+    assert gzip.decompress(build.contents["csv.gz"]) == build.contents["csv"]
+    assert build.contents["csv.gz"][:10] == b"\x1f\x8b\x08\0\0\0\0\0\0\xff"
 
 
 @pytest.mark.slow
@@ -296,12 +296,12 @@ def test_compressed_data_are_the_data(tmp_path: Path) -> None:
 def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) -> None:
     """A scene that ends the process that draws it is told of; the rest is drawn."""
     cache = Cache(tmp_path)
-    wanted = [figure("magn"), figure("trochoids"), figure("lssc")]
-    find(wanted, cache, Sources(), None)
-    wanted[1].parameters = {"mu": Deadly()}
-    draw(wanted, cache, jobs, lambda _done, _total, _what: None)
-    assert wanted[1].failure == "the process that drew it came to a sudden end"
-    assert [bool(one.contents) for one in wanted] == [True, False, True]
+    builds = [figure("magn"), figure("trochoids"), figure("lssc")]
+    find(builds, cache, Sources(), None)
+    builds[1].parameters = {"mu": Deadly()}
+    draw(builds, cache, jobs, lambda _done, _total, _name: None)
+    assert builds[1].failure == "the process that drew it came to a sudden end"
+    assert [bool(build.contents) for build in builds] == [True, False, True]
 
 
 @pytest.mark.slow
@@ -352,7 +352,7 @@ def test_an_error_of_the_disk_is_raised(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_the_costs_of_a_figure_are_noted(tmp_path: Path) -> None:
     """The points and faces of the scene are counted, and time, memory and bytes noted."""
-    plane, space = made([figure("hyperbola"), figure("cone")], Cache(tmp_path))
+    plane, space = drawn_builds([figure("hyperbola"), figure("cone")], Cache(tmp_path))
     assert plane.facts["cost"]["points"] > 50
     assert plane.facts["cost"]["faces"] == 0
     assert space.facts["cost"]["faces"] > 50
@@ -374,25 +374,25 @@ def scene(*, wrong: str = ""):
 '''
 
 
-@pytest.mark.parametrize(("wrong", "complaint"), [("exit", "exit status 3"), ("", "")])
+@pytest.mark.parametrize(("misdeed", "complaint"), [("exit", "exit status 3"), ("", "")])
 def test_a_recipe_that_misbehaves_fails_alone(
-    checkout: Path, capfd: pytest.CaptureFixture[str], wrong: str, complaint: str
+    checkout: Path, capfd: pytest.CaptureFixture[str], misdeed: str, complaint: str
 ) -> None:
     """A recipe that ends the program is reported; its printed output is no result."""
     (checkout / "figures" / "misbehaving.py").write_text(MISBEHAVING)
-    (one,) = made([figure("misbehaving", wrong=wrong)], Cache(checkout / "cache"))
-    assert complaint in one.failure
-    assert bool(one.failure) is bool(complaint)
+    (build,) = drawn_builds([figure("misbehaving", wrong=misdeed)], Cache(checkout / "cache"))
+    assert complaint in build.failure
+    assert bool(build.failure) is bool(complaint)
     assert capfd.readouterr().out == ""
 
 
 @pytest.mark.slow
 def test_figures_keep_their_order_and_fail_alone(tmp_path: Path) -> None:
     """The results come in the order asked for, and one that fails has the reason and no files."""
-    found = list(build_figures(["trochoids", "lssc"], ("svg",), tmp_path, parameters={"mu": 0.0}, jobs=2))
-    assert [one.name for one in found] == ["trochoids", "lssc"]
-    assert all(one.failure and not one.files for one in found)
-    assert "no parameter 'mu'" in found[1].failure
+    builds = list(build_figures(["trochoids", "lssc"], ("svg",), tmp_path, parameters={"mu": 0.0}, jobs=2))
+    assert [build.name for build in builds] == ["trochoids", "lssc"]
+    assert all(build.failure and not build.files for build in builds)
+    assert "no parameter 'mu'" in builds[1].failure
 
 
 def test_a_shaded_figure_is_a_png(tmp_path: Path) -> None:
@@ -406,7 +406,7 @@ def test_a_worker_has_the_variables_of_the_process_that_asks(monkeypatch: pytest
     """One that was set after the process was started of which workers are forks counts, such as ATLAS_GL."""
     context = processes.prepare(processes.DRAWING)
     monkeypatch.setenv("ATLAS_GL", "set late")
-    made = processes.pool(1, partial(worker.begin, {**os.environ}), context)
-    assert made is not None
-    with made:
-        assert made.submit(os.getenv, "ATLAS_GL").result() == "set late"
+    workers = processes.pool(1, partial(worker.begin, {**os.environ}), context)
+    assert workers is not None
+    with workers:
+        assert workers.submit(os.getenv, "ATLAS_GL").result() == "set late"

@@ -51,15 +51,15 @@ def reduced(tau: np.ndarray) -> None:
 @pytest.mark.parametrize("name", CASES)
 def test_the_closed_form_is_found_and_proved(name: str) -> None:
     """And it is the certified twin at a time that nobody has tried, by itself and in an array."""
-    one, t = SingleAsymmetric(AsymmetricMotion(*CASES[name])), -7.3e8
-    closed = one.theta
+    single, t = SingleAsymmetric(AsymmetricMotion(*CASES[name])), -7.3e8
+    closed = single.theta
     assert 0 < closed.accuracy <= 1.002 * STATED[name][0]
     assert 0 < closed.proved <= 1.002 * STATED[name][1]
-    for quantity, size in (("rotation", 1.0), ("field_in_body", one.size), ("angular_velocity", one.size)):
-        true = getattr(one.certified, quantity)(t / one.size)
-        for times in (t / one.size, np.full(2, t / one.size)):
-            found = getattr(closed, quantity)(times)
-            assert np.abs(found - true).max() <= (closed.accuracy + EPS) * size
+    for quantity, size in (("rotation", 1.0), ("field_in_body", single.size), ("angular_velocity", single.size)):
+        true = getattr(single.certified, quantity)(t / single.size)
+        for times in (t / single.size, np.full(2, t / single.size)):
+            values = getattr(closed, quantity)(times)
+            assert np.abs(values - true).max() <= (closed.accuracy + EPS) * size
 
 
 @pytest.mark.parametrize("case", [*CASES.values(), ACROSS], ids=[*CASES, "(M, K) = 0"])
@@ -75,10 +75,10 @@ def test_real_periods_have_no_imaginary_part(case: tuple[tuple[float, ...], ...]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("apart", [1e-10, 1e-6])
-def test_a_start_far_from_the_real_times_keeps_its_attitude(apart: float) -> None:
+@pytest.mark.parametrize("gap", [1e-10, 1e-6])
+def test_a_start_far_from_the_real_times_keeps_its_attitude(gap: float) -> None:
     """There a factor of N, exp(i l zeta), is below all floats; the motion is the certified one."""
-    single = SingleAsymmetric(AsymmetricMotion((1.0, 1 + apart, 1.5), (0.832, -0.546, 0.101), (-0.127, -0.716, -0.105)))
+    single = SingleAsymmetric(AsymmetricMotion((1.0, 1 + gap, 1.5), (0.832, -0.546, 0.101), (-0.127, -0.716, -0.105)))
     t = np.array([2.0, -5.0])
     np.testing.assert_allclose(single.theta.rotation(t), single.certified.rotation(t), atol=single.accuracy)
 
@@ -133,11 +133,13 @@ def test_many_times_without_a_closed_form_take_one_way(monkeypatch: pytest.Monke
     monkeypatch.setattr(OnTorus, "_without_periods", lambda *_: "a period of its torus is long")
     inertia, field, omega = (0.8, 1.0, 1.3), (3e35, 1e36, 6e35), (1.0, 0.7, 2.0)
     times = np.linspace(-3e-36, 5e-36, 101)
-    alone = [SingleAsymmetric(AsymmetricMotion(inertia, field, omega)).rotation(t) for t in times[[0, 50, 77, 100]]]
+    rotations_alone = [
+        SingleAsymmetric(AsymmetricMotion(inertia, field, omega)).rotation(t) for t in times[[0, 50, 77, 100]]
+    ]
     count, step = [], certified_flow._Way.step
     monkeypatch.setattr(certified_flow._Way, "step", lambda way: (count.append(way), step(way))[1])
     together = SingleAsymmetric(AsymmetricMotion(inertia, field, omega)).rotation(times)
-    assert np.array_equal(together[[0, 50, 77, 100]], alone)
+    assert np.array_equal(together[[0, 50, 77, 100]], rotations_alone)
     assert len(set(map(id, count))) == 2
 
 

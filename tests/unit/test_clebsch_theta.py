@@ -67,12 +67,12 @@ def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three])
     closed = kernel(*case)
     twin = (motion()._single() if case is QUICK else SingleAsymmetric(Balls(*case))).certified
     size = max(map(abs, (*case[1], *case[2])))
-    worst = max(
+    largest = max(
         np.abs(closed.rotation(TIMES) - twin.rotation(TIMES)).max(),
         np.abs(closed.field_in_body(TIMES) - twin.field_in_body(TIMES)).max() / size,
         np.abs(closed.angular_velocity(TIMES) - twin.angular_velocity(TIMES)).max() / size,
     )
-    assert worst <= min(8 * EPS, closed.accuracy)
+    assert largest <= min(8 * EPS, closed.accuracy)
     assert closed.accuracy == pytest.approx(4.79527e-15 if case is QUICK else 5.99734e-15, rel=1e-3, abs=0.0)
 
 
@@ -90,27 +90,27 @@ def test_bounds_on_sums_hold_and_need_every_word(
     if slip == "lower words":
         upper = [(forms, high, 0 * low) for forms, high, low in sums.words(ALL)]
         monkeypatch.setattr(sums, "words", lambda _: upper)
-    phases, rest = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 2, 40))
-    x, rest = closed.rounding.to_v @ phases, rest * 2.0**-48
-    low, (P, Q) = (rest + 0j) * (slip != "rest"), (sums.P, sums.Q)
+    phases, offset = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 2, 40))
+    x, offset = closed.rounding.to_v @ phases, offset * 2.0**-48
+    low, (P, Q) = (offset + 0j) * (slip != "rest"), (sums.P, sums.Q)
     alone = [sums.at_one(x[:, i], low[:, i], ALL) for i in range(40)]
     ways = sums.at(x, low, ALL), np.transpose(alone)
     first, second = np.exp(1j * np.outer(P, x[0])), np.exp(1j * np.outer(Q, x[1]))
     errors = np.einsum("fpq,pm,qm->fm", abs(sums.table) * sums.steps, abs(first), abs(second))
     slopes = [np.einsum("fpq,pm,qm->fm", sums.table * n, first, second) for n in (P[:, None], Q)]
-    worst = np.zeros(2)
+    largest = np.zeros(2)
     with ctx.workprec(200):
         for i in range(40):
-            y = [acb(complex(a)) + acb(float(b)) for a, b in zip(x[:, i], rest[:, i], strict=True)]
+            y = [acb(complex(a)) + acb(float(b)) for a, b in zip(x[:, i], offset[:, i], strict=True)]
             powers = [[(acb(0, 1) * int(n) * z).exp() for n in row] for row, z in zip((P, Q), y, strict=True)]
             for f, table in enumerate(sums.table):
                 true = sum(acb(complex(table[p, q])) * powers[0][p] * powers[1][q] for p, q in np.argwhere(table))
-                moved = zip(clebsch_rounding.EXPONENTIALS, slopes, strict=True)
-                allowed = errors[f, i] + sum(off * abs(slope[f, i]) for off, slope in moved)
+                terms = zip(clebsch_rounding.EXPONENTIALS, slopes, strict=True)
+                allowed = errors[f, i] + sum(off * abs(slope[f, i]) for off, slope in terms)
                 apart = [float(abs(true - acb(complex(found[f, i]))).upper()) for found in ways]
-                worst = np.maximum(worst, np.array(apart) * 2.0**53 / allowed)
-    assert ((worst < 1) == (not slip)).all()
-    assert (worst > 0.02).all()
+                largest = np.maximum(largest, np.array(apart) * 2.0**53 / allowed)
+    assert ((largest < 1) == (not slip)).all()
+    assert (largest > 0.02).all()
 
 
 def test_sums_of_upper_words_are_exact() -> None:
@@ -165,9 +165,9 @@ def test_inverses_are_rounded_once() -> None:
     angle, size, small = np.random.default_rng(8).uniform(-4, 4, (3, 3000))
     w = (np.cos(angle) + 1j * np.sin(angle) * np.where(small > 0, 1, np.exp(10 * small))) * np.exp(10 * size)
     with ctx.workprec(300):
-        apart = [abs(acb(complex(y)) * complex(x) - 1) for x, y in zip(w, inverse(w), strict=True)]
-        worst = max(float(x.mid()) for x in apart) * 2.0**53
-    assert 0.9 < worst < theta_sums.ROUNDED
+        residuals = [abs(acb(complex(y)) * complex(x) - 1) for x, y in zip(w, inverse(w), strict=True)]
+        largest = max(float(x.mid()) for x in residuals) * 2.0**53
+    assert 0.9 < largest < theta_sums.ROUNDED
 
 
 @pytest.mark.slow
@@ -197,20 +197,20 @@ def test_a_motion_restarted_with_permuted_axes_continues() -> None:
     state = ([float(x[i]) for i in order] for x in (QUICK[0], closed.field_in_body(t), closed.angular_velocity(t)))
     inertia, field, omega = (tuple(x) for x in state)
     P = np.eye(3)[order]
-    rest = P.T @ kernel(inertia, field, omega).rotation(s) @ P  # type: ignore[arg-type]
+    restarted = P.T @ kernel(inertia, field, omega).rotation(s) @ P  # type: ignore[arg-type]
     # the state is rounded to floats, an ulp of which grows with s
-    assert np.abs(closed.rotation(t + s) - closed.rotation(t) @ rest).max() < 400 * EPS
+    assert np.abs(closed.rotation(t + s) - closed.rotation(t) @ restarted).max() < 400 * EPS
 
 
 def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
     """From -2B' - omega: R(t) = R_B(-2bt) R(-t), theorem-pair, at |t| up to 300."""
     inertia, field, omega = QUICK
     closed = kernel(*QUICK)
-    other = kernel(inertia, field, tuple(-2 * b - w for b, w in zip(field, omega, strict=True)))  # type: ignore[arg-type]
+    motion_back = kernel(inertia, field, tuple(-2 * b - w for b, w in zip(field, omega, strict=True)))  # type: ignore[arg-type]
     b = float(np.linalg.norm(field))
     for t in (3.0, -50.0, 300.0):
         expected = turn(field, -2 * b * t) @ closed.rotation(-t)
-        assert np.abs(other.rotation(t) - expected).max() < (16 + 2 * b * abs(t)) * EPS
+        assert np.abs(motion_back.rotation(t) - expected).max() < (16 + 2 * b * abs(t)) * EPS
 
 
 def test_it_tends_to_the_symmetric_body() -> None:
@@ -218,8 +218,8 @@ def test_it_tends_to_the_symmetric_body() -> None:
     field, omega, t = (0.25, 1.0, 0.5), (0.25, 0.75, 0.125), 30.0
     true = atlas.GeneralMotion.in_laboratory(1.25, field, np.eye(3), omega).rotation(t)
     d = 2.0**-20
-    apart = np.abs(kernel((1.0, 1 + d, 1.25), field, omega).rotation(t) - true).max()
-    assert d / 10 < apart < 1000 * d
+    difference = np.abs(kernel((1.0, 1 + d, 1.25), field, omega).rotation(t) - true).max()
+    assert d / 10 < difference < 1000 * d
 
 
 @pytest.mark.slow
@@ -232,24 +232,27 @@ def test_frequencies_agree_with_the_motion() -> None:
     pairs = [(m, n) for m, n in product(range(10), range(-9, 10)) if m or n >= 0]
     angles = np.outer(times, [m * f1 + n * f2 for m, n in pairs])
     table = np.concatenate([np.cos(angles), np.sin(angles)], axis=1)
-    rest = K - table @ np.linalg.lstsq(table, K, rcond=None)[0]
-    assert np.abs(rest).max() < 1e-8 * np.abs(K).max()
+    residual = K - table @ np.linalg.lstsq(table, K, rcond=None)[0]
+    assert np.abs(residual).max() < 1e-8 * np.abs(K).max()
 
 
 @pytest.mark.slow
 def test_the_third_frequency_is_that_about_the_field() -> None:
     """Across B, R turns with f3 and with sums n1 f1 + n2 f2, |n| <= 8, alone; the digits of balls are the same."""
-    one = motion()
-    f1, f2, f3 = one.frequencies
+    motion_alone = motion()
+    f1, f2, f3 = motion_alone.frequencies
     times = np.random.default_rng(4).uniform(0, 1e5, 1500)
     n = np.array(QUICK[1])
     n /= np.linalg.norm(n)
     e = np.cross(n, [0.0, 0.0, 1.0])
     e /= np.linalg.norm(e)
-    N = np.einsum("i,tij->tj", e + 1j * np.cross(n, e), one.rotation(times)) * np.exp(-1j * f3 * times)[:, None]
+    N = (
+        np.einsum("i,tij->tj", e + 1j * np.cross(n, e), motion_alone.rotation(times))
+        * np.exp(-1j * f3 * times)[:, None]
+    )
     table = np.exp(1j * np.outer(times, [m * f1 + n * f2 for m, n in product(range(-8, 9), repeat=2)]))
     assert np.abs(N - table @ np.linalg.lstsq(table, N, rcond=None)[0]).max() < 1e-8
-    balls = enclosed(lambda: one._single().exact.frequencies, 120)
+    balls = enclosed(lambda: motion_alone._single().exact.frequencies, 120)
     assert [float(x.mid()) for x in balls] == [f1, f2, f3]
     with pytest.raises(DomainError, match="no torus with three frequencies: the motion is symmetric body"):
         atlas.AsymmetricMotion((1.0, 1.0, 0.5), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)).frequencies  # noqa: B018
@@ -267,9 +270,9 @@ def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_i
     assert abs(tau[1, 1]) > 2 - 2e-5
     assert np.abs(tau.real).max() <= 1
     with ctx.workprec(160):
-        for true, found in zip(balls.torus.periods(core.PERIOD_BITS), balls.torus.lattice.real, strict=True):
-            assert all(abs(x - y.real) < 1e-25 for x, y in zip((true.H, true.F), found, strict=False))
-            turns = (true.angle + balls.b * found[2].real) / (2 * arb.pi())
+        for true, period in zip(balls.torus.periods(core.PERIOD_BITS), balls.torus.lattice.real, strict=True):
+            assert all(abs(x - y.real) < 1e-25 for x, y in zip((true.H, true.F), period, strict=False))
+            turns = (true.angle + balls.b * period[2].real) / (2 * arb.pi())
             assert abs(turns - round(float(turns))) < 1e-25
 
 
@@ -277,17 +280,17 @@ def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> SingleAsymmetric:
     """Return the quick motion with a slip in a formula of its closed form."""
     balls = motion()._single().exact
     assert balls.on_torus is not None
-    known = balls.on_torus.torus.lattice
+    lattice = balls.on_torus.torus.lattice
     if slip == "characteristic":
         monkeypatch.setattr(clebsch_theta, "CHARACTERISTICS", ((0, 1), (0, 0), (1, 0), (1, 1)))
     elif slip == "sign of T_c":
-        pairs = (known.real, known.other_periods, known.a, known.b)
+        pairs = (lattice.real, lattice.other_periods, lattice.a, lattice.b)
         rows = (tuple([x, y, -z] for x, y, z in pair) for pair in pairs)
         monkeypatch.setitem(balls.on_torus.torus.__dict__, "lattice", Lattice(*rows))  # type: ignore[arg-type]
     elif slip == "T_c of one period":
-        (x, y, z), second = known.b
-        other = replace(known, b=([x, y, z + acb(arb(2) ** -30)], second))
-        monkeypatch.setitem(balls.on_torus.torus.__dict__, "lattice", other)
+        (x, y, z), second = lattice.b
+        lattice_changed = replace(lattice, b=([x, y, z + acb(arb(2) ** -30)], second))
+        monkeypatch.setitem(balls.on_torus.torus.__dict__, "lattice", lattice_changed)
     elif slip == "sign of an angle":
         true = core.frequencies
         monkeypatch.setattr(core, "frequencies", lambda periods, b: [*true(periods, b)[:2], -true(periods, b)[2]])
@@ -307,41 +310,41 @@ def test_a_slip_is_noticed_and_the_certified_twin_answers(
     slip: str, words: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """With a slip in characteristics, T_c or an angle there is no closed form; `agreement` says why, R is proved."""
-    one = _slipped(monkeypatch, slip)
+    single = _slipped(monkeypatch, slip)
     monkeypatch.setattr(kernels, "CHECK_TIMES", (5.3,))
-    assert words in one.agreement
-    assert one.agreement.startswith("certified at each time")
-    assert (one.rotation(2.5) == one.certified.rotation(2.5)).all()
+    assert words in single.agreement
+    assert single.agreement.startswith("certified at each time")
+    assert (single.rotation(2.5) == single.certified.rotation(2.5)).all()
     with pytest.raises(atlas.AtlasError, match="no theta functions of two variables; it is certified"):
-        _ = one.theta
+        _ = single.theta
 
 
 @pytest.mark.slow
 def test_a_motion_names_its_proof_status() -> None:
     """`agreement` says that it is proved; at t = 0 all is exact; times have an end."""
-    one = motion()
-    assert re.match(r"proved for this motion, at all times within \d\.\de-[34]\d; rounding adds ", one.agreement)
-    assert one.accuracy < 1e-14
-    assert one.frequencies.shape == (3,)
-    assert one.riemann_matrix.shape == (2, 2)
-    R = one.rotation([0.0, -0.0, 1.0])
+    asymmetric = motion()
+    assert re.match(r"proved for this motion, at all times within \d\.\de-[34]\d; rounding adds ", asymmetric.agreement)
+    assert asymmetric.accuracy < 1e-14
+    assert asymmetric.frequencies.shape == (3,)
+    assert asymmetric.riemann_matrix.shape == (2, 2)
+    R = asymmetric.rotation([0.0, -0.0, 1.0])
     assert (R[:2] == np.eye(3)).all()
-    assert (one.angular_velocity(0.0) == QUICK[2]).all()
-    grid = one.rotation_grid(-1.0, 0.5, 3)
+    assert (asymmetric.angular_velocity(0.0) == QUICK[2]).all()
+    grid = asymmetric.rotation_grid(-1.0, 0.5, 3)
     assert (grid[2] == np.eye(3)).all()
-    assert np.abs(grid[1] - one.rotation(-0.5)).max() < 8 * EPS
+    assert np.abs(grid[1] - asymmetric.rotation(-0.5)).max() < 8 * EPS
     with pytest.raises(atlas.AtlasError, match=r"^A time is 1e\+17, but .* 2\^50"):
-        one.rotation(1e17)
+        asymmetric.rotation(1e17)
     with pytest.raises(atlas.AtlasError, match=r"^The grid from 0.0 by 1e\+16 .* 2\^50"):
-        one.rotation_grid(0.0, 1e16, 3)
+        asymmetric.rotation_grid(0.0, 1e16, 3)
 
 
 def test_components_that_vanish_by_symmetry_are_zero() -> None:
     """With the field along an axis parts of tau are zero but for rounding at 200 bits: none is between 0 and 1e-35."""
     tau = kernel((1.0, 0.6875, 0.625), (0.0, 0.0, 0.875), (0.5, 0.3125, 0.1875)).riemann_matrix
-    parts = np.abs([tau.real, tau.imag])
-    assert ((parts == 0) | (parts > 1e-10)).all()
-    assert (parts == 0).any()
+    sizes = np.abs([tau.real, tau.imag])
+    assert ((sizes == 0) | (sizes > 1e-10)).all()
+    assert (sizes == 0).any()
 
 
 @pytest.mark.slow
@@ -353,35 +356,35 @@ def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr(clebsch_proof, "distances", refuse)
     monkeypatch.setattr(kernels, "CHECK_TIMES", (5.3, -6.1))
-    one = SingleAsymmetric(motion()._single().exact)
-    assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", one.agreement)
+    single = SingleAsymmetric(motion()._single().exact)
+    assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", single.agreement)
 
 
 def test_a_matrix_asks_for_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nor for a period that is proved, nor for the least bound on rounding: these are found when they are asked for."""
     for place, name in ((clebsch_proof, "distances"), (Torus, "periods")):
         monkeypatch.setattr(place, name, lambda *_, name=name: pytest.fail(f"{name} is asked for"))
-    one = SingleAsymmetric(Balls(*QUICK))
-    assert np.abs(one.rotation(TIMES) - kernel(*QUICK).rotation(TIMES)).max() < 8 * EPS
-    assert "accuracy" not in vars(one.theta)
+    single = SingleAsymmetric(Balls(*QUICK))
+    assert np.abs(single.rotation(TIMES) - kernel(*QUICK).rotation(TIMES)).max() < 8 * EPS
+    assert "accuracy" not in vars(single.theta)
 
 
 def test_three_moments_belong_to_a_family_of_their_own_in_a_sweep() -> None:
     """The error names it."""
-    found = CliRunner().invoke(command, "sweep general --inertia 0.8 1 1.3 --set B2=1 --out x.csv".split())
-    assert found.exit_code == 2
-    assert "the family asymmetric, with --set I1=0.8" in " ".join(found.output.split())
+    outcome = CliRunner().invoke(command, "sweep general --inertia 0.8 1 1.3 --set B2=1 --out x.csv".split())
+    assert outcome.exit_code == 2
+    assert "the family asymmetric, with --set I1=0.8" in " ".join(outcome.output.split())
 
 
 def test_the_proved_bound_is_the_largest_error_of_any_entry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of R that of N and of K/b, of Omega beside the largest rate those of K and of M over the least moment."""
     b, least, size = np.linalg.norm(QUICK[1]), 0.625, 1.25
 
-    def proved(*apart: float) -> float | None:
+    def proved(*distances: float) -> float | None:
         closed = copy(kernel(*QUICK))
         vars(closed).pop("proved", None)
-        monkeypatch.setattr(clebsch_proof, "distances", lambda *_: np.array(apart) / 4)
-        monkeypatch.setattr(clebsch_proof, "drifts", lambda *_: np.array(apart) * 3 / 4)
+        monkeypatch.setattr(clebsch_proof, "distances", lambda *_: np.array(distances) / 4)
+        monkeypatch.setattr(clebsch_proof, "drifts", lambda *_: np.array(distances) * 3 / 4)
         return closed.proved
 
     for M, K, N in ((0.0, 1e-20, 3e-20), (1e-20, 3e-20, 0.0), (4e-20, 1e-20, 1e-21)):
@@ -422,10 +425,10 @@ def test_a_closed_form_that_rounds_badly_is_refused(
 @pytest.mark.slow
 def test_a_table_of_periods_names_them_from_one_on() -> None:
     """With both times and the turn, beside the numbers of `theorem-lie-poisson` that they belong to."""
-    asked = {"inertia": [0.8, 1.0, 1.3], "field": [0.2, 1.0, 0.6], "omega": [0.3, 0.7, 0.2]}
-    found = compute("periods", Request([], asked, 8))
-    assert [row[0] for row in found.rows] == ["$r_1$", "$r_2$"]
-    assert [len(row) for row in found.rows] == [4, 4]
+    inputs = {"inertia": [0.8, 1.0, 1.3], "field": [0.2, 1.0, 0.6], "omega": [0.3, 0.7, 0.2]}
+    table = compute("periods", Request([], inputs, 8))
+    assert [row[0] for row in table.rows] == ["$r_1$", "$r_2$"]
+    assert [len(row) for row in table.rows] == [4, 4]
 
 
 @pytest.mark.parametrize("exponent", [-1400, 0, 1400])

@@ -95,8 +95,8 @@ CASES = [
     ("classify --ratio 1 --magnetic 1 2 --charge 1", "needs --mass,"),
     ("classify --ratio 1", "the field is missing: give B' by --field"),
     ("classify --ratio 1 --field 1 2 --magnetic 1 2", "the field is given twice"),
-    *((f"classify {BODY} --{one}", f"--{one.split()[0]} goes with --magnetic only")
-      for one in ("mu 1", "mass 1", "charge 1", "units si")),
+    *((f"classify {BODY} --{option}", f"--{option.split()[0]} goes with --magnetic only")
+      for option in ("mu 1", "mass 1", "charge 1", "units si")),
     (f"classify --ratio 1 {SI} --decimal --digits 30", "--decimal goes with --field"),
     (f"motion {BODY} --omega2 1 --decimal --json", "--decimal needs --digits"),
     (f"motion {BODY} --omega2 1 --times 1 --grid 0 1 5", "not both"),
@@ -184,8 +184,8 @@ CASES = [
     ("top --inertia 1 1 --direction 1 2", "the start is missing: give --omega W1 W2 W3"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --decimal --digits 30", "--decimal goes with"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --magnetic 1 2", "--heavy needs --mass"),
-    *((f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --{one}", f"--{one.split()[0]} is computed from --heavy")
-      for one in ("coupling 0 1", "linear 1", "quadratic 1")),
+    *((f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --{option}", f"--{option.split()[0]} is computed from --heavy")
+      for option in ("coupling 0 1", "linear 1", "quadratic 1")),
     ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --direction 1 2 --omega 1 2 3",
      "--direction is the direction of --magnetic"),
     (f"{TOP} --heavy 1 1 --mass 1", "the body is missing: give one of --inertia"),
@@ -361,7 +361,7 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def told(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
+def refusal(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
     """Return what the command line says to words that it refuses, and the lines of code that were on the way."""
     with pytest.raises((click.ClickException, AtlasError)) as caught:
         command.main(words, prog_name="atlas", standalone_mode=False)
@@ -375,9 +375,9 @@ def told(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
 @pytest.mark.slow
 def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -> None:
     """Of every statement that raises in atlas/cli, and each call of `fail`, a case stands above; nothing is written."""
-    reached, missing = set(), list[str]()
+    reached, unreached = set(), list[str]()
     for text, says in CASES:
-        message, passed = told(text.format(place=place).split())
+        message, passed = refusal(text.format(place=place).split())
         assert says in message, text
         assert "\n" not in message, text
         reached |= passed
@@ -389,11 +389,11 @@ def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -
             fails = isinstance(node, ast.Expr) and re.match(r"self\.fail\(", ast.unparse(node))
             if (isinstance(node, ast.Raise) and node.exc is not None) or fails:
                 lines = range(node.lineno, (node.end_lineno or node.lineno) + 1)
-                found = any((path.name, line) in reached for line in lines)
+                is_reached = any((path.name, line) in reached for line in lines)
                 elsewhere = any(words in ast.unparse(node) for words in ELSEWHERE)
-                if not (found or elsewhere):
-                    missing.append(f"{path.name}:{node.lineno}")
-    assert not missing, " ".join(missing)
+                if not (is_reached or elsewhere):
+                    unreached.append(f"{path.name}:{node.lineno}")
+    assert not unreached, " ".join(unreached)
 
 
 @pytest.mark.parametrize(
@@ -432,10 +432,10 @@ def test_a_table_without_an_end_is_given_up(tmp_path: Path, monkeypatch: pytest.
                                 (data, "MAX_BLOCKS", 1, f"fit {file}")):  # fmt: skip
         monkeypatch.setattr(module, name, most)
         file.write_text("t,R11\n" + 8193 * "0,1\n", encoding="utf-8")
-        assert "long.csv has more than" in told(words.split())[0]
+        assert "long.csv has more than" in refusal(words.split())[0]
 
 
 def test_too_few_numbers_are_reported_before_the_next_option() -> None:
     """The name of the next option was not meant for a number."""
-    message, _ = told("motion --ratio 1.5 --field 1 2 --omega 0.7 --times 1".split())
+    message, _ = refusal("motion --ratio 1.5 --field 1 2 --omega 0.7 --times 1".split())
     assert message == "--omega takes 3 numbers, W1 W2 W3; found 1."

@@ -22,8 +22,8 @@ def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]
     """Run a command; return its exit status, what it prints and what it says."""
     with pytest.raises(SystemExit) as end:
         main(["report", "your_body", *words])
-    said = capsys.readouterr()
-    return int(str(end.value.code)), said.out, said.err
+    captured = capsys.readouterr()
+    return int(str(end.value.code)), captured.out, captured.err
 
 
 def test_a_column_is_an_option_with_the_unit_of_its_head(tmp_path: Path) -> None:
@@ -54,9 +54,9 @@ def test_a_malformed_table_of_bodies_is_refused_in_a_line(
 ) -> None:
     """Status 2, nothing built."""
     (file := tmp_path / "bodies.csv").write_text(text)
-    status, _, said = run(capsys, "--each", str(file), "--out", str(tmp_path / "out"))
-    assert (status, said.count("\n")) == (2, 1)
-    assert fault in said
+    status, _, message = run(capsys, "--each", str(file), "--out", str(tmp_path / "out"))
+    assert (status, message.count("\n")) == (2, 1)
+    assert fault in message
     assert not (tmp_path / "out").exists()
 
 
@@ -64,16 +64,18 @@ def test_a_malformed_table_of_bodies_is_refused_in_a_line(
 def test_rows_that_fail_are_listed_and_the_others_built(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Equal bodies have one folder; the index has a row for each line, its CSV the numbers of the cards."""
     (file := tmp_path / "bodies.csv").write_text("ratio,title\n0.7,$[*a_b\n3,\n0.70,\n")
-    status, out, said = run(capsys, "--each", str(file), "--field", "1", "2", "--omega2", "0.7", "--out", str(tmp_path))
+    status, out, message = run(
+        capsys, "--each", str(file), "--field", "1", "2", "--omega2", "0.7", "--out", str(tmp_path)
+    )
     index, _, table = map(Path, out.split())
     rows = [*csv.DictReader(table.read_text().splitlines())]
     assert status == 1
-    assert "line 3: column ratio: --ratio: No body has I" in said
+    assert "line 3: column ratio: --ratio: No body has I" in message
     assert [row["line"] for row in rows] == ["2", "3", "4"]
     assert rows[0]["name"] == rows[2]["name"] != ""
     assert rows[1]["name"] == "" != rows[1]["fault"]
-    made = json.loads((tmp_path / f"{rows[0]['name']}.card.json").read_text())
-    assert float(rows[0]["turn"]) == made["turn"]["value"]
+    result = json.loads((tmp_path / f"{rows[0]['name']}.card.json").read_text())
+    assert float(rows[0]["turn"]) == result["turn"]["value"]
     page = index.read_text()
     assert page.count(f'href="{rows[0]["name"]}/index.html"') == 2
     assert (tmp_path / rows[0]["name"] / "index.html").is_file()
@@ -83,11 +85,11 @@ def test_rows_that_fail_are_listed_and_the_others_built(tmp_path: Path, capsys: 
 
 def test_differences_have_the_digits_that_both_numbers_have() -> None:
     """No digit of a difference is beyond those of its terms; sigmas add in quadrature; other units have none."""
-    one = {"value": 1.25, "digits": "1.250", "sigma": None, "unit": "s"}
-    assert difference(one, one | {"value": 1.5, "digits": "1.50000"}) == "0.250 s"
-    assert difference(one, one) == "0"
-    assert difference(one, one | {"unit": "time"}) == difference(one, one | {"value": None}) == "\N{EN DASH}"
-    uncertain = one | {"sigma": 0.03}
+    entry = {"value": 1.25, "digits": "1.250", "sigma": None, "unit": "s"}
+    assert difference(entry, entry | {"value": 1.5, "digits": "1.50000"}) == "0.250 s"
+    assert difference(entry, entry) == "0"
+    assert difference(entry, entry | {"unit": "time"}) == difference(entry, entry | {"value": None}) == "\N{EN DASH}"
+    uncertain = entry | {"sigma": 0.03}
     assert difference(uncertain, uncertain | {"value": 1.5, "sigma": 0.04}) == "0.250(50) s"
 
 
@@ -98,8 +100,8 @@ def test_two_bodies_stand_side_by_side() -> None:
     ]
     name, files = against(*pair)
     text = files[f"{name}.md"]
-    assert all(one["letter"].replace("\\", "\\\\") in text or one["letter"] in text
-               for one in card(pair[0]).values() if one["value"] is not None)  # fmt: skip
+    assert all(entry["letter"].replace("\\", "\\\\") in text or entry["letter"] in text
+               for entry in card(pair[0]).values() if entry["value"] is not None)  # fmt: skip
     assert "4.014179846 time" in text
     assert "no start was given" in text
 
@@ -125,9 +127,9 @@ def test_python_makes_the_files_of_the_command(tmp_path: Path, capsys: pytest.Ca
     words = "--inertia 1.0 0.7 --field 1 2 --omega2 0.7"
     status, out, _ = run(capsys, *words.split(), "--out", str(tmp_path / "two"))
     assert status == 0
-    for file, other in zip(report.files, map(Path, out.split()), strict=True):
-        assert file.name == other.name
-        assert file.read_bytes() == other.read_bytes()
+    for file, path in zip(report.files, map(Path, out.split()), strict=True):
+        assert file.name == path.name
+        assert file.read_bytes() == path.read_bytes()
     assert report.card["turn"]["value"] == pytest.approx(4.014179846)
     assert "4.014179846 time" in report._repr_html_()
 
@@ -148,8 +150,8 @@ BODIES = folder("reports") / "bodies"
 @pytest.mark.parametrize("name", [row[0] for row in csv.reader((BODIES / "gallery.csv").read_text().splitlines()[1:])])
 def test_the_guide_has_the_card_of_each_body_of_the_gallery(name: str) -> None:
     """Its numbers are computed from the file of inputs, which names a source and what was assumed."""
-    made = card(request_of(["--from", name])[0])
-    row = [value_of(made[key]) for key in ("ratio", "tilt", "turn", "spin", "nutation")]
+    result = card(request_of(["--from", name])[0])
+    row = [value_of(result[key]) for key in ("ratio", "tilt", "turn", "spin", "nutation")]
     guide = (folder("reports") / "guide.md").read_text("utf-8")
     assert ", ".join(f'"{cell}"' for cell in (f"`{name}`", *row)) in guide
     record = tomllib.loads((BODIES / f"{name}.inputs.toml").read_text("utf-8"))
@@ -158,9 +160,9 @@ def test_the_guide_has_the_card_of_each_body_of_the_gallery(name: str) -> None:
 
 def test_toutatis_turns_with_the_periods_that_were_cited() -> None:
     """7.35 days of precession and 5.41 days about its long axis, in seconds."""
-    made = card(request_of(["--from", "toutatis"])[0])
-    assert made["turn"]["value"] == pytest.approx(7.35 * 86400, rel=1e-6)
-    assert made["nutation"]["value"] == pytest.approx(5.41 * 86400, rel=1e-6)
+    result = card(request_of(["--from", "toutatis"])[0])
+    assert result["turn"]["value"] == pytest.approx(7.35 * 86400, rel=1e-6)
+    assert result["nutation"]["value"] == pytest.approx(5.41 * 86400, rel=1e-6)
 
 
 def test_an_unknown_body_of_the_gallery_is_refused() -> None:

@@ -23,9 +23,9 @@ GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": 
 NAMES = ("omega3", "k", "phi", "case", "R12")
 
 
-def sweep(out: Path, **more: Any) -> bytes:
+def sweep(out: Path, **options: Any) -> bytes:
     """Sweep the grid in parts of 20 rows and return the bytes of the table."""
-    atlas.sweep("elementary", GRID, NAMES, out, rows=20, **more)
+    atlas.sweep("elementary", GRID, NAMES, out, rows=20, **options)
     return out.read_bytes()
 
 
@@ -33,8 +33,8 @@ def test_a_grid_has_every_combination_once_and_its_quantities() -> None:
     """The last parameter varies fastest, and each row has what the motion of its parameters has."""
     table = atlas.sweep("elementary", GRID, NAMES)
     assert list(table) == [*GRID, *NAMES]
-    full = np.meshgrid(*(np.atleast_1d(x) for x in GRID.values()), indexing="ij")
-    for name, values in zip(GRID, full, strict=True):
+    grid = np.meshgrid(*(np.atleast_1d(x) for x in GRID.values()), indexing="ij")
+    for name, values in zip(GRID, grid, strict=True):
         assert np.array_equal(table[name], values.ravel())
     motion = ElementaryMotion(table["ratio"], (table["B2"], table["B3"]), table["omega2"])
     for name in ("omega3", "k", "phi", "case"):
@@ -55,10 +55,10 @@ def test_matrices_and_vectors_are_requested_by_one_name() -> None:
 @pytest.mark.parametrize("suffix", [".csv", ".npz"])
 def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: str) -> None:
     """One process, two processes and threads of the user write the same file, and leave nothing beside it."""
-    alone = sweep(tmp_path / f"a{suffix}", jobs=1)
-    assert sweep(tmp_path / f"b{suffix}", jobs=2) == alone
+    content = sweep(tmp_path / f"a{suffix}", jobs=1)
+    assert sweep(tmp_path / f"b{suffix}", jobs=2) == content
     with ThreadPoolExecutor(2) as pool:
-        assert sweep(tmp_path / f"c{suffix}", executor=pool) == alone
+        assert sweep(tmp_path / f"c{suffix}", executor=pool) == content
     assert len(names(tmp_path)) == 3
 
 
@@ -76,15 +76,15 @@ def plain(heading: str) -> list[str]:
 
 def test_one_quantity_may_be_a_word() -> None:
     """Its letters are not taken for the names of quantities."""
-    given = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
-    assert [*atlas.sweep("elementary", given, "period")] == [*given, "period"]
+    parameters = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
+    assert [*atlas.sweep("elementary", parameters, "period")] == [*parameters, "period"]
 
 
 def test_the_example_in_si_of_its_help_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """No row of it is the pole of (71), where no motion starts."""
     monkeypatch.chdir(tmp_path)
-    told = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
-    (example,) = re.findall(r"atlas (sweep elementary --shape .*? --out ring.csv)", told)
+    help_text = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
+    (example,) = re.findall(r"atlas (sweep elementary --shape .*? --out ring.csv)", help_text)
     with pytest.raises(SystemExit) as end:
         main(example.split())
     assert end.value.code == 0
@@ -93,17 +93,17 @@ def test_the_example_in_si_of_its_help_runs(tmp_path: Path, monkeypatch: pytest.
 
 def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) -> None:
     """A rate has its unit, a pure number and a name have none; a list may have units in its heading."""
-    given = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
-    out = atlas.sweep("elementary", given, ["case", "period", "stability", "R11"], tmp_path / "t.csv", jobs=1)
+    parameters = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
+    out = atlas.sweep("elementary", parameters, ["case", "period", "stability", "R11"], tmp_path / "t.csv", jobs=1)
     assert isinstance(out, Path)
     *conventions, heading = out.read_text().splitlines()[:3]
     assert all(line.startswith("# ") and "laboratory" in line for line in conventions)
     rates = "B2 [1/time],B3 [1/time],omega2 [1/time]"
     assert heading == f"ratio,{rates},case,period [time],stability [1/time^2],R11"
     (tmp_path / "list.csv").write_text(f"# two rows\nratio,{rates}\n1.5,1,2,0.3\n1.5,1,2,0.7\n")
-    wanted = [word for name in ("case", "period", "stability", "R11") for word in ("--quantity", name)]
+    quantity_words = [word for name in ("case", "period", "stability", "R11") for word in ("--quantity", name)]
     places = "--list", tmp_path / "list.csv", "--out", tmp_path / "u.csv"
-    words = ["sweep", "elementary", *places, *wanted, "--jobs", "1"]
+    words = ["sweep", "elementary", *places, *quantity_words, "--jobs", "1"]
     with pytest.raises(SystemExit) as end:
         main([str(word) for word in words])
     assert end.value.code == 0
@@ -115,8 +115,8 @@ def listed(place: Path, family: str, heading: str, row: str, quantity: str) -> t
     (place / "l.csv").write_text(f"{heading}\n{row}\n")
     words = ["sweep", family, "--list", place / "l.csv", "--quantity", quantity, "--out", place / "t.csv", "-j1"]
     result = CliRunner().invoke(program, [str(word) for word in words])
-    told = (place / "t.csv").read_text() if result.exit_code == 0 else result.output + str(result.exception)
-    return result.exit_code, told.splitlines()
+    output = (place / "t.csv").read_text() if result.exit_code == 0 else result.output + str(result.exception)
+    return result.exit_code, output.splitlines()
 
 
 @pytest.mark.parametrize(
@@ -159,8 +159,8 @@ def test_the_heading_of_a_list_of_particles_is_in_si_or_as_it_is_written(tmp_pat
 )
 def test_a_unit_of_something_else_in_a_heading_is_refused(tmp_path: Path, heading: str, says: str) -> None:
     """With status 2, and what would be right."""
-    status, told = listed(tmp_path, "elementary", heading, "1.5,1,2,0.3", "k")
-    assert (status, says in " ".join(told)) == (2, True), told
+    status, output = listed(tmp_path, "elementary", heading, "1.5,1,2,0.3", "k")
+    assert (status, says in " ".join(output)) == (2, True), output
 
 
 @pytest.mark.parametrize(
@@ -185,14 +185,21 @@ def test_a_place_that_cannot_be_written_is_named_as_it_was_typed(place: str, cap
     words = f"sweep elementary --set ratio=1.5 B2=1 B3=2 omega2=1 --quantity k --out {place}"
     with pytest.raises(SystemExit) as end:
         main(words.split())
-    told = capsys.readouterr().err
-    assert (end.value.code, place in told, "cannot be written" in told, ".lock" in told) == (2, True, True, False)
+    message = capsys.readouterr().err
+    assert (end.value.code, place in message, "cannot be written" in message, ".lock" in message) == (
+        2,
+        True,
+        True,
+        False,
+    )
 
 
 def test_a_row_outside_the_domain_ends_a_sweep_as_its_help_says() -> None:
     """It has no empty cell, as beta for B = 0: its number and the reason are told."""
-    told = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
-    assert "A row outside the domain, such as a pole, ends the sweep with status 2; the error names the row" in told
+    help_text = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
+    assert (
+        "A row outside the domain, such as a pole, ends the sweep with status 2; the error names the row" in help_text
+    )
     with pytest.raises(DomainError, match=r"In row 1 of the table, .*no angle beta"):
         atlas.sweep("quadric", {"ratio": 1.5, "B2": [0, 1], "B3": [0, 1]}, ["beta"])
 
@@ -206,12 +213,12 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
     for suffix in (".csv", ".npz", ".parquet"):
         sweep(tmp_path / f"t{suffix}", jobs=1)
     with np.load(tmp_path / "t.npz") as arrays:
-        found = parquet.read_table(tmp_path / "t.parquet")
+        table_read = parquet.read_table(tmp_path / "t.parquet")
         heading, *lines = (tmp_path / "t.csv").read_text().splitlines()[2:]
         columns = dict(zip(plain(heading), zip(*(line.split(",") for line in lines), strict=True), strict=True))
         for name, values in table.items():
             assert np.array_equal(arrays[name], values)
-            assert found[name].to_pylist() == values.tolist()
+            assert table_read[name].to_pylist() == values.tolist()
             text = columns[name]
             assert list(text if values.dtype.kind == "U" else map(float, text)) == values.tolist()
 
@@ -220,17 +227,19 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
 def test_rows_leave_no_garbage(name: str) -> None:
     """What many rows needed is free as soon as they are done: a collector of garbage, slow beside Dask, has no work."""
     swept, count = FAMILIES[name], 16
-    needed = [p for p in swept.family.parameters if p.needed]
-    given = {key: [value] * count for p in needed for key, value in zip(p.names, p.default, strict=True)}
+    required = [p for p in swept.family.parameters if p.needed]
+    parameters = {key: [value] * count for p in required for key, value in zip(p.names, p.default, strict=True)}
     rising = np.linspace(1.0, 2.0, count).tolist()
-    given |= {"t": rising} if "t" in swept.optional else {}
-    given |= {"B3": rising} if name == "particle" else {}
-    atlas.sweep(name, given, swept.quantities, listed=True)  # what is loaded with the first row is no garbage of rows
+    parameters |= {"t": rising} if "t" in swept.optional else {}
+    parameters |= {"B3": rising} if name == "particle" else {}
+    atlas.sweep(
+        name, parameters, swept.quantities, listed=True
+    )  # what is loaded with the first row is no garbage of rows
     gc.collect()
     gc.freeze()
     gc.disable()
     try:
-        atlas.sweep(name, given, swept.quantities, listed=True)
+        atlas.sweep(name, parameters, swept.quantities, listed=True)
         assert gc.collect() == 0
     finally:
         gc.enable()
@@ -245,12 +254,12 @@ def test_a_value_that_comes_again_is_written_alike() -> None:
 
 def test_a_name_with_a_comma_is_one_cell(tmp_path: Path) -> None:
     """A CSV file reads back as the table, whatever its cases are called."""
-    given = {"ratio": 0.5, "B2": 1.0, "B3": [0.0, 0.3], "omega2": [-1.0, 0.4], "omega1": 0.1, "omega3": 0.2}
-    out = atlas.sweep("general", given, ["kind", "period"], tmp_path / "a.csv", listed=True, jobs=1)
+    parameters = {"ratio": 0.5, "B2": 1.0, "B3": [0.0, 0.3], "omega2": [-1.0, 0.4], "omega1": 0.1, "omega3": 0.2}
+    out = atlas.sweep("general", parameters, ["kind", "period"], tmp_path / "a.csv", listed=True, jobs=1)
     assert isinstance(out, Path)
     with out.open(newline="") as file:
         rows = list(csv.DictReader(file, plain(next(file))))
-    table = atlas.sweep("general", given, ["kind", "period"], listed=True)
+    table = atlas.sweep("general", parameters, ["kind", "period"], listed=True)
     assert isinstance(table, dict)
     assert [row["kind"] for row in rows] == table["kind"].tolist()
     assert any("," in row["kind"] for row in rows)
@@ -286,39 +295,39 @@ def test_a_row_without_a_number_gives_a_reason_and_the_table_continues(tmp_path:
     assert list(table) == [*rows, *names, "missing"]
     assert table["missing"].tolist() == REASONS
     assert [float(x) for x in table["period"]][1:3] == [np.inf, np.inf]
-    lack = dict.fromkeys(names, [False] * len(REASONS))
-    lack |= {"spin_per_period": [bool(reason) for reason in REASONS], "nome": ["root" in x for x in REASONS]}
+    has_no_value = dict.fromkeys(names, [False] * len(REASONS))
+    has_no_value |= {"spin_per_period": [bool(reason) for reason in REASONS], "nome": ["root" in x for x in REASONS]}
     for suffix in (".csv", ".npz", ".parquet"):
         atlas.sweep("general", rows, names, tmp_path / f"t{suffix}", listed=True, digits=digits, rows=2, jobs=1)
     with (tmp_path / "t.csv").open(newline="") as file:
         text = list(csv.DictReader(file, plain(next(file))))
-    found = parquet.read_table(tmp_path / "t.parquet")
+    table_read = parquet.read_table(tmp_path / "t.parquet")
     with np.load(tmp_path / "t.npz") as arrays:
         for name in names:
             none = arrays[name] == "" if digits or name == "kind" else np.isnan(arrays[name])
-            assert none.tolist() == lack[name]
+            assert none.tolist() == has_no_value[name]
             assert np.array_equal(arrays[name], table[name], equal_nan=not (digits or name == "kind"))
-            written = [str(x) for x in table[name].tolist()]
-            cells = ["" if gone else x for gone, x in zip(lack[name], written, strict=True)]
+            texts = [str(x) for x in table[name].tolist()]
+            cells = ["" if gone else x for gone, x in zip(has_no_value[name], texts, strict=True)]
             assert [row[name] for row in text] == cells
-            values = [None if gone else x for gone, x in zip(lack[name], table[name].tolist(), strict=True)]
-            assert found[name].to_pylist() == values
+            values = [None if gone else x for gone, x in zip(has_no_value[name], table[name].tolist(), strict=True)]
+            assert table_read[name].to_pylist() == values
         assert arrays["missing"].tolist() == [row["missing"] for row in text] == REASONS
-    assert found["missing"].to_pylist() == [reason or None for reason in REASONS]
+    assert table_read["missing"].to_pylist() == [reason or None for reason in REASONS]
 
 
 @pytest.mark.parametrize("listed", [False, True])
 @pytest.mark.parametrize("rows", [None, 1, 4])
 def test_the_first_row_outside_the_domain_is_named(tmp_path: Path, listed: bool, rows: int | None) -> None:
     """By its number in the whole table, in whichever part it is, and its parameters; what was done before is kept."""
-    given: dict[str, Any] = {"ratio": [0.5, 1.5], "B2": 1, "B3": 1, "omega2": [1, 3, 4, -1, 2, -1]}
+    parameters: dict[str, Any] = {"ratio": [0.5, 1.5], "B2": 1, "B3": 1, "omega2": [1, 3, 4, -1, 2, -1]}
     if listed:
-        given["ratio"] = 6 * [0.5]
-    where = r"In row 4 of the table, ratio = 0.5, B2 = 1.0, B3 = 1.0, omega2 = -1.0: .*pole"
-    with pytest.raises(DomainError, match=where):
-        atlas.sweep("elementary", given, ["k"], tmp_path / "a.csv", jobs=1, rows=rows, listed=listed)
-    with pytest.raises(DomainError, match=where):
-        atlas.sweep("elementary", given, ["k"], listed=listed)
+        parameters["ratio"] = 6 * [0.5]
+    row_words = r"In row 4 of the table, ratio = 0.5, B2 = 1.0, B3 = 1.0, omega2 = -1.0: .*pole"
+    with pytest.raises(DomainError, match=row_words):
+        atlas.sweep("elementary", parameters, ["k"], tmp_path / "a.csv", jobs=1, rows=rows, listed=listed)
+    with pytest.raises(DomainError, match=row_words):
+        atlas.sweep("elementary", parameters, ["k"], listed=listed)
     assert bool(list(tmp_path.iterdir())) is (rows == 1)
 
 
@@ -326,15 +335,17 @@ def test_the_first_row_outside_the_domain_is_named(tmp_path: Path, listed: bool,
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_quantity_of_every_family_has_a_value_a_row(family: str) -> None:
     """All quantities of a list of two rows are finite, NaN with a reason, or names that fit."""
-    known = FAMILIES[family]
-    given = {name: [0.3 + 0.1 * i, 0.7 + 0.1 * i] for i, name in enumerate(known.needed)}
-    own = {"inertia", "omega3", "c", "branch"}
-    given |= {name: [0.2 + 0.1 * i, -0.4] for i, name in enumerate(known.optional) if name not in own}
-    table = atlas.sweep(family, given, list(known.quantities), listed=True)
-    for name in known.quantities:
+    family_swept = FAMILIES[family]
+    parameters = {name: [0.3 + 0.1 * i, 0.7 + 0.1 * i] for i, name in enumerate(family_swept.needed)}
+    names_fixed = {"inertia", "omega3", "c", "branch"}
+    parameters |= {
+        name: [0.2 + 0.1 * i, -0.4] for i, name in enumerate(family_swept.optional) if name not in names_fixed
+    }
+    table = atlas.sweep(family, parameters, list(family_swept.quantities), listed=True)
+    for name in family_swept.quantities:
         assert table[name].shape == (2,)
-        missing = np.isnan(table[name]) if known.quantities[name].missing else False
-        assert table[name].dtype == np.dtype(NAME) or (missing | np.isfinite(table[name])).all()
+        is_missing = np.isnan(table[name]) if family_swept.quantities[name].missing else False
+        assert table[name].dtype == np.dtype(NAME) or (is_missing | np.isfinite(table[name])).all()
 
 
 @pytest.mark.parametrize(
@@ -343,10 +354,10 @@ def test_every_quantity_of_every_family_has_a_value_a_row(family: str) -> None:
 )
 def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> None:
     """With digits the quantities are text, whose nearest doubles are those of the kernels."""
-    given = {"ratio": [0.5, 1.5], "B2": [1.0, 2.0], "B3": [0.3, 0.4], "omega2": [0.7, 0.9]}
+    parameters = {"ratio": [0.5, 1.5], "B2": [1.0, 2.0], "B3": [0.3, 0.4], "omega2": [0.7, 0.9]}
     if family == "general":
-        given |= {"omega1": [0.3, 0.1], "omega3": [0.2, -0.4]}
-    texts, floats = (atlas.sweep(family, given, names, listed=True, digits=n) for n in (30, None))
+        parameters |= {"omega1": [0.3, 0.1], "omega3": [0.2, -0.4]}
+    texts, floats = (atlas.sweep(family, parameters, names, listed=True, digits=n) for n in (30, None))
     for name in names:
         assert [float(text) for text in texts[name]] == floats[name].tolist()
 
@@ -378,11 +389,11 @@ def test_no_field_of_a_record_shadows_a_name_in_the_annotations_beside_it() -> N
 def test_the_log_of_a_batch_job_shows_a_sweep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a terminal there is a line a minute on standard error; a sweep of less than a minute says nothing."""
     words = "sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1:2:3 --quantity gamma --rows 1 -j 1 --out"
-    for minutes, shown in ((0.4, ["sweep: 3 of 3 (100 %) after 1 min"]), (0.1, [])):
+    for minutes, log in ((0.4, ["sweep: 3 of 3 (100 %) after 1 min"]), (0.1, [])):
         clock = iter(60 * minutes * i for i in range(10))
         monkeypatch.setattr("atlas.cli.present.monotonic", lambda clock=clock: next(clock))
         ended = CliRunner().invoke(program, [*words.split(), str(tmp_path / "t.csv")])
-        assert ended.stderr.splitlines() == shown
+        assert ended.stderr.splitlines() == log
 
 
 def test_ranges_have_units_and_starts_are_options(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -391,10 +402,14 @@ def test_ranges_have_units_and_starts_are_options(tmp_path: Path, monkeypatch: p
     words = "--ratio 1.5 --field 1rad/s 2rad/s --quantity precession_rate --out"
     for start, out in (("--set omega1=0 omega2=0 omega3=1Hz:2Hz:2", "a.csv"), ("--spin 1Hz", "b.csv")):
         assert CliRunner().invoke(program, f"sweep motion {words} {out} {start}".split()).exit_code == 0
-    first, second = ([line.split(",") for line in Path(name).read_text().splitlines()] for name in ("a.csv", "b.csv"))
-    assert first[:2] == second
-    assert "omega3 [1/s]" in first[0]
-    assert [float(row[first[0].index("omega3 [1/s]")]) for row in first[1:]] == pytest.approx([2 * np.pi, 4 * np.pi])
+    rows_first, second = (
+        [line.split(",") for line in Path(name).read_text().splitlines()] for name in ("a.csv", "b.csv")
+    )
+    assert rows_first[:2] == second
+    assert "omega3 [1/s]" in rows_first[0]
+    assert [float(row[rows_first[0].index("omega3 [1/s]")]) for row in rows_first[1:]] == pytest.approx(
+        [2 * np.pi, 4 * np.pi]
+    )
     words = "sweep motion --ratio 1.5 --field 1 2 --quantity k --out c.csv --omega2 0.7"
     assert CliRunner().invoke(program, words.split()).exit_code == 0
     assert Path("c.csv").read_text().startswith("ratio,B2 [1/time],B3 [1/time],omega2 [1/time]")

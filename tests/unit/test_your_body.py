@@ -62,10 +62,10 @@ def request_of(words: str | list[str]) -> Asked:
 def test_the_cards_numbers_are_kept(name: str, snapshot: SnapshotAssertion) -> None:
     """Digits, proven digits, units and reasons of each case, and its title."""
     request = request_of(CASES[name])
-    made = card(request)
-    title = title_of(request, made, verdict(thing_of(request)))
+    result = card(request)
+    title = title_of(request, result, verdict(thing_of(request)))
     keys = ("digits", "proven_digits", "unit", "reason")
-    assert {"title": title} | {key: [one[k] for k in keys] for key, one in made.items()} == snapshot
+    assert {"title": title} | {key: [entry[k] for k in keys] for key, entry in result.items()} == snapshot
 
 
 def test_numbers_of_the_card_agree_with_plain_formulas() -> None:
@@ -76,9 +76,9 @@ def test_numbers_of_the_card_agree_with_plain_formulas() -> None:
     assert shell["tilt"]["value"] == pytest.approx(pi / 6)
     steady = card(request_of("--ratio 0.4 --field 1 2 --omega2 0.7"))
     assert steady["turn"]["value"] == pytest.approx(2 * pi / (0.7 * sqrt(5)))
-    free = card(request_of("--ratio 1.5 --omega 0.3 0.7 0.2"))
-    assert free["turn"]["value"] == pytest.approx(2 * pi / hypot(0.3, 0.7, 1.5 * 0.2))
-    assert free["spin"]["value"] == pytest.approx((1 - 1.5) * 0.2)
+    result_free = card(request_of("--ratio 1.5 --omega 0.3 0.7 0.2"))
+    assert result_free["turn"]["value"] == pytest.approx(2 * pi / hypot(0.3, 0.7, 1.5 * 0.2))
+    assert result_free["spin"]["value"] == pytest.approx((1 - 1.5) * 0.2)
     toutatis = card(request_of("--inertia 1 3.0836 3.235 --omega -1.71914931 0.25307274 0.58817596"))  # rad a day
     assert [round(toutatis[key]["value"], 2) for key in ("nutation", "turn")] == [5.38, 7.40]
     assert toutatis["spin"]["says"] == "rate about the body's long axis"
@@ -94,9 +94,11 @@ def test_a_field_along_the_axes_of_the_laboratory_is_turned_into_the_body() -> N
 def test_a_turn_through_the_pole_is_said_to_be_a_mean() -> None:
     """Its rate is the mean of the limits, of fields a little to one side and to the other."""
     turns = [card(request_of(f"--ratio 1.6 --field {x} 2 --omega 0.3 0.7 0.2"))["turn"] for x in ("1e-7", "0", "-1e-7")]
-    before, at, after = (2 * pi / one["value"] for one in turns)
-    assert at == pytest.approx(abs(before - after) / 2, rel=1e-5), "before and after it goes round in opposite ways"
-    assert ["pole" in one["says"] for one in turns] == [False, True, False]
+    before, turn_pole, after = (2 * pi / entry["value"] for entry in turns)
+    assert turn_pole == pytest.approx(abs(before - after) / 2, rel=1e-5), (
+        "before and after it goes round in opposite ways"
+    )
+    assert ["pole" in entry["says"] for entry in turns] == [False, True, False]
     for words in ("--ratio 1.6 --omega 0.3 0.7 0.2", "--ratio 1.6 --field 0 2 --spin 0.2"):
         assert "pole" not in card(request_of(words))["turn"]["says"]
 
@@ -123,29 +125,29 @@ def test_a_negative_charge_turns_the_arrow_of_the_field() -> None:
 def test_an_error_without_a_deviation_is_reported() -> None:
     """Where errors of the inputs leave the domain, no number is called proven, and the last page says why."""
     request = replace(request_of(SHELL), sigma={"ratio": inf, "larmor": 0.1})
-    made = card(request)
-    assert (made["ratio"]["sigma"], made["ratio"]["proven_digits"]) == (None, 0)
+    result = card(request)
+    assert (result["ratio"]["sigma"], result["ratio"]["proven_digits"]) == (None, 0)
     text = files_of(request)[f"{name_of(request)}.md"]
-    assert f"{made['ratio']['value']:.10g}(?)" in text
-    assert made["ratio"]["reason"] in text
+    assert f"{result['ratio']['value']:.10g}(?)" in text
+    assert result["ratio"]["reason"] in text
     assert "0.53(10)" in text  # |B'| = mu B/2, with its standard deviation in the last digits
 
 
 def test_every_card_has_the_same_keys_and_a_reason_for_each_gap() -> None:
     """A number that is not there has the value null and a reason, and one that is there has none."""
     cards = [card(request_of(words)) for words in CASES.values()]
-    assert len({tuple(made) for made in cards}) == 1
-    assert all((one["value"] is None) == bool(one["reason"]) for made in cards for one in made.values())
-    assert {json.dumps(sorted(one)) for made in cards for one in made.values()} == {
+    assert len({tuple(result) for result in cards}) == 1
+    assert all((entry["value"] is None) == bool(entry["reason"]) for result in cards for entry in result.values())
+    assert {json.dumps(sorted(entry)) for result in cards for entry in result.values()} == {
         json.dumps(sorted(cards[0]["turn"]))
     }
 
 
 def test_equal_inputs_have_one_name() -> None:
     """1200nm is 1.2um; another body, start or error has another name."""
-    one, same, other = (request_of(SHELL.replace("0.9um", text)) for text in ("1.2um", "1200nm", "1.3um"))
-    assert name_of(one) == name_of(same) != name_of(other)
-    assert name_of(replace(one, sigma={"ratio": 0.1})) != name_of(one)
+    request, same, request_other = (request_of(SHELL.replace("0.9um", text)) for text in ("1.2um", "1200nm", "1.3um"))
+    assert name_of(request) == name_of(same) != name_of(request_other)
+    assert name_of(replace(request, sigma={"ratio": 0.1})) != name_of(request)
 
 
 @pytest.mark.parametrize(
@@ -159,12 +161,18 @@ def test_every_branch_of_the_prose_is_a_report(name: str, tmp_path: Path) -> Non
         (tmp_path / file).write_text(content, encoding="utf-8")
     report = load(tmp_path / f"{name_of(request)}.md")
     texts = "".join(getattr(block, "text", "") for block in report.pages[-1].blocks)
-    parts = ("## Card", "## The body", "## The motion", "## The same numbers elsewhere", place := "## What is left out")
-    there = [texts.index(part) for part in parts if part in texts]
-    assert there == sorted(there)
+    headings = (
+        "## Card",
+        "## The body",
+        "## The motion",
+        "## The same numbers elsewhere",
+        place := "## What is left out",
+    )
+    places_found = [texts.index(heading) for heading in headings if heading in texts]
+    assert places_found == sorted(places_found)
     assert place in texts
-    for one in card(request).values():
-        assert one["reason"] in {None, ONE_PERIOD} or one["reason"].lower() in texts[texts.index(place) :].lower()
+    for entry in card(request).values():
+        assert entry["reason"] in {None, ONE_PERIOD} or entry["reason"].lower() in texts[texts.index(place) :].lower()
     again = request_of(["--from", str(tmp_path / f"{name_of(request)}.inputs.toml")])
     assert files_of(again) == files
 
@@ -248,7 +256,7 @@ def test_all_faults_of_the_options_are_told_at_once(words: str, says: list[str],
     """A sentence for each option at fault and no other, also for words from a file, which is named."""
     with pytest.raises(FaultsError) as refused:
         request_of(words)
-    assert [x in said for x, said in zip(says, refused.value.sentences, strict=True)] == [True] * len(says)
+    assert [x in sentence for x, sentence in zip(says, refused.value.sentences, strict=True)] == [True] * len(says)
     file, typed = tmp_path / "one.inputs.toml", words.split()
     file.write_text("# words\ntyped = [\n" + ",\n".join(map(json.dumps, typed)) + "]", encoding="utf-8")
     with pytest.raises(FaultsError) as of_file:
@@ -270,8 +278,10 @@ def test_a_report_is_built_whole(tmp_path: Path, capsys: pytest.CaptureFixture[s
     page = html.parse(str(index)).getroot()
     assert len(page.findall(".//h1")) == 1
     assert "turns about the vertical once in" in page.text_content()
-    more, less = (card(request_of(f"top {words}".replace("5.0(1)", x)))["spin"]["value"] for x in ("5.05", "4.95"))
-    assert json.loads(numbers.read_text())["spin"]["sigma"] == pytest.approx(more - less, rel=1e-3)
+    result_high, less = (
+        card(request_of(f"top {words}".replace("5.0(1)", x)))["spin"]["value"] for x in ("5.05", "4.95")
+    )
+    assert json.loads(numbers.read_text())["spin"]["sigma"] == pytest.approx(result_high - less, rel=1e-3)
     with pytest.raises(SystemExit):
         main(["report", "your_body", "--from", str(inputs), "--out", str(tmp_path / "two")])
     assert (tmp_path / "two" / pdf.name).read_bytes() == pdf.read_bytes()
@@ -302,14 +312,14 @@ def test_a_spin_is_stable_where_no_eigenvalue_grows() -> None:
 
         def changes(state: np.ndarray, moments: np.ndarray = moments) -> np.ndarray:
             W, K = state[:3], state[3:]
-            turned: np.ndarray = np.cross(moments * W, W) - np.cross(moments * K, K)
-            return np.concatenate([turned / moments, np.cross(K, W)])
+            torque: np.ndarray = np.cross(moments * W, W) - np.cross(moments * K, K)
+            return np.concatenate([torque / moments, np.cross(K, W)])
 
-        spin, across = np.r_[omega + field, field], [i for i in range(6) if i % 3 != axis]
+        spin, indices = np.r_[omega + field, field], [i for i in range(6) if i % 3 != axis]
         if not field.any():
-            across = across[:2]
-        pushes = 1e-5 * np.eye(6)[across]
-        linear = np.array([changes(spin + p)[across] - changes(spin - p)[across] for p in pushes]).T / 2e-5
+            indices = indices[:2]
+        pushes = 1e-5 * np.eye(6)[indices]
+        linear = np.array([changes(spin + p)[indices] - changes(spin - p)[indices] for p in pushes]).T / 2e-5
         grows = bool(max(np.linalg.eigvals(linear).real) > 1e-6)
         verdicts.append(not grows)
         assert spins_on(*([Fraction(float(x)) for x in v] for v in (moments, field, omega))) is not grows
