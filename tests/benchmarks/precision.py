@@ -21,7 +21,7 @@ from benchmarks.case import Case, FloatArray, Solve, even
 from benchmarks.clock import interleave, once, ratio
 from benchmarks.integrators import Integrator, TimedOutError
 from benchmarks.oracle import Reference, reference
-from benchmarks.results import ONE, Rows, Setup, said
+from benchmarks.results import ONE, Rows, Setup, sentence
 from benchmarks.rotations import asymmetric_case, elementary_case, general_case, plain
 
 NARROW = elementary_case, general_case, asymmetric_case
@@ -75,14 +75,14 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
             again = median(interleave({"setup": method.prepare}, bench.plan.rounds)["setup"])
             yield Setup(case.name, method.name, "done", seconds=seconds, again=again)
         except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
-            yield Setup(case.name, method.name, "failed", note=said(raised))
+            yield Setup(case.name, method.name, "failed", note=sentence(raised))
     for horizon, t in bench.times.items():
         errors: dict[str, float] = {}
         for name, solve in ready.items():
             try:
                 errors[name] = bench.truths[horizon].error(solve(t))
             except Exception as raised:  # noqa: BLE001  the same
-                yield Run(case.name, name, horizon, len(t), "failed", note=said(raised))
+                yield Run(case.name, name, horizon, len(t), "failed", note=sentence(raised))
         jobs = {name: partial(ready[name], t) for name in errors}
         times = interleave({"base": partial(bench.plain, t)} | jobs, bench.plan.rounds)
         for name, error in errors.items():
@@ -122,7 +122,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         try:
             setup, solve = once(partial(integrator.solver, case, tolerance, plan.limit))
         except Exception as raised:  # noqa: BLE001  the same
-            yield Setup(case.name, integrator.name, "failed", tolerance, note=said(raised))
+            yield Setup(case.name, integrator.name, "failed", tolerance, note=sentence(raised))
             continue
         yield Setup(case.name, integrator.name, "done", tolerance, setup)
         pace = 0.0
@@ -154,7 +154,7 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     except TimedOutError:
         return _unmeasured(run, "timed out", f"stopped after {bench.plan.limit:g} s, so at longer horizons")
     except Exception as raised:  # noqa: BLE001  the same
-        return _unmeasured(run, "failed", said(raised))
+        return _unmeasured(run, "failed", sentence(raised))
     peer = times.get("peer", [seconds] * len(times["base"]))
     return _measured(run, error, peer, note)
 
