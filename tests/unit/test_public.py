@@ -81,7 +81,7 @@ def test_a_type_checker_takes_right_calls_and_refuses_each_wrong_one() -> None:
     """Every statement of `wrong` is an error, and no statement of `right` is."""
     text = CALLS.read_text("utf-8")
     refused_calls = next(
-        node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == "wrong"
+        node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == "refused_calls"
     )
     refused = {int(line) for line in re.findall(r"^[^:]+:(\d+): error:", said_of(CALLS), re.MULTILINE)}
     assert refused == {statement.lineno for statement in refused_calls.body[1:]}
