@@ -54,8 +54,14 @@ def declared(path: Path) -> dict[str, Input]:
         use, each in a line.
     """
     tables = files.head(path).get("inputs", {})
+    if not isinstance(tables, dict):
+        raise AtlasError(
+            f"{path}, line {line_of(path, 'inputs')}: inputs: write a table [inputs], a line for each input."
+        )
     faults = [
-        (fault.key, f"{str(fault).removesuffix('.')}.") for fault in faults_of(tables, dict[str, Input], "inputs")
+        (name, f"{str(fault).removesuffix('.')}.")
+        for name, table in tables.items()
+        for fault in faults_of(table, Input, f"inputs {name!r}")
     ]
     faults += [
         (name, f"the input {name!r} must be a word of letters, digits and _ that templates do not use themselves.")
@@ -180,7 +186,7 @@ def filled(text: str, values: Mapping[str, Any], *, markdown: bool) -> tuple[dic
         head, body, lines = expanded(values, head, body)
     except ExpansionError as error:
         line = start + error.line if error.line else text[: max(text.find(error.text), 0)].count("\n") + 1
-        raise LineError(line, f"{error}.") from error
+        raise LineError(line, f"{str(error).removesuffix('.')}.") from error
     return {**head, "inputs": inputs}, above + body, [*range(1, start + 1), *(start + line for line in lines)]
 
 

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from atlas.book.expansion import ExpansionError, expanded
-from atlas.book.inputs import evaluated, name_of
+from atlas.book.inputs import declared, evaluated, name_of
 from atlas.book.load import load
 from atlas.cli.app import main
 from atlas.cli.report import command
@@ -132,6 +132,19 @@ def test_inputs_are_listed_and_nothing_is_drawn(paper: Path) -> None:
     }  # fmt: skip
     assert {*of_body[0]} == {*records[0]}
     assert "--field B2 B3 or B1 B2 B3" in CliRunner().invoke(command, ["your_body", "--help"]).output
+
+
+def test_all_malformed_declarations_are_refused_at_once(paper: Path) -> None:
+    """Each with the line of its input."""
+    paper.write_text(REPORT.replace('kind = "choice"', 'kind = "chioce"').replace("count = 2", "cuont = 2"))
+    with pytest.raises(FaultsError) as refused:
+        declared(paper)
+    one, other = refused.value.sentences
+    assert f"{paper}, line 13: inputs 'colour', kind: must be one of" in one
+    assert f"{paper}, line 14: inputs 'rates': there is no key 'cuont' here (did you mean 'count'?)" in other
+    paper.write_text("+++\nname = 'paper'\ninputs = 5\n+++\n")
+    with pytest.raises(AtlasError, match="line 3: inputs: write a table"):
+        declared(paper)
 
 
 @pytest.mark.slow
