@@ -36,7 +36,9 @@ def scene(
 ) -> Scene:
     """Draw the turn and its parts between two places ``z``, at ``count`` of them, and the curve of one ``shown``.
 
-    ``field`` is B' along the principal axes, in 1/time.
+    ``z`` and ``branch`` are as for ``EllipticMotion``, of a body with the principal moments ``inertia``; ``field``
+    is B' along its axes, in 1/time. Raises DomainError unless low < high in z, with ``shown`` between, and 2 to
+    1000 places.
     """
     if not (z[0] < z[1] and z[0] <= shown <= z[1] and 2 <= count <= 1000):
         raise DomainError(

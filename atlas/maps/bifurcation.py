@@ -146,7 +146,10 @@ class Bifurcation:
         return np.asarray(split(tuple(self.inertia), self.b * self.b, -self.c / v, z))
 
     def _cubic(self, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return P (N,), not below zero, its derivative P' (N,), and z + D/I_i (N, 3)."""
+        """Return P = (z + D/I1)(z + D/I2)(z + D/I3) at places z (N,), its derivative P' (N,), and the factors (N, 3).
+
+        P (N,) that rounding makes negative is 0; D is I1 I2 I3.
+        """
         x = np.asarray(z)[..., None] + self.a
         x1, x2, x3 = np.moveaxis(x, -1, 0)
         return (np.maximum(x1 * x2 * x3, 0.0), x1 * x2 + x2 * x3 + x3 * x1, x)

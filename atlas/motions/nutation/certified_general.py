@@ -214,7 +214,10 @@ class GeneralMotion(Nutating):
 
 
 class Symmetric:
-    """The motion of a body with two equal moments, whatever the order of its axes."""
+    """The motion of a body with two equal moments, whatever the order of its axes.
+
+    Omega (rad/time) and K (1/time) are along those axes at t = 0; two of the ``moments`` must be equal.
+    """
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         axis_place = next(i for i in range(3) if moments[i - 1] == moments[i - 2])

@@ -51,7 +51,7 @@ class Tag:
 
 
 def spot(tag: Tag) -> FloatArray:
-    """Return the preferred centre (2,) of a tag's text, in points."""
+    """Return the preferred centre (2,) of a tag's text, in points, from the same origin as its anchor."""
     return _candidate_centres(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
 
