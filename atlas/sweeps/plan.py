@@ -272,14 +272,10 @@ class Range:
     log: bool = False
 
     @classmethod
-    def middles(cls, edges: FloatArray, *, log: bool = False) -> "Range":
-        """Return the middles of the cells between evenly spaced edges, as a range with ends rounded to 7 digits.
-
-        With ``log`` the edges are even in their logarithm, and so are the middles.
-        """
-        even = np.log(edges) if log else edges
-        start, stop = (float(f"{np.exp(x) if log else x:.7g}") for x in (even[1:] + even[:-1])[[0, -1]] / 2)
-        return cls(start, stop, len(edges) - 1, log)
+    def middles(cls, edges: FloatArray) -> "Range":
+        """Return the middles of the cells between evenly spaced edges, as a range with ends rounded to 7 digits."""
+        start, stop = (float(f"{x:.7g}") for x in (edges[1:] + edges[:-1])[[0, -1]] / 2)
+        return cls(start, stop, len(edges) - 1)
 
     @property
     def values(self) -> FloatArray:
