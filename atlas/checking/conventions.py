@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
-from atlas.checking.grades import Errors
 from atlas.checking.headings import MATRIX, OMEGA, QUATERNION
+
+if TYPE_CHECKING:
+    from atlas.checking.grades import Errors
 
 ROWS, LEAST = 24, 3
 """Approximate and least number of rows of the first block on which conventions are tried."""
@@ -19,7 +22,7 @@ CHANGE = 0.01
 """Change of R below which the rows do not distinguish conventions."""
 
 
-def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit: float) -> list[str]:
+def conventions_that_fit(block: Mapping[str, FloatArray], errors: "Errors", limit: float) -> list[str]:
     """Return sentences on conventions in which half of the rows have errors below `limit`; [] if none fits.
 
     At most one sentence each for matrices, quaternion and rates, and none for data that agree as given. Tried are

@@ -80,6 +80,17 @@ def test_a_failing_pdf_leaves_the_last_good_one(
 
 
 @pytest.mark.slow
+def test_a_pdf_with_the_same_content_is_not_set_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A report whose file changed, but nothing in its PDF, gets the PDF of the last build, wherever it is built."""
+    file = report(tmp_path, "Old")
+    before = build_report(file, tmp_path / "out").pdf.read_bytes()
+    file.write_text(f"{file.read_text()}# a remark\n")
+    monkeypatch.setattr(processes, "pool", lambda _: None)
+    monkeypatch.setattr(typesetting, "compiled", Mock(side_effect=AtlasError("it is set again")))
+    assert build_report(file, tmp_path / "other").pdf.read_bytes() == before
+
+
+@pytest.mark.slow
 def test_edited_pages_do_not_stop_the_pdf(tmp_path: Path) -> None:
     """An edited page is told of, and the PDF is new all the same."""
     built = build_report(report(tmp_path, "Old"), tmp_path)

@@ -14,6 +14,8 @@ import msgspec
 from atlas.book.building.cache import Cache
 from atlas.book.texts import title_words
 from atlas.errors import AtlasError
+from atlas.files import digest_of
+from atlas.libraries import versions
 from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
@@ -159,28 +161,42 @@ def files_of(
 ) -> Iterator[tuple[str, dict[str, bytes]]]:
     """Yield each format with its files, contents by path: the pages first, while Typst sets the PDF.
 
-    Typst never gives memory back: a process of its own, where there can be one, ends with the report.
+    The cache holds the last PDF of each report, which is taken where nothing in it has changed. Typst never gives
+    memory back: a process of its own, where there can be one, ends with the report.
     """
     from concurrent.futures.process import BrokenProcessPool
 
     from atlas import processes
     from atlas.book import fonts, typesetting
 
+    name, printed = document.report.name, None
     with cache.temporary() as work, processes.pool(1) or ThreadPoolExecutor(1) as executor:
-        printed = None
         if "pdf" in formats:
             files = [*map(fonts.source, fonts.FACES.values())]
             source = _typst_source(document, figures, work)
-            printed = executor.submit(typesetting.compiled, source, work, files)
+            entry, key = digest("PDF", name), _pdf_key(source, work, files, sources).encode()
+            key_before, _, content = (cache.get(entry) or b"").partition(b"\n")
+            if key_before != key:
+                printed = executor.submit(typesetting.compiled, source, work, files)
         for form, make in (("html", _pages), ("single", _single)):
             if form in formats:
                 yield form, make(document, figures, cache, sources)
         if printed is not None:
             try:
-                yield "pdf", {f"{document.report.name}.pdf": printed.result()}
+                content = printed.result()
             except BrokenProcessPool:
                 reason = "the process that sets it was ended; is there enough memory?"
-                raise AtlasError(f"{document.report.name}.pdf: {reason}") from None
+                raise AtlasError(f"{name}.pdf: {reason}") from None
+            cache.put(entry, key + b"\n" + content)
+        if "pdf" in formats:
+            yield "pdf", {f"{name}.pdf": content}
+
+
+def _pdf_key(source: str, folder: Path, faces: Sequence[Path], sources: Sources) -> str:
+    """Return the digest of all that a PDF depends on: its Typst source, files beside it, fonts, code and Typst."""
+    beside = {path.relative_to(folder).as_posix(): digest_of(path) for path in folder.rglob("*") if path.is_file()}
+    code = sources.closure([PACKAGE / "book" / "typesetting.py"])
+    return digest(source, beside, [digest_of(face) for face in faces], code, versions())
 
 
 def _typst_source(document: "Document", figures: "dict[FigureBuild, Picture]", folder: Path) -> str:
