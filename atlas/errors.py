@@ -21,7 +21,7 @@ class FaultsError(AtlasError):
     """Several faults of one file or command, a sentence each."""
 
     def __init__(self, sentences: Iterable[str]) -> None:
-        super().__init__("\n".join(sentences))
+        super().__init__("\n".join(dict.fromkeys(sentences)))
 
     @property
     def sentences(self) -> tuple[str, ...]:

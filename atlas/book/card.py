@@ -92,6 +92,18 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
         raise DomainError(NO_START)
     if key == "nutation":
         return _nutation(family, motion, functions)
+    return _turn(key, family, motion, arguments, functions)
+
+
+def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
+    """Return the rate about the body's axis for the key "spin", or the time of one turn about the field for "turn".
+
+    `arguments` are the family's inputs. Raises DomainError where the axis does not go round.
+    """
+    if (rate := _spin_of_free_body(arguments)) is not None:
+        if key == "spin":
+            return rate
+        raise DomainError("the axis does not go round")
     if _is_steady(motion, arguments):  # which has rates also where it has no period, as it is not stable
         family = FAMILIES["elementary"]
         steady = family.kernels() if functions is math else family.balls()
@@ -103,6 +115,15 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
     if rate == 0:
         raise DomainError("the axis does not go round")
     return 2 * functions.pi / abs(rate)
+
+
+def _spin_of_free_body(arguments: Mapping[str, Any]) -> Any:
+    """Return the rate of a free body's spin about its symmetry axis, or a principal one; None for any other motion."""
+    omega = arguments.get("omega")
+    if omega is None or any(arguments.get("field", (1.0,))):
+        return None
+    moving = [rate for rate in omega if rate]
+    return moving[0] if len(moving) == 1 and (omega[2] or "ratio" not in arguments) else None
 
 
 def _is_steady(motion: Any, arguments: Mapping[str, Any]) -> bool:
@@ -133,6 +154,8 @@ def _words(one: Entry, centre: str, motion: Any) -> str:
     For a free body of three moments "body's axis" is replaced by the name of the axis.
     """
     says = one.says.replace("the field", centre)
+    if centre == "the vertical":
+        says = says.replace("B\N{PRIME}", centre)
     with suppress(AtlasError, AttributeError):
         says = says.replace("body's axis", f"body's {motion.mode}" if "axis" in motion.mode else "body's axis")
     return says

@@ -1,5 +1,6 @@
 """Numbers in print: a string of proven digits cut at its decimal point, so that a column can be aligned on it."""
 
+import re
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
@@ -74,3 +75,9 @@ def shown(value: Any) -> str:
     mantissa, _, power = plain(value).partition("e")
     raised = f"\N{MULTIPLICATION SIGN}10^{int(power)}^".replace("-", MINUS) if power else ""
     return mantissa.replace("-", MINUS) + raised
+
+
+def spaced(typed: str) -> str:
+    """Return a typed number as read in a title: "1.2 µm" for "1.2um", "30°" for "30deg"."""
+    text = re.sub(r"^([-+.\d()]+(?:e[-+]?\d+)?+)(?=[a-zA-Z])", r"\1 ", typed)
+    return re.sub(" deg$", "\N{DEGREE SIGN}", re.sub(" u(?=[a-zA-Z])", " \N{MICRO SIGN}", text))

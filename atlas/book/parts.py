@@ -108,7 +108,8 @@ def _texts(value: Any) -> tuple[str, ...]:
 MIN_PRECESSION = 1e-3
 """Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
 
-WITHOUT = {"energy_momentum": "the steady motions with this spin lie far outside its frame."}
+WITHOUT = {"energy_momentum": "the steady motions with this spin lie far outside its frame.",
+           "motion_map": "it needs a field that is neither along the axis nor across it."}  # fmt: skip
 """Why a figure is left out, where its recipe names parameters that the reader did not give."""
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
@@ -224,7 +225,7 @@ def figures_of(
     from atlas.bodies.units import system
     from atlas.pictures import recipes
 
-    case = case_of(request)
+    case, reasons = case_of(request), dict[str, list[str]]()
     for name, given in recipes_of.items():
         recipe = recipes.load(name)
         values = {key: value for key, value in request.values.items() if key in recipe.parameters} | dict(given)
@@ -237,10 +238,16 @@ def figures_of(
             recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
         except AtlasError as reason:
             text = WITHOUT.get(name, str(reason).removeprefix(f"figure {name}: "))
-            left_out.append(f"The figure `{name}`: {text}".replace(f": figure {name} ", " "))
+            if text.startswith(f"figure {name} "):
+                text = text.replace(f"figure {name}", f"The figure `{name}`")
+            reasons.setdefault(text, []).append(f"`{name}`")
         else:
             calls = _calls(request, request.family) if "ratio" in recipe.parameters else {}
             yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **calls, "parameters": values}
+    left_out += [
+        text if text.startswith("The figure") else f"No figure {' and '.join(names)}: {text[:1].lower()}{text[1:]}"
+        for text, names in reasons.items()
+    ]
 
 
 def case_of(request: Asked) -> Any:

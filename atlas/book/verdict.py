@@ -1,6 +1,7 @@
 """Words on a body and its motion: between needle and disk, what kind of motion, whether it is stable."""
 
 from fractions import Fraction
+from math import hypot
 from typing import Any
 
 from atlas.book.tables.properties import Thing
@@ -9,6 +10,8 @@ from atlas.motions.spin_stability import spins_on
 
 NEEDLE = 0.1
 """I = I3/I2 below which a body is called a needle."""
+NEAR_MIDDLE = 0.95
+"""Part of the angular momentum along the middle axis from which on a body is said to turn over."""
 NEAR_BALL = 0.01
 """|I - 1| below which a body is called nearly a ball."""
 
@@ -36,6 +39,12 @@ def verdict(item: Thing) -> str:
     kind = str(motion.kind)
     if kind == "ball":
         kind = "it turns as a ball does, about its momentum"
+    if kind == "free body":
+        kind = "spin about its axis" if is_still(item) else "free precession"
+    elif kind == "Euler's top":
+        kind = "it tumbles freely, as Euler's top"
+    elif kind == "spin about an axis" and "axis" in getattr(motion, "mode", ""):
+        kind = f"spin about its {motion.mode}"
     says = "its axis nods" if kind.startswith("nutation") else kind
     says = says.replace("on a torus", "it turns with three frequencies")
     stable = is_stable(item)
@@ -68,6 +77,28 @@ def is_stable(item: Thing) -> bool | None:
         if not omega1 and field[0] and omega2 != -field[0]:
             return bool(Hyperbola(*item.exact[:2]).stable(omega2))
     return None
+
+
+def is_still(item: Thing) -> bool:
+    """Return whether a body is at rest, or spins about its symmetry or third axis along the field or without one."""
+    values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
+    if not item.family.sampled or not {"field", "direction"} & values.keys() or not {"omega", "omega2"} & values.keys():
+        return False
+    *across, _ = values.get("direction") or values["field"]
+    Omega = item.kernels().angular_velocity(0.0)
+    return not any((*across, *Omega[:2])) or ("field" in values and not any(Omega))
+
+
+def turns_over(item: Thing) -> bool:
+    """Return whether a free body of three moments starts near its middle axis, so that it turns over again and again.
+
+    Near means that this axis has `NEAR_MIDDLE` of the angular momentum.
+    """
+    if str(item.kernels().kind) != "Euler's top" or not item.family.takes("inertia"):
+        return False
+    values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
+    momenta = [(moment, abs(moment * rate)) for moment, rate in zip(values["inertia"], values["omega"], strict=True)]
+    return sorted(momenta)[1][1] > NEAR_MIDDLE * hypot(*(momentum for _, momentum in momenta))
 
 
 def place_of(family: Family, motion: Any) -> str:

@@ -17,7 +17,7 @@ from atlas.bodies.laboratory import Disturbance, Spinning, disturbances
 from atlas.book import toml
 from atlas.book.blocks.explorer import sliders_of
 from atlas.book.card import ENTRIES, ONE_PERIOD, card, centre_of, has_card, thing_of
-from atlas.book.digits import Number, plain
+from atlas.book.digits import Number, plain, spaced
 from atlas.book.elsewhere import near, reproduced
 from atlas.book.markdown import fenced
 from atlas.book.measurement import measurement_of
@@ -36,7 +36,7 @@ from atlas.book.parts import (
     too_slow,
 )
 from atlas.book.templates import versions
-from atlas.book.verdict import has_mean_rates, place_of, stands, verdict
+from atlas.book.verdict import has_mean_rates, is_still, place_of, stands, turns_over, verdict
 from atlas.places import folder
 
 NAME = "your_body"
@@ -52,6 +52,8 @@ SOFTWARE = """@software{{atlas,
 }}
 """
 """BibTeX of a version of the atlas."""
+LEAST = 1e-4
+"""Amplitude over the whole below which a line of a spectrum is not counted, as in its figure."""
 PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stability": "maps", "motion_map": "maps",
         "energy_momentum": "maps"}  # fmt: skip
 """Part of a report to which a figure belongs, by recipe; all others are of the motion."""
@@ -67,7 +69,7 @@ def body_named(request: Asked, made: Mapping[str, Any]) -> str:
                 size = options[name][0]
                 length = " cm" if options.get("units") == ("gaussian",) else " m"
                 unit = length if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
-                return f"{shape} of {name}{' radius' if name in {'equatorial', 'polar'} else ''} {size}{unit}"
+                return f"{shape} of {name}{' radius' if name in {'equatorial', 'polar'} else ''} {spaced(size)}{unit}"
         return shape
     if made["ratio"]["value"] is not None:
         return f"body with I = {made['ratio']['value']:.8g}"
@@ -200,13 +202,19 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
     if shape and "card" in request.parts:
         figures["card"] = [fenced({"kind": "figure", "recipe": PICTURE, "id": "body", "parameters": shape})]
     if "motion" in request.parts:
-        closed = [*map(fenced, closed_of(request, left_out))]
+        closed = [*map(fenced, closed_of(request, left_out))] if not is_still(item) else []
         measured = [*map(fenced, measurement_of(request, made, left_out))]
     says = verdict(item)
-    left_out += [*_reasons(made), *too_slow(motion, request.time), *_absent(request, shape, bool(beside))]
-    others = [table_of(request, "properties", one.name, {"given": False}) for one in other_families(family)]
+    left_out += [
+        *_reasons(made),
+        *([] if is_still(item) else too_slow(motion, request.time)),
+        *_absent(request, shape, bool(beside)),
+    ]
+    surfaces = other_families(family) if maps_of(request) else []
+    others = [table_of(request, "properties", one.name, {"given": False}) for one in surfaces]
     return {
         "name": name_of(request), "title": request.title or title_of(request, made, says), "verdict": says,
+        "turnover": made["nutation"]["digits"] if turns_over(item) else "", "unit": made["nutation"]["unit"],
         "place": place_of(family, motion), "sign": sign_of(request), "command": request.command, "note": request.note,
         "parts": list(request.parts), "family": family.name, "follows": bool(family.sampled), "card": [*_rows(made)],
         "outweighed": outweighed(beside), "outweighed_by": [one.says for one in beside if one.outweighs],
@@ -223,12 +231,38 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
 
 def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]:
     """Return the figures of each part that the report has, in their fences; add to `left_out` why some are missing."""
-    wanted = maps_of(request) | {name: dict[str, Any]() for name in request.family.figures}
+    maps = maps_of(request)
+    wanted = maps | {name: dict[str, Any]() for name in request.family.figures if maps or name not in PART}
+    if "asymmetric_motion" in wanted and turns_over(thing_of(request)):
+        wanted["asymmetric_motion"] = {"turns": 12.0}  # as many as its panel of Omega has at most
     asked_for = {name: values for name, values in wanted.items() if PART.get(name, "motion") in request.parts}
+    for name, reason in without_change(request) if "motion" in request.parts else ():
+        if asked_for.pop(name, None) is not None:
+            left_out += [reason] * (reason not in left_out)
     figures: dict[str, list[str]] = {"card": [], "body": [], "motion": [], "maps": []}
     for block in figures_of(request, asked_for, left_out):
         figures[PART.get(block["recipe"], "motion")].append(fenced(block))
     return figures
+
+
+def without_change(request: Asked) -> Iterator[tuple[str, str]]:
+    """Yield the recipe of each figure on which nothing of the request's motion would change, with the reason."""
+    item = thing_of(request)
+    motion = item.kernels()
+    if is_still(item):
+        reason = "Trace, spectrum and course in time: axis and angular velocity are constant."
+        yield from ((name, reason) for name in request.family.figures if name not in PART)
+        return
+    nods = str(motion.kind).startswith(("nutation", "separatrix")) if hasattr(motion, "kind") else False
+    if "pseudo_oscillator" in request.family.figures and not nods and len(set(motion.turning_points)) == 1:
+        yield "pseudo_oscillator", "The potential of $\\Omega_3$: this component is constant."
+    if "spectrum" in request.family.figures:
+        lines = [motion.spectrum(name, LEAST).frequencies for name in ("axis", "angular_velocity")]
+        axis, spin = (sorted({abs(float(f)) for f in frequencies} - {0.0}) for frequencies in lines)
+        if len(axis) == 1 and not spin:
+            unit = "s" if request.time == "1/s" else request.time
+            says = f"the axis has one line, at {axis[0]:.6g} 1/{unit}, and $\\mathbf\\Omega$ has none"
+            yield "spectrum", f"The spectrum: down to {LEAST:g} of the whole {says}."
 
 
 def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
@@ -263,7 +297,7 @@ def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
             reasons.setdefault(entry["reason"], []).append(entry["says"])
     for reason, names in reasons.items():
         words = "the card" if len(names) == len(ENTRIES) else ", ".join(names)
-        yield f"{words[:1].upper()}{words[1:]}: {reason}."  # but B stays B
+        yield f"{words[:1].upper()}{words[1:]}: {reason[:1].lower()}{reason[1:]}."  # but B stays B
 
 
 def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
@@ -314,9 +348,11 @@ def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> I
     if not shape and not is_top and "card" in parts:
         yield "A picture of the body: no cylinder, ring, disk, rod or ball was given as its shape."
     if not request.deviations and "motion" in parts:
-        yield "Errors of the numbers: the inputs have none; type 1.20(5)um for one."
+        yield "Errors of the numbers: the inputs have none; type `1.20(5)um` for one."
     if not maps_of(request) and {"body", "maps"} & {*parts}:
         yield "Quadric, hyperbola and the map of all motions: they are those of a symmetric body in a field."
     if not is_told:
-        missing = "; in numbers for a shape with its mass or density and a field --magnetic in SI" * bool(request.body)
+        missing = "; in numbers for a shape with its mass or density and a field `--magnetic` in SI" * bool(
+            request.body
+        )
         yield f"{'D' if is_top else 'Gravity, d'}rag, radiation, induced magnetism, eddy currents{missing}."

@@ -278,9 +278,10 @@ def mass_of(options: Mapping[str, Any]) -> Any:
         raise DomainError("--density: a shape without a height or radius has no volume, and so no mass; give --mass.")
     if options.get("mass") is not None or not all(lengths) or not lengths:
         solids = ", ".join(VOLUMES).replace("_", "-")
-        raise click.UsageError(
-            f"--density goes with a solid --shape ({solids}), with all its sizes and without --mass."
-        )
+        if shape not in VOLUMES:
+            thin = f"a {options['shape']} is without thickness and has no volume"
+            raise click.UsageError(f"--density: {thin}; give --mass instead, or a solid --shape ({solids}).")
+        raise click.UsageError(f"--density goes with all sizes of a {options['shape']} and without --mass.")
     with workprec(512):
         mass = as_rational(rational(options["density"]) * VOLUMES[shape](*map(rational, lengths)))
     return Fraction(int(mass.p), int(mass.q))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 import click
 
 from atlas.book import toml
+from atlas.book.digits import spaced
 from atlas.cli import body
 from atlas.cli.app import GONE
 from atlas.cli.axes import in_principal_axes, motion_in_given_axes
@@ -507,5 +508,5 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 def _field_words(field: Any, unit: str = "") -> str:
     """Return a field as text: "strength at angle" as typed, else its components in brackets, with a unit."""
     if isinstance(field, Inclined):
-        return " at ".join(x.text for x in field.parts)
+        return " at ".join(spaced(x.text) for x in field.parts)
     return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"
