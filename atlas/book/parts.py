@@ -11,7 +11,7 @@ from typing import Any
 
 from atlas.book import toml
 from atlas.book.body_and_field import Body, Field, body_and_field
-from atlas.book.digits import plain
+from atlas.book.digits import Number, plain
 from atlas.book.expansion import expanded
 from atlas.book.files import RULE
 from atlas.book.schema import convert
@@ -153,11 +153,17 @@ def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
     """Yield a listing block of standard deviations, if inputs have uncertainties; otherwise nothing."""
     if request.deviations:
         yield {
-            "kind": "listing", "id": "deviations", "rows": [list(row) for row in request.deviations],
+            "kind": "listing", "id": "deviations",
+            "rows": [[says, symbol, _typeset(value), unit] for says, symbol, value, unit in request.deviations],
             "columns": ["Quantity", "Symbol", "Value", "Unit"],
             "caption": " ".join(["The same with the uncertainties of the inputs, which are independent.",
                                  *request.deviation_notes]),
         }  # fmt: skip
+
+
+def _typeset(value: str) -> str:
+    """Return a text of numbers in which powers of ten are written out as Markdown."""
+    return re.sub(r"-?[\d.]+(\(\d+\))?e[-+]?\d+", lambda number: Number(number[0]).words(), value)
 
 
 def other_families(family: Family) -> list[Family]:

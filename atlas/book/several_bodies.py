@@ -113,13 +113,17 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
     name = f"{names[0]}-against-{names[1].removeprefix(f'{NAME}-')}"
     titles = map(titled, (first, second), cards)
     block = {
-        "kind": "listing", "id": "cards", "columns": ["Number", "Letter", "First", "Second", "Difference", "Equation"],
+        "kind": "listing", "id": "cards",
+        "columns": ["Number", "Letter", "First", "Second", "Difference", "Unit", "Equation"],
         "rows": [*_rows(*cards)],
         "caption": "The two cards, and the second less the first, to the digits that both have.",
     }  # fmt: skip
     reasons = [f"{made['says'][:1].upper()}{made['says'][1:]} of `{name}`: {made['reason']}."
                for name, one in zip(names, cards, strict=True) for made in one.values()
                if made["reason"] not in {None, ONE_PERIOD}]  # fmt: skip
+    units = [{one["unit"] for one in made.values() if one["unit"] and one["unit"] != "rad"} for made in cards]
+    if not units[0] & units[1]:
+        reasons.append("Differences of times and rates: the two bodies have different units of time.")
     texts = [f"{place}: {title}. Its report is `{name}`, by `{request.command}`." for place, name, title, request
              in zip(("First", "Second"), names, titles, (first, second), strict=True)]  # fmt: skip
     blocks = [*texts, fenced(block), *["\n- ".join(["## What is left out\n", *reasons])] * bool(reasons)]
@@ -128,17 +132,22 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
 
 
 def _rows(first: Card, second: Card) -> Iterator[list[str]]:
-    """Yield six texts for each number that one of two cards has: words, letter, both values, difference, equation."""
+    """Yield texts for each number of one of two cards: words, letter, both values, difference, unit, equation."""
     for key, a in first.items():
         b = second[key]
         if a["value"] is None and b["value"] is None:
             continue
         equation = next((f"@{one['equation']}" for one in (a, b) if one["equation"] and one["value"] is not None), "")
-        yield [a["says"], a["letter"], value_of(a), value_of(b), difference(a, b), equation]
+        says = b["says"] if a["value"] is None else a["says"]
+        if a["says"] != b["says"] and None not in (a["value"], b["value"]):
+            says += f"; of the second: {b['says']}"
+        units = ", ".join(dict.fromkeys(one["unit"] for one in (a, b) if one["unit"]))
+        values = [value_of({**one, "unit": ""}) for one in (a, b)]
+        yield [says, a["letter"], *values, difference(a, b), units, equation]
 
 
 def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
-    """Return the second card's number less the first's, with its unit, as Markdown, to the digits that both have.
+    """Return the second card's number less the first's, without its unit, as Markdown, to the digits that both have.
 
     A dash stands where the units differ or a number is missing.
     """
@@ -146,8 +155,8 @@ def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
         return "\N{EN DASH}"
     sigma = math.hypot(a["sigma"] or 0.0, b["sigma"] or 0.0)
     if sigma:
-        return value_of({**a, "value": b["value"] - a["value"], "sigma": sigma})
+        return value_of({**a, "value": b["value"] - a["value"], "sigma": sigma, "unit": ""})
     one, other = Decimal(a["digits"]), Decimal(b["digits"])
     last = max(int(x.as_tuple().exponent) for x in (one, other))
     less = (other - one).quantize(Decimal(1).scaleb(last))
-    return value_of({**a, "digits": str(less).lower()}) if less else "0"
+    return value_of({**a, "digits": str(less).lower(), "unit": ""}) if less else "0"

@@ -98,7 +98,8 @@ def turns_over(item: Thing) -> bool:
         return False
     values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
     momenta = [(moment, abs(moment * rate)) for moment, rate in zip(values["inertia"], values["omega"], strict=True)]
-    return sorted(momenta)[1][1] > NEAR_MIDDLE * hypot(*(momentum for _, momentum in momenta))
+    along = float(sorted(momenta)[1][1])
+    return along > NEAR_MIDDLE * hypot(*(momentum for _, momentum in momenta))
 
 
 def place_of(family: Family, motion: Any) -> str:

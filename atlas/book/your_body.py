@@ -84,10 +84,8 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
     subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
     if turn["value"] is None:
         return f"{subject}: {says}"
-    unit = turn["unit"].replace("time", "units of time")
-    time = concise(turn["value"], turn["sigma"]) if turn["sigma"] else f"{turn['value']:.4g}"
     mean = " in the mean" * has_mean_rates(thing_of(request))
-    return f"{subject} turns about {centre_of(request)} once in {time} {unit}{mean}; {says}"
+    return f"{subject} turns about {centre_of(request)} once in {_lasting(turn)}{mean}; {says}"
 
 
 def sign_of(request: Asked) -> str:
@@ -214,7 +212,7 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
     others = [table_of(request, "properties", one.name, {"given": False}) for one in surfaces]
     return {
         "name": name_of(request), "title": request.title or title_of(request, made, says), "verdict": says,
-        "turnover": made["nutation"]["digits"] if turns_over(item) else "", "unit": made["nutation"]["unit"],
+        "turnover": _lasting(made["nutation"]) if turns_over(item) else "",
         "place": place_of(family, motion), "sign": sign_of(request), "command": request.command, "note": request.note,
         "parts": list(request.parts), "family": family.name, "follows": bool(family.sampled), "card": [*_rows(made)],
         "outweighed": outweighed(beside), "outweighed_by": [one.says for one in beside if one.outweighs],
@@ -227,6 +225,14 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
         "again": reproduced(request, motion) if "elsewhere" in request.parts else "",
         "neighbours": [[words, f"`{other.command}`"] for words, other in near(request)],
     }  # fmt: skip
+
+
+def _lasting(entry: Mapping[str, Any]) -> str:
+    """Return a time of the card in a sentence, "132.7 units of time" or "2.5(1) s"; "no time" where it has none."""
+    if entry["value"] is None:
+        return "no time"
+    time = concise(entry["value"], entry["sigma"]) if entry["sigma"] else f"{entry['value']:.4g}"
+    return f"{time} {entry['unit'].replace('time', 'units of time')}"
 
 
 def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]:

@@ -487,7 +487,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
         return {
-            "title": f"field {_field_words(options['field'] or (float(B2), float(B3)))}",
+            "title": f"field {_field_words(options['field'] or [float(f'{float(x):.6g}') for x in (B2, B3)])}",
             "prime": [*map(_exact, (B2, B3))],
         }
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]

@@ -86,11 +86,11 @@ def test_rows_that_fail_are_listed_and_the_others_built(tmp_path: Path, capsys: 
 def test_differences_have_the_digits_that_both_numbers_have() -> None:
     """No digit of a difference is beyond those of its terms; sigmas add in quadrature; other units have none."""
     entry = {"value": 1.25, "digits": "1.250", "sigma": None, "unit": "s"}
-    assert difference(entry, entry | {"value": 1.5, "digits": "1.50000"}) == "0.250 s"
+    assert difference(entry, entry | {"value": 1.5, "digits": "1.50000"}) == "0.250"
     assert difference(entry, entry) == "0"
     assert difference(entry, entry | {"unit": "time"}) == difference(entry, entry | {"value": None}) == "\N{EN DASH}"
     uncertain = entry | {"sigma": 0.03}
-    assert difference(uncertain, uncertain | {"value": 1.5, "sigma": 0.04}) == "0.250(50) s"
+    assert difference(uncertain, uncertain | {"value": 1.5, "sigma": 0.04}) == "0.250(50)"
 
 
 def test_two_bodies_stand_side_by_side() -> None:
@@ -102,7 +102,7 @@ def test_two_bodies_stand_side_by_side() -> None:
     text = files[f"{name}.md"]
     assert all(entry["letter"].replace("\\", "\\\\") in text or entry["letter"] in text
                for entry in card(pair[0]).values() if entry["value"] is not None)  # fmt: skip
-    assert "4.014179846 time" in text
+    assert "4.014179846" in text
     assert "no start was given" in text
 
 

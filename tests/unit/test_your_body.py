@@ -20,7 +20,7 @@ from atlas.book.load import load
 from atlas.book.markdown import fenced, read
 from atlas.book.parts import Asked
 from atlas.book.verdict import stands, verdict
-from atlas.book.your_body import explorer_of, files_of, name_of, sign_of, title_of
+from atlas.book.your_body import explorer_of, files_of, name_of, sign_of, template_values, title_of
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
 from atlas.errors import AtlasError, FaultsError
@@ -175,6 +175,36 @@ def test_every_branch_of_the_prose_is_a_report(name: str, tmp_path: Path) -> Non
         assert entry["reason"] in {None, ONE_PERIOD} or entry["reason"].lower() in texts[texts.index(place) :].lower()
     again = request_of(["--from", str(tmp_path / f"{name_of(request)}.inputs.toml")])
     assert files_of(again) == files
+
+
+@pytest.mark.parametrize(
+    ("words", "recipe", "is_drawn"),
+    [
+        ("--ratio 2 --field 0 1 --omega 0 0 0", "general_motion", False),
+        ("--ratio 2 --field 1 1 --omega 0 0 0", "general_motion", False),
+        ("--ratio 2 --field 1 1 --omega 0 0 1", "general_motion", True),
+        ("--ratio 1.5 --field 0 0 --omega 0 0 1", "spectrum", False),
+        ("--ratio 1.5 --field 0 0 --omega 1 0 0", "general_motion", True),
+        ("--ratio 1.5 --field 0 0 --omega 1 0 0", "pseudo_oscillator", False),
+        ("--ratio 1.5 --field 0 0 --omega 1 0 0", "quadric", False),
+        ("--inertia 0.8 1 1.3 --omega 0 0 1", "asymmetric_motion", False),
+        ("--inertia 0.8 1 1.3 --omega 0 1 0", "asymmetric_motion", True),
+    ],
+)
+def test_a_figure_of_what_does_not_change_gives_way_to_its_reason(words: str, recipe: str, is_drawn: bool) -> None:
+    """A body at rest has no trace, a free one no quadric; the axis of a steady motion still goes round."""
+    request = request_of(words)
+    values = template_values(request, card(request))
+    assert (f'recipe = "{recipe}"' in str(values["figures"])) == is_drawn
+    assert is_drawn or any("constant" in line or "Quadric" in line for line in values["left_out"])
+
+
+def test_a_free_spin_about_an_axis_has_the_rate_of_its_start() -> None:
+    """No turn about the momentum: in the limit of small nutations it would take 2 pi/(I omega3)."""
+    for words in ("--ratio 1.5 --field 0 0 --omega 0 0 0.5", "--inertia 0.8 1 1.3 --omega 0 0 0.5"):
+        made = card(request_of(words))
+        assert made["spin"]["value"] == 0.5
+        assert made["turn"]["reason"] == "the axis does not go round"
 
 
 def test_inputs_are_as_typed_and_as_evaluated() -> None:

@@ -278,7 +278,7 @@ def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
     for key, (words, symbol, unit) in DIMENSIONS.items():
         value = getattr(case.body_record, key)
         if value is not None:
-            yield words, symbol, value, unit
+            yield words, symbol, value, _unit_of(case, unit)
     if case.physical is not None and case.units is not None:
         for words, letter, vector, unit in (
             ("magnetic field", "B", case.physical.B, case.units.B_unit),
@@ -288,6 +288,12 @@ def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
                 yield words if j == 1 else "", f"${letter}_{j}$", float(component), unit
 
 
+def _unit_of(case: BodyAndField, unit: str) -> str:
+    """Return a unit of a body's dimension in SI, or the Gaussian one if its charge is in a Gaussian field."""
+    is_gaussian = case.units is not None and case.units.mu_unit == "statC/g" and case.body_record.charge is not None
+    return {"kg": "g", "m": "cm", "C": "statC", "kg m$^2$": "g cm$^2$"}[unit] if is_gaussian else unit
+
+
 def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
     """Yield (words, symbol, value, unit) of moments, their ratio, the charge-to-mass ratio and B'."""
     from atlas.bodies.certified_body import ratio_of
@@ -295,8 +301,9 @@ def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, s
     exact = case.exact
     if case.body_record is not None and case.body_record.shape:
         I2, I3 = certified(lambda: (exact.I2, exact.I3), digits)
-        yield "moment of inertia", "$I_2$", I2, "kg m$^2$"
-        yield "", "$I_3$", I3, "kg m$^2$"
+        unit = _unit_of(case, "kg m$^2$")
+        yield "moment of inertia", "$I_2$", I2, unit
+        yield "", "$I_3$", I3, unit
     yield "ratio of the moments", "$I=I_3/I_2$", certified(lambda: ratio_of(exact), digits), "1"
     if case.physical is not None and case.units is not None:
         yield "charge-to-mass ratio", r"$\mu$", case.physical.mu, case.units.mu_unit
