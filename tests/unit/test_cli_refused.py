@@ -135,7 +135,7 @@ CASES = [
     ("motion --ratio 1 --field 1 2 --omega2 1 --times --json", "--times takes T [T ...]; found none."),
     ("motion --ratio 1 --field 1 2 --omega2 1 --angle 1", "--field is one number, the strength of the field, not 2"),
     ("motion --shape ring --radius 1 --density 1 --magnetic 1 2 --charge 1 --omega2 1", "; give --mass instead"),
-    ("motion --shape sphere --radius 1 --density 1 --mass 1 --field 1 2 --omega2 1", "all sizes of a sphere and without"),
+    ("motion --shape sphere --radius 1 --density 1 --mass 1 --field 1 2 --omega2 1", "all sizes of a sphere"),
     ("motion --ratio 1 --mu 1C/kg --magnetic 1 2 --units gaussian --omega2 1", "1C/kg is in SI"),
     ("page --ratio 1.5 --field 1 2 --name a/b", "a name has letters, digits and"),
     ("page --fit {place}/one.csv", "5 times"),

@@ -290,7 +290,8 @@ def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
 
 def _unit_of(case: BodyAndField, unit: str) -> str:
     """Return a unit of a body's dimension in SI, or the Gaussian one if its charge is in a Gaussian field."""
-    is_gaussian = case.units is not None and case.units.mu_unit == "statC/g" and case.body_record.charge is not None
+    is_charged = case.body_record is not None and case.body_record.charge is not None
+    is_gaussian = is_charged and case.units is not None and case.units.mu_unit == "statC/g"
     return {"kg": "g", "m": "cm", "C": "statC", "kg m$^2$": "g cm$^2$"}[unit] if is_gaussian else unit
 
 
