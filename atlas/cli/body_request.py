@@ -235,7 +235,7 @@ def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
             error.ctx = error.ctx.parent or error.ctx  # whose help has all options
         sentence = explained(error) if isinstance(error, click.ClickException) else str(error)
         says.append(sentence if not option or "--" in sentence else f"{option}: {sentence}")
-    raise FaultsError(f"{file.place(one) if file else ''}{one}" for one in says)
+    raise FaultsError(f"{file.place(one) if file else ''}{one}" for one in says) from faults[0][1]
 
 
 def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:

@@ -91,14 +91,14 @@ def rows_of(table: Path) -> Iterator[tuple[int, list[str]]]:
     Raises FaultsError for columns that are no options.
     """
     units, lines = cells_of(table)
-    faults = list[str]()
+    faults = dict[str, AtlasError]()
     for name in units:
         try:
             words_of(name, "")
         except AtlasError as error:
-            faults.append(f"{table}, column {name}: {error}")
+            faults[f"{table}, column {name}: {error}"] = error
     if faults:
-        raise FaultsError(faults)
+        raise FaultsError(faults) from next(iter(faults.values()))
     for line, cells in lines:
         named = zip(units.items(), cells, strict=True)
         yield line, [word for (name, unit), cell in named if cell.strip() for word in words_of(name, cell, unit)]

@@ -285,6 +285,10 @@ CASES = [
     ("report atlas --set a=1 --set a=2", "--set a=... stands twice"),
     ("report your_body", "your_body takes a body, a field and a start"),
     ("report your_body --from {place}/bad.toml", "--from takes a file NAME.inputs.toml"),
+    ("report your_body --from toutatis --from gyroscope", "--from stands twice"),
+    ("page --ratio 1.5 --field 1 2 --omega2 1 --title a\x07", "leave out its control characters"),
+    ("report your_body --each {place}/other.csv --against toutatis", "do not go together"),
+    ("report your_body --each {place}/other.csv --out {place}/new", "spicy"),
     ("sweep general --ratio 1.5 --mu 1 --magnetic 1 2 2 --quantity k", "--magnetic takes 2 numbers, B2 B3"),
     ("sweep general --ratio 1.5 --set omega3=1kg:2kg:3 --quantity k", "--omega is in rad/s"),
     ("top --inertia 1 0.5 --direction 0 0 --omega 0 0 1", "zero vector"),
@@ -369,7 +373,7 @@ def refusal(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
     error, passed, cause = caught.value, set[tuple[str, int]](), caught.value
     while cause:  # an error of another floor, of which a word of the command line is the cause, is told by `fail`
         passed |= {(Path(frame.f_code.co_filename).name, line) for frame, line in walk_tb(cause.__traceback__)}
-        cause = cause.__context__  # type: ignore[assignment]
+        cause = cause.__cause__ or cause.__context__  # type: ignore[assignment]
     return error.format_message() if isinstance(error, click.ClickException) else str(error), passed
 
 
