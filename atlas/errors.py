@@ -55,7 +55,7 @@ class RelativisticWarning(AtlasWarning):
 
 def tell_nearest(fault: str, taken: str) -> None:
     """Warn of an input that is impossible by its last digits, and name what is taken in its place."""
-    warnings.warn(f"{fault}; taken is {taken}.", NearestInputWarning, stacklevel=5)
+    warnings.warn(f"{fault}; used instead is {taken}.", NearestInputWarning, stacklevel=5)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -64,8 +64,8 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
         right = f"--{option} is in {' and '.join(known)}" if known else f"--{option} has no unit"
         alike = (name for name, units in WANTED.items() if isinstance(units, str) and _parsed(units)[1] == powers)
         other = next(alike, None)
-        hint = f", as --{other} may be" if other and not angle else ""
-        raise AtlasError(f"{right}, or what can be made of it, not in {unit.strip()!r}{hint}.")
+        hint = f"; --{other} takes {unit.strip()!r}" if other and not angle else ""
+        raise AtlasError(f"{right}, or a unit that converts to it, not in {unit.strip()!r}{hint}.")
     value = number * factor
     exact = float(value)
     for name, power in angle.items():
@@ -79,7 +79,7 @@ def in_unit(number: Fraction, unit: str, wanted: str) -> float:
     value = number * factor / size
     angles = {name: powers.pop(name, 0) - right.pop(name, 0) for name in ANGLES}
     if powers != right:
-        raise AtlasError(f"the unit is {wanted or 'none'}, or what can be made of it, not {unit.strip()!r}.")
+        raise AtlasError(f"the unit is {wanted or 'none'}, or a unit that converts to it, not {unit.strip()!r}.")
     return math.prod((ANGLES[name] ** power for name, power in angles.items() if power), start=float(value))
 
 

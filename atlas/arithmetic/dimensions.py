@@ -49,4 +49,4 @@ def bare(value: Any, name: str, unit: str) -> Any:
             continue
         return np.asarray(magnitude) if np.ndim(magnitude) else magnitude
     wanted_unit = f"in {unit.replace('**', '^')}" if unit else "a number without a unit"
-    raise AtlasError(f"{name} must be {wanted_unit}, or what can be made of it, not {reprlib.repr(str(value))}.")
+    raise AtlasError(f"{name} must be {wanted_unit}, or a unit that converts to it, not {reprlib.repr(str(value))}.")

@@ -22,7 +22,7 @@ ROD = (
     "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
     "give it a radius."
 )
-NO_SUCH_BODY = "since g3 = (2 I2 - I3)/2 is a sum of m x^2"
+NO_SUCH_BODY = "since I2 - I3/2, the sum of m z^2 along the axis z, is not negative"
 
 
 def holds(where: Any) -> bool:

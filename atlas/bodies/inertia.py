@@ -113,7 +113,7 @@ def inertia_tensor(inertia: Any) -> FloatArray:
             f"I3 - I1 is a sum of 2 m x^2, but {excess}; {I[1] + I[0]:.15g} would do."
         )
     if beyond > ROUNDING * I[2]:
-        tell_nearest(f"The inertia tensor is that of no body by its last digits: {excess}", "a plane body")
+        tell_nearest(f"No body has this inertia tensor, by its last digits: {excess}", "a plane body")
     return tensor
 
 

@@ -128,5 +128,5 @@ def _size(name: str, unit: str, place: str) -> Fraction:
     try:
         return Fraction(size(unit, option))
     except AtlasError as error:
-        remedy = f"is in {WANTED[option]}, or what can be made of it" if option else "has no unit"
+        remedy = f"is in {WANTED[option]}, or a unit that converts to it" if option else "has no unit"
         raise AtlasError(f"{place}: {name} {remedy}, not in {unit!r}.") from error

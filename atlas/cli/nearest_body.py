@@ -47,7 +47,11 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
         doubles[largest_place] = math.nextafter(doubles[largest_place], 0.0)
     new = tuple(_with_value(x, d, f) for x, d, f in zip(numbers, doubles, moved_sizes, strict=True))
     _tell(
-        param, numbers, new, "moments of no body", "the plane body next to them" if len(numbers) > 1 else "the largest"
+        param,
+        numbers,
+        new,
+        "no body has such moments",
+        "the plane body next to them" if len(numbers) > 1 else "the largest",
     )
     return new if isinstance(value, tuple) else new[0]
 
@@ -75,7 +79,7 @@ def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
             _ask_for_order(param, value)
         return value
     new = tuple(_with_value(x, float(x) + move, None) for x, move in zip(value, moves, strict=True))
-    _tell(param, value, new, "the tensor of no body", "the plane body next to it")
+    _tell(param, value, new, "no body has such a tensor", "the plane body next to it")
     return new
 
 
@@ -149,4 +153,4 @@ def _tell(param: click.Parameter, numbers: Sequence[Typed], new: Sequence[Typed]
     ``fault`` says what that has, ``remedy`` what is taken instead, both as clauses.
     """
     was, text = " ".join(x.text for x in numbers), " ".join(f"{float(x):.10g}" for x in new)
-    click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {text}", err=True)
+    click.echo(f"atlas: --{param.name} {was}: {fault}, by the last digits; used instead is {remedy}, {text}", err=True)

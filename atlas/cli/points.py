@@ -189,7 +189,7 @@ def measured_columns(
                 columns[name].append(float(Fraction(x) * size(unit, option)) if option else x)
             except (ValueError, OverflowError, AtlasError) as error:
                 unit_text = (
-                    f" in {WANTED[option]}, or what can be made of it" if option in WANTED else " without a unit"
+                    f" in {WANTED[option]}, or a unit that converts to it" if option in WANTED else " without a unit"
                 )
                 under = f"{name} [{unit}] is not a number{unit_text}" if option else f"{name} is not a number"
                 raise click.UsageError(f"{path}: line {number}: {cell!r} under {under}.") from error

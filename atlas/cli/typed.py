@@ -106,7 +106,9 @@ class TypedRange(NamedTuple):
         if ":" not in text:
             return None
         if not (match := RANGE.fullmatch(text)):
-            raise click.UsageError(f"ranges are START:STOP:COUNT, COUNT a whole number, or end in :log; not {text!r}.")
+            raise click.UsageError(
+                f"a range is START:STOP:COUNT, COUNT an integer, with or without :log, not {text!r}."
+            )
         start, stop, count, log = match.groups()
         if len(count) > len(str(longest)) or not 2 <= int(count) <= longest:
             raise click.UsageError(f"a range has at least 2 and at most {longest} values, not {count:.30}.")

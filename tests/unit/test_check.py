@@ -210,7 +210,7 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
         ("t,R44\n0,1\n", "line 1: there are no data beside t; .*'R44' .*row and column"),
         ("t,roll,pitch,yaw\n0,1,1,1\n", r"There is 'roll', 'pitch', 'yaw' .*from_euler"),
         ("t,phi_deg\n0,1\n", "There is 'phi_deg' .*from_euler"),
-        ("t [kg],R11\n0,1\n", r"line 1: t is in s, or what can be made of it, not in 'kg'\."),
+        ("t [kg],R11\n0,1\n", r"line 1: t is in s, or a unit that converts to it, not in 'kg'\."),
         ("t,R11 [m]\n0,1\n", "R11 has no unit, not in 'm'"),
         ("t,R11,r11\n0,1,1\n", "R11 is there twice"),
         ("0.0,1,0,0\n", "line 1: the first line must name the columns, .* but begins with '0.0'"),

@@ -119,8 +119,8 @@ CASES = [
     ("motion --ratio 1 --field 1 2 --omega2 1 --times 0:1:1", "a range has at least 2 and"),
     ("figure hyperbola ratio=0.5", "a parameter has --set before it: --set ratio=0.5"),
     ("figure hyperbola --ratio 0.5", "given by --set ratio=VALUE"),
-    ("motion --shape ring --radius 1kg --field 1 2 --omega2 1", "--radius is in m, or what can be made of it"),
-    ("motion --ratio 1 --field 1T --angle 1 --omega2 1", "not in 'T', as --magnetic may be."),
+    ("motion --shape ring --radius 1kg --field 1 2 --omega2 1", "--radius is in m, or a unit that converts to it"),
+    ("motion --ratio 1 --field 1T --angle 1 --omega2 1", "not in 'T'; --magnetic takes 'T'."),
     ("motion --shape ring --radius 1xx --field 1 2 --omega2 1", "there is no unit 'xx'"),
     ("motion --shape ring --radius 1m+ --field 1 2 --omega2 1", "there is no unit 'm+'"),
     ("motion --shape disc --radius 1 --field 1 2 --omega2 1", "did you mean disk?"),
@@ -201,7 +201,7 @@ CASES = [
     ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),
     ("top --inertia 1 1 --magnetic 1 2 --coat ring --radius 1 --omega 1 2 3", "--coat needs --charge"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --charged 1 1", "--charged goes with --magnetic, not with --heavy"),
-    *((f"animate motion --over {text} --out {{place}}/a", "ranges are START:STOP:COUNT")
+    *((f"animate motion --over {text} --out {{place}}/a", "a range is START:STOP:COUNT")
       for text in ("omega2=0:2", "omega2=0:2:x", "omega2=0:2:3:4")),
     ("classify --ratio 1 --field 1 2 3", "--field takes 2 numbers"),
     ("animate motion --over omega2=0:2:1000000 --out {place}/new", "at most 2000 values, not 1000000"),
@@ -233,7 +233,7 @@ CASES = [
     (f"{SWEEP} --list {{place}}/ratios.csv --set ratio=2", "ratios.csv and elsewhere: give it once"),
     (f"{SWEEP} --ratio 1 --set ratio=2", "by --set and the options of body and field"),
     *((f"{SWEEP} --set {text}", "--set takes NAME=VALUES") for text in ("ratio", "=1", "ratio=")),
-    *((f"{SWEEP} --set ratio={text}", "ranges are START:STOP:COUNT")
+    *((f"{SWEEP} --set ratio={text}", "a range is START:STOP:COUNT")
       for text in ("1:2", "1:2:x", "1:2:3:lin", "1:2:3:log:4", "1:2:²")),
     *((f"{SWEEP} --set ratio={text}:3:log", "ends of one sign") for text in ("0:1", "-1:1", "1:0")),
     *((f"{SWEEP} --set ratio=1:2:{text}", f"at most 10000000 values, not {text}")
@@ -308,7 +308,7 @@ CASES = [
     (f"{OVER} azimuth=0:720:5", "azimuth must lie between -360 and 360, not 540"),
     (f"{OVER} azimuth=0:x:5", "from a number to a number"),
     (f"{OVER} azimuth=0:90:1", "at most 2000 values, not 1."),
-    (f"{OVER} azimuth=0:90:\u0663", "ranges are START:STOP:COUNT"),
+    (f"{OVER} azimuth=0:90:\u0663", "a range is START:STOP:COUNT"),
     (f"{OVER} tilt=0:90:4", "no parameter 'tilt'"),
     ("animate film_strip --over tilt=0:1:3 --out {place}/new", "azimuth, elevation, t"),
     (f"{OVER} azimuth=0:90:4 --set azimuth=3", "which can't have the value 3 too"),

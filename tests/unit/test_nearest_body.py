@@ -35,7 +35,7 @@ def test_printed_plates_are_bodies(digits: int) -> None:
     for moments in plates(digits, 12):
         outcome = run("--inertia", *moments, *FREE)
         assert outcome.exit_code == 0, (moments, outcome.output)
-        line = re.search(r"taken is the plane body next to them, (\S+) (\S+) (\S+)", outcome.stderr)
+        line = re.search(r"used instead is the plane body next to them, (\S+) (\S+) (\S+)", outcome.stderr)
         if line:
             count += 1
             moments_taken = np.array([*map(float, line.groups())])
@@ -49,8 +49,8 @@ def test_printed_plates_are_bodies(digits: int) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--inertia", ".281", ".563"), "taken is the plane body next to them, .*0.2813333333 0.5626666667"),
-        (("--ratio", "2.0000001"), "taken is the largest, 2"),
+        (("--inertia", ".281", ".563"), "used instead is the plane body next to them, .*0.2813333333 0.5626666667"),
+        (("--ratio", "2.0000001"), "used instead is the largest, 2"),
         (("--tensor", "0.2083", "0.2083", "0.4167", "0.125", "0", "0"), "0.20835 0.20835 0.4167 0.125 0 0"),
         (("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071"), "of the length 0.99999, .* divided by it"),
     ],
@@ -96,7 +96,7 @@ def test_a_tensor_of_single_precision_is_a_body() -> None:
         entries = [repr(float(tensor[i, j])) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
         outcome = run("--tensor", *entries, *FREE)
         assert outcome.exit_code == 0, outcome.output
-        count += "taken is the plane body next to it" in outcome.stderr
+        count += "used instead is the plane body next to it" in outcome.stderr
     assert count
 
 

@@ -19,7 +19,9 @@ TURN: NDArray[np.float64] = Rotation.from_rotvec([0.3, -0.5, 1.1]).as_matrix()
 def test_an_attitude_in_single_precision_is_taken_to_the_nearest_rotation() -> None:
     """The warning names the change; the motion is that of the rotation nearest to the matrix."""
     rough = TURN.astype(np.float32)
-    with pytest.warns(NearestInputWarning, match="attitude is not orthogonal: .*; taken is the nearest rotation"):
+    with pytest.warns(
+        NearestInputWarning, match="attitude is not orthogonal: .*; used instead is the nearest rotation"
+    ):
         motion = atlas.motion(1.5, FIELD, OMEGA, rough)
     R = motion.rotation(0.0)
     assert np.abs(R.T @ R - np.eye(3)).max() < 1e-15
@@ -34,11 +36,15 @@ def test_a_tensor_in_single_precision_is_taken() -> None:
     tensor = TURN @ np.diag([1.0, 2.0, 2.5]) @ TURN.T
     rough = tensor.astype(np.float32).astype(float)
     rough[0, 1] += 1e-7
-    with pytest.warns(NearestInputWarning, match=r"elements \(1, 2\) and \(2, 1\) differ by .*; taken is the mean"):
+    with pytest.warns(
+        NearestInputWarning, match=r"elements \(1, 2\) and \(2, 1\) differ by .*; used instead is the mean"
+    ):
         motion = atlas.motion(rough, FIELD, OMEGA)
     assert np.abs(motion.rotation(1.0) - atlas.motion(tensor, FIELD, OMEGA).rotation(1.0)).max() < 1e-6
     plate = TURN @ np.diag([1.0, 2.0, 3.0 + 1e-7]) @ TURN.T
-    with pytest.warns(NearestInputWarning, match="that of no body by its last digits: 3 exceeds 2 . 1 by .*plane"):
+    with pytest.warns(
+        NearestInputWarning, match="No body has this inertia tensor, by its last digits: 3 exceeds 2 . 1 by .*plane"
+    ):
         atlas.motion((plate + plate.T) / 2, FIELD, OMEGA)
 
 
@@ -66,7 +72,7 @@ def test_a_refusal_names_a_value_that_is_accepted(make: object, words: str) -> N
 
 def test_a_quaternion_of_four_digits_is_divided_by_its_length() -> None:
     """0.7071 0 0 0.7071 is a quarter turn, said to be divided."""
-    with pytest.warns(NearestInputWarning, match="length 0.99999; taken is the quaternion divided by it"):
+    with pytest.warns(NearestInputWarning, match="length 0.99999; used instead is the quaternion divided by it"):
         R = rotation_of((0.7071, 0, 0, 0.7071), "q").as_matrix()
     assert np.abs(R - [[1, 0, 0], [0, 0, -1], [0, 1, 0]]).max() < 1e-15
 

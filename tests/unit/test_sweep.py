@@ -151,7 +151,7 @@ def test_the_heading_of_a_list_of_particles_is_in_si_or_as_it_is_written(tmp_pat
     [
         (
             "ratio,B2,B3,omega2 [banana]",
-            "'0.3' under omega2 [banana] is not a number in rad/s, or what can be made of it",
+            "'0.3' under omega2 [banana] is not a number in rad/s, or a unit that converts to it",
         ),
         ("ratio,B2,B3 [mT],omega2", "B3 [mT] is not a number in rad/s"),
         ("ratio [m],B2,B3,omega2", "ratio [m] is not a number without a unit"),

@@ -189,7 +189,7 @@ def test_a_particle_is_in_si(q: Units) -> None:
 @pytest.mark.parametrize(
     ("refused_call", "says"),
     [
-        (lambda q: atlas.SymmetricBody.ring(q(1.0, "m"), 1.0), "The mass must be in kg, or what can be made of it"),
+        (lambda q: atlas.SymmetricBody.ring(q(1.0, "m"), 1.0), "The mass must be in kg, or a unit that converts to it"),
         (lambda q: atlas.SymmetricBody.ring(1.0, q(1.0, "s")), "The radius must be in m"),
         (lambda q: atlas.Field.si(q([0, 0, 1], "V/m"), mu=1.0), "B must be in T"),
         (lambda q: atlas.Quadric(1.5, q([1, 2], "T")), "B2 must be in rad/s"),
