@@ -28,6 +28,8 @@ DIMENSIONS = {
     "charge": ("charge", "$e$", "C"),
 }
 """Dimensions of a body: name in words, letter, unit in SI."""
+GAUSSIAN_UNITS = {"kg": "g", "m": "cm", "C": "statC", "kg m$^2$": "g cm$^2$"}
+"""Gaussian units in the place of those in SI."""
 
 
 class Body(StrictStruct, frozen=True):
@@ -207,8 +209,13 @@ def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fr
 
 def parameters(known_records: BodiesAndFields) -> list[str]:
     """Return lines of Markdown, one for each body and each field: its title and its inputs."""
-    records: list[Body | Field] = [*known_records.bodies.values(), *known_records.fields.values()]
-    return [f"{record.title}: {_written_out(record)}" for record in records]
+    fields = [*known_records.fields.values()]
+    is_gaussian = bool(fields) and all(one.system == "Gaussian" for one in fields)
+    records: list[Body | Field] = [*known_records.bodies.values(), *fields]
+    return [
+        f"{record.title}: {_written_out(record, is_gaussian and getattr(record, 'charge', None) is not None)}"
+        for record in records
+    ]
 
 
 _UNITS = {
@@ -218,14 +225,22 @@ _UNITS = {
         "charge_to_mass": "C/kg",
         **{key: unit for key, (_, _, unit) in DIMENSIONS.items()},
     },
-    "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g"},
+    "Gaussian": {
+        "B": "G",
+        "E": "statV/cm",
+        "charge_to_mass": "statC/g",
+        **{key: GAUSSIAN_UNITS[unit] for key, (_, _, unit) in DIMENSIONS.items()},
+    },
 }
 _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": "(I2, I3)"}
 
 
-def _written_out(record: Body | Field) -> str:
-    """Return the inputs of a record as text, "name = value unit", separated by commas; left out are defaults."""
-    units = _UNITS[getattr(record, "system", "SI")]
+def _written_out(record: Body | Field, is_gaussian: bool) -> str:
+    """Return the inputs of a record as text, "name = value unit", separated by commas; left out are defaults.
+
+    `is_gaussian` says that a body's dimensions are in Gaussian units, as those of its field.
+    """
+    units = _UNITS["Gaussian" if is_gaussian else getattr(record, "system", "SI")]
     numbers = []
     for key in record.__struct_fields__:
         value, omitted = getattr(record, key), getattr(type(record)(title=""), key)

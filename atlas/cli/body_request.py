@@ -508,5 +508,6 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 def _field_words(field: Any, unit: str = "") -> str:
     """Return a field as text: "strength at angle" as typed, else its components in brackets, with a unit."""
     if isinstance(field, Inclined):
-        return " at ".join(spaced(x.text) for x in field.parts)
+        strength, angle = (spaced(x.text) for x in field.parts)
+        return f"{strength}{f' {unit}' * strength[-1:].isdigit()} at {angle}"
     return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"

@@ -137,6 +137,10 @@ CASES = [
     ("motion --shape ring --radius 1 --density 1 --magnetic 1 2 --charge 1 --omega2 1", "; give --mass instead"),
     ("motion --shape sphere --radius 1 --density 1 --mass 1 --field 1 2 --omega2 1", "all sizes of a sphere"),
     ("motion --ratio 1 --mu 1C/kg --magnetic 1 2 --units gaussian --omega2 1", "1C/kg is in SI"),
+    ("page --ratio 1.5 --field 1 2 --title a\x01b", "leave out its control characters"),
+    ("report your_body --ratio 1.5 --field 1 2 --only crad", "there is no part 'crad'"),
+    ("report your_body --from toutatis --from gyroscope", "--from stands twice"),
+    ("report your_body --ratio 1.5 --each a.csv --against toutatis", "--each and --against do not go together"),
     ("page --ratio 1.5 --field 1 2 --name a/b", "a name has letters, digits and"),
     ("page --fit {place}/one.csv", "5 times"),
     ("motion --ratio 1.5 --field 1 2", "the start is missing: give --omega2 W2"),
@@ -351,6 +355,7 @@ ELSEWHERE = (
     "FaultsError(",  # of several options at fault, in test_your_body
     "raise ValueError(text)",
     "a ratio, three moments or a tensor (3, 3) is wanted",  # of an object of Python
+    "OPTIONS, 'of a body'",  # of a keyword in Python or a column of a table, in test_several_bodies
     "AtlasError(error.format_message())",  # of one row of several, which the index lists
 )
 """What no words alone bring about."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from atlas.arithmetic.certified_inputs import rational
 from atlas.arithmetic.given import exact_number
-from atlas.book.body_and_field import DIMENSIONS, BodyAndField
+from atlas.book.body_and_field import DIMENSIONS, GAUSSIAN_UNITS, BodyAndField
 from atlas.book.digits import MINUS, Number, plain
 from atlas.book.tables.elementary import NONE
 from atlas.book.tables.table import RATE, Data, Request, certified, heads, quantity
@@ -292,7 +292,7 @@ def _unit_of(case: BodyAndField, unit: str) -> str:
     """Return a unit of a body's dimension in SI, or the Gaussian one if its charge is in a Gaussian field."""
     is_charged = case.body_record is not None and case.body_record.charge is not None
     is_gaussian = is_charged and case.units is not None and case.units.mu_unit == "statC/g"
-    return {"kg": "g", "m": "cm", "C": "statC", "kg m$^2$": "g cm$^2$"}[unit] if is_gaussian else unit
+    return GAUSSIAN_UNITS[unit] if is_gaussian else unit
 
 
 def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
