@@ -1,4 +1,4 @@
-"""Calls of the public face as a user types them: mypy accepts those of `right`, and refuses every line of `wrong`."""
+"""Calls that a user may type: mypy accepts those of `accepted_calls`, and refuses every line of `refused_calls`."""
 
 from fractions import Fraction
 

@@ -200,7 +200,7 @@ def of_arrays(
         raise AtlasError(f"The data must be exactly one of {', '.join(data)}, not {' and '.join(kinds) or 'none'}.")
     kind, times = kinds[0], measured(t, "t", nan_policy)
     if times.ndim != 1 or times.size < LEAST:
-        raise AtlasError(f"The times have the shape {times.shape}: a fit needs (N,) with N = {LEAST} or more.")
+        raise AtlasError(f"The times have the shape {times.shape}: a fit needs {LEAST} times or more, (N,).")
     values, function = _values(kind, data[kind], times, nan_policy)
     is_known = sigma is not None
     errors = measured(1.0 if sigma is None else sigma, "sigma", nan_policy)

@@ -1,4 +1,4 @@
-"""What is measured: a motion with its exact parameters, its equations, its true values and its closed forms."""
+"""A motion to measure: its exact parameters, its equations, its true values and its closed forms."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
@@ -17,7 +17,7 @@ Solve: TypeAlias = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True)
 class Method:
-    """A closed form: ``prepare`` does once what does not depend on the times, with ``modules`` loaded before."""
+    """A closed form: ``prepare`` does once all work independent of the times, with ``modules`` loaded before."""
 
     name: str
     prepare: Callable[[], Solve]
@@ -43,7 +43,7 @@ class Case:
     scale: Callable[[FloatArray], FloatArray]
     closed: tuple[Method, ...]
     base: Callable[[], Solve] | None = None
-    """What times are compared with, if none of the closed forms is plain NumPy."""
+    """The reference of the times, if none of the closed forms is plain NumPy."""
     checked: int | None = None
     """At how many of the times values are compared with true ones, where these take long."""
     from_omega: bool = False
@@ -94,7 +94,7 @@ def even(horizon: float, count: int) -> FloatArray:
 def rotation_case(make: Callable[[], Any], exact: Any, momentum: Sequence[Any], *others: Method, **facts: Any) -> Case:
     """Return the case of a rotation R(t): the motion that `make` makes, in balls `exact`, and other closed forms.
 
-    The state is R, row by row, and after it ``momentum``, what else the equations of motion advance, at t = 0.
+    The state is R, row by row, and after it ``momentum``, the other variables of the equations of motion, at t = 0.
     """
 
     def made() -> Any:

@@ -4,7 +4,7 @@ The question: how long does one of N = 1 to 1e7 matrices take, against the time 
 
 The elementary motion only: R(t) by the plain formula, by its peers and by the atlas, into fresh memory and into
 memory given with `out=`, on one thread and on two, beside filling the same memory with a constant. All are timed by
-turns in one run; times are seeded random numbers, |t| < 1e8 and, as `far`, |t| < 5e14. A uniform grid is also timed
+turns in one run; times are seeded random numbers, |t| < 1e8 and, as `large`, |t| < 5e14. A uniform grid is also timed
 beside `rotation` at its times.
 
 Thousands of times at once, beside the plain formula, are also timed in a fresh process each, `python -m benchmarks.cost

@@ -57,7 +57,7 @@ class Bench:
 
     @classmethod
     def of(cls, case: Case, plan: Plan) -> "Bench":
-        """Compute what all methods share."""
+        """Compute the values that all methods share."""
         times = {horizon: even(horizon, plan.samples) for horizon in plan.horizons}
         truths = {horizon: reference(case, t) for horizon, t in times.items()}
         plain = case.base or next(method for method in case.closed if method.name == "plain").prepare

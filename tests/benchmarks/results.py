@@ -1,4 +1,4 @@
-"""What a run measures beside the record, and the machine it ran on."""
+"""Settings that a run measures beside the record, and the machine it ran on."""
 
 import platform
 import re
@@ -30,7 +30,7 @@ ONE = {
 
 
 class Setup(Item, frozen=True):
-    """What a method costs once, before its first value: building, compiling, simplifying. Imports are not counted.
+    """The seconds of a method before its first value: building, compiling, simplifying. Imports are not counted.
 
     ``seconds`` is the first time in the process, ``again`` the median of a few later ones, where they were measured.
     """
@@ -95,7 +95,7 @@ def write(record: Results, path: Path) -> None:
 
 
 def sentence(error: Exception) -> str:
-    """Return what a peer raised, in one line."""
+    """Return a peer's error in one line."""
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 

@@ -63,7 +63,7 @@ def nutation(
 
 
 def _ends(P: list[mpf], start: mpf) -> tuple[mpf, mpf, list[Any]] | None:
-    """Return the roots about `at` between which P is positive, and the others."""
+    """Return the roots about `start` between which P is positive, and the others."""
     tiny = mpf(10) ** -(mp.dps // 3)
     try:
         roots = mp.polyroots(P, maxsteps=300, extraprec=mp.prec)

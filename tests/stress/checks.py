@@ -55,7 +55,7 @@ def check(
     """Check an object of a family made of `values`, by balls made of `exactly` where that differs.
 
     Numbers are checked in ulps of themselves, matrices in ulps of 1, vectors in ulps of their length, or of
-    `unit(name, t)`. `where` gives by the balls the name of the regime of a time; `more` makes further checks.
+    `unit(name, t)`. `region` gives by the balls the name of the regime of a time; `more` makes further checks.
     """
     family = FAMILIES[name]
     with worst.checking(name, regime, inputs):

@@ -11,7 +11,7 @@ from atlas.trial.proofs.model import rodrigues
 
 
 def launches(seed: int, count: int, *, is_along: bool = False) -> list[Any]:
-    """Return balls: inertia I0, Larmor frequency alpha, momentum (m2, m3) of either sign; m2 = 0 `along` the field."""
+    """Return balls: inertia I0, Larmor frequency alpha, momentum (m2, m3) of either sign; m2 = 0 if `is_along`."""
     draw, points = np.random.default_rng(seed), []
     for _ in range(count):
         I0, alpha, m2, m3 = abs(signed(draw)), signed(draw), 0.0 if is_along else signed(draw), signed(draw)

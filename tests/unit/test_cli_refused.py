@@ -1,4 +1,4 @@
-"""What the command line refuses: each line that says no is reached, and says what was wrong."""
+"""Refusals of the command line: each line that raises one is reached, and names the fault."""
 
 import ast
 import re
@@ -358,7 +358,7 @@ ELSEWHERE = (
     "OPTIONS, 'of a body'",  # of a keyword in Python or a column of a table, in test_several_bodies
     "AtlasError(error.format_message())",  # of one row of several, which the index lists
 )
-"""What no words alone bring about."""
+"""Refusals that no words alone bring about."""
 
 
 @pytest.fixture
@@ -372,7 +372,7 @@ def place(tmp_path: Path) -> Path:
 
 
 def refusal(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
-    """Return what the command line says to words that it refuses, and the lines of code that were on the way."""
+    """Return the command line's message to words that it refuses, and the lines of code on the way."""
     with pytest.raises((click.ClickException, AtlasError)) as caught:
         command.main(words, prog_name="atlas", standalone_mode=False)
     error, passed, cause = caught.value, set[tuple[str, int]](), caught.value
@@ -422,7 +422,7 @@ def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -
 def test_every_failure_is_one_line_and_a_status(
     error: BaseException, status: int, says: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """2 for what was typed, 1 for what failed, 128 and the signal's number for what was interrupted."""
+    """2 for a wrong input, 1 for a failure, 128 and the signal's number for an interruption."""
 
     def failing(*_: Any, **__: Any) -> None:
         raise error

@@ -78,7 +78,7 @@ def test_each_public_name_has_the_type_of_its_home() -> None:
 
 @pytest.mark.slow
 def test_a_type_checker_takes_right_calls_and_refuses_each_wrong_one() -> None:
-    """Every statement of `wrong` is an error, and no statement of `right` is."""
+    """Every statement of `refused_calls` is an error, and no statement of `accepted_calls` is."""
     text = CALLS.read_text("utf-8")
     refused_calls = next(
         node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == "refused_calls"

@@ -19,7 +19,7 @@ from atlas.places import folder
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
-    """Run a command; return its exit status, what it prints and what it says."""
+    """Run a command; return its exit status, its output and its messages."""
     with pytest.raises(SystemExit) as end:
         main(["report", "your_body", *words])
     captured = capsys.readouterr()
@@ -94,7 +94,7 @@ def test_differences_have_the_digits_that_both_numbers_have() -> None:
 
 
 def test_two_bodies_stand_side_by_side() -> None:
-    """Each number of both cards has a row with its values, and what one of them lacks has its reason."""
+    """Each number of both cards has a row with its values, and a missing one its reason."""
     pair = [
         request_of(words.split())[0] for words in ("--ratio 0.7 --field 1 2 --omega2 0.7", "--ratio 0.7 --field 2 0")
     ]
@@ -149,7 +149,7 @@ BODIES = folder("reports") / "bodies"
 
 @pytest.mark.parametrize("name", [row[0] for row in csv.reader((BODIES / "gallery.csv").read_text().splitlines()[1:])])
 def test_the_guide_has_the_card_of_each_body_of_the_gallery(name: str) -> None:
-    """Its numbers are computed from the file of inputs, which names a source and what was assumed."""
+    """Its numbers are computed from the file of inputs, which names a source and its assumptions."""
     result = card(request_of(["--from", name])[0])
     row = [value_of(result[key]) for key in ("ratio", "tilt", "turn", "spin", "nutation")]
     guide = (folder("reports") / "guide.md").read_text("utf-8")

@@ -30,7 +30,7 @@ def sweep(out: Path, **options: Any) -> bytes:
 
 
 def test_a_grid_has_every_combination_once_and_its_quantities() -> None:
-    """The last parameter varies fastest, and each row has what the motion of its parameters has."""
+    """The last parameter varies fastest, and each row has the values of the motion of its parameters."""
     table = atlas.sweep("elementary", GRID, NAMES)
     assert list(table) == [*GRID, *NAMES]
     grid = np.meshgrid(*(np.atleast_1d(x) for x in GRID.values()), indexing="ij")
@@ -111,7 +111,7 @@ def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) 
 
 
 def listed(place: Path, family: str, heading: str, row: str, quantity: str) -> tuple[int, list[str]]:
-    """Return the status of a sweep over a list of one row, and its table, or what is told."""
+    """Return the status of a sweep over a list of one row, and its table, or the message."""
     (place / "l.csv").write_text(f"{heading}\n{row}\n")
     words = ["sweep", family, "--list", place / "l.csv", "--quantity", quantity, "--out", place / "t.csv", "-j1"]
     result = CliRunner().invoke(program, [str(word) for word in words])
@@ -129,7 +129,7 @@ def listed(place: Path, family: str, heading: str, row: str, quantity: str) -> t
 def test_a_unit_in_the_heading_of_a_list_is_that_of_its_column(
     tmp_path: Path, unit: str, factor: float, time: str
 ) -> None:
-    """A rate in Hz is turns a second, and the table is in seconds then; what the atlas writes is taken as it is."""
+    """A rate in Hz is turns a second, and the table is in seconds then; files of the atlas are taken as they are."""
     status, lines = listed(tmp_path, "elementary", f"ratio,B2,B3,omega2 [{unit}]", "1.5,1,2,0.5", "k")
     assert (status, lines[0]) == (0, "ratio,B2 [1/time],B3 [1/time],omega2 [1/time],k [1/time]".replace("time", time))
     assert float(lines[1].split(",")[3]) == 0.5 * factor
@@ -158,7 +158,7 @@ def test_the_heading_of_a_list_of_particles_is_in_si_or_as_it_is_written(tmp_pat
     ],
 )
 def test_a_unit_of_something_else_in_a_heading_is_refused(tmp_path: Path, heading: str, says: str) -> None:
-    """With status 2, and what would be right."""
+    """With status 2, and the remedy."""
     status, output = listed(tmp_path, "elementary", heading, "1.5,1,2,0.3", "k")
     assert (status, says in " ".join(output)) == (2, True), output
 
@@ -225,7 +225,7 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", [name for name, swept in FAMILIES.items() if swept.family.at_once > 1])
 def test_rows_leave_no_garbage(name: str) -> None:
-    """What many rows needed is free as soon as they are done: a collector of garbage, slow beside Dask, has no work."""
+    """Objects of many rows are free as soon as these are done: a garbage collector, slow beside Dask, has no work."""
     swept, count = FAMILIES[name], 16
     required = [p for p in swept.family.parameters if p.needed]
     parameters = {key: [value] * count for p in required for key, value in zip(p.names, p.default, strict=True)}
@@ -319,7 +319,7 @@ def test_a_row_without_a_number_gives_a_reason_and_the_table_continues(tmp_path:
 @pytest.mark.parametrize("listed", [False, True])
 @pytest.mark.parametrize("rows", [None, 1, 4])
 def test_the_first_row_outside_the_domain_is_named(tmp_path: Path, listed: bool, rows: int | None) -> None:
-    """By its number in the whole table, in whichever part it is, and its parameters; what was done before is kept."""
+    """By its number in the whole table, in whichever part it is, and its parameters; finished rows are kept."""
     parameters: dict[str, Any] = {"ratio": [0.5, 1.5], "B2": 1, "B3": 1, "omega2": [1, 3, 4, -1, 2, -1]}
     if listed:
         parameters["ratio"] = 6 * [0.5]
@@ -375,7 +375,7 @@ def test_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: pytest.Monke
 
 @pytest.mark.slow
 def test_no_field_of_a_record_shadows_a_name_in_the_annotations_beside_it() -> None:
-    """From Python 3.14 on annotations are evaluated late, when a field `list` would be what `list` means."""
+    """From Python 3.14 on annotations are evaluated late, when a field `list` would be the meaning of `list`."""
     shadows = []
     for path in Path(atlas.__file__).parent.rglob("*.py"):
         for record in (node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ClassDef)):
