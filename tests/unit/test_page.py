@@ -167,7 +167,7 @@ def test_a_body_without_a_start_has_all_parts(tmp_path: Path) -> None:
     (neighbours,) = tree.xpath("//figure[@id='tab-neighbours']")
     assert "atlas page --ratio 1 --field 0 2" in neighbours.text_content()
     left_out = "".join(tree.xpath("//main//li//text()"))
-    assert "The figure stability: With B2 = 0" in left_out
+    assert "stability: with B2 = 0" in left_out
 
 
 def test_the_code_of_a_page_gives_its_numbers(page_file: Path) -> None:
@@ -199,7 +199,7 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
     page_copy = shutil.copytree(ball[0].parent, tmp_path, dirs_exist_ok=True) / ball[0].name
     content, file = page_copy.read_bytes(), page_copy.parent / f"{page_copy.name.removesuffix('.html')}.md"
     assert file.read_text("utf-8").startswith("+++\n# Made by `atlas page --larmor 0.5 --momentum 0.3 -0.7`")
-    file.write_text(file.read_text("utf-8").replace("This report is that of", "This is my ball,"), "utf-8")
+    file.write_text(file.read_text("utf-8").replace("This report was made by", "This is my ball, by"), "utf-8")
     with pytest.raises(SystemExit) as ended:
         main(["page", *BALL.split(), "--out", str(tmp_path)])
     assert ended.value.code == 2
@@ -436,7 +436,7 @@ def test_a_field_at_an_angle_stands_as_it_was_typed() -> None:
     with context:
         request = asked(FAMILIES["elementary"], context.params)
     assert request.command == f"atlas report your_body {words}"
-    assert request.field["title"] == "field of 0.8T at 30deg"
+    assert request.field["title"] == "field of 0.8 T at 30\N{DEGREE SIGN}"
 
 
 def test_properties_mark_unproven_numbers() -> None:
