@@ -46,7 +46,10 @@ def scene(
 ) -> Scene:
     """Draw ``count`` attitudes of a body of this ``size`` in ``turns`` of its centre; the centre starts at 0.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', and ``omega2`` that of the start, in 1/time. ``mu`` is charge over
+    mass, ``c`` the speed of light, ``E`` the electric field and ``velocity`` that of the centre at t = 0, in the
+    laboratory and in Gaussian units of the same lengths and times. ``azimuth`` and ``elevation`` of the view are in
+    degrees.
     """
     mu, c, size, count = number(mu, "mu"), positive(c, "c"), positive(size, "size"), whole(count, "count")
     I = quotient(ratio)

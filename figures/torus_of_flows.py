@@ -100,7 +100,10 @@ def periods(
 
 
 def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
-    """Return panel (a), a `Space`: the torus with the lines of the orbit and of both periods, by angles (N, 2)."""
+    """Return panel (a), a `Space`: the torus with three lines, each by its two angles in rad at N points, (N, 2).
+
+    They are the orbit, and the period in two arcs: ``out`` along the flow of H, ``back`` along that of F.
+    """
     roles = ("fine_trajectory", "trajectory", "turn")
     layers = net()
     for line, role in zip((orbit, out, back), roles, strict=True):

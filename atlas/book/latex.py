@@ -148,8 +148,10 @@ def _references(document: Document) -> str:
 
 
 def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
-    """Yield the sections; blocks that have no place in a paper are named in a comment.
+    """Yield each page of a document as a LaTeX section; blocks that have no place in a paper are named in a comment.
 
+    `texts` are all texts of the document in LaTeX, by their number in it; `wide` are paths of files of figures and
+    tables.
     Displays that follow one another are set together. They belong to the paragraph before them, and so does text
     after them that goes on with a small letter. Of figures and tables that follow one another those
     that are `wide`, over both columns, come last, so that the others fill the columns before them.

@@ -141,7 +141,11 @@ class Limit(Item, frozen=True):
 
 
 class Results(Item, frozen=True):
-    """One run of the benchmark: the fields of its record that figures, pages and the README show."""
+    """One run of the benchmark: the fields of its record that figures, pages and the README show.
+
+    `date` is YYYY-MM-DD in universal time; `runs` are pairs of error and time by case and method, `costs` the parts of
+    a time, `limits` the times that were aimed at, with the measured ones.
+    """
 
     format: int
     command: str

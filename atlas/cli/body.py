@@ -150,7 +150,9 @@ def shapes() -> dict[str, list[str]]:
 
 
 def chosen_body(options: Mapping[str, Any]) -> Any:
-    """Return the ratio, or the body that --inertia, --shape or --points describes; one of the four is needed.
+    """Return the ratio I3/I2, a number, or the `SymmetricBody` that --inertia, --shape or --points describes.
+
+    One of the four options is needed.
 
     Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
     """

@@ -344,7 +344,9 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
 
 
 def best(words: Words) -> str:
-    """Return the name of the command that fits the options: with fewest unknown, then with fewest missing options.
+    """Return the name of the command that fits the words typed: with fewest unknown, then with fewest missing options.
+
+    Of several that fit as well, the first of `COMMANDS` is taken.
 
     Raises click.UsageError for --omega2 beside --omega or --spin.
     """

@@ -226,7 +226,10 @@ def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
 
 
 def _parameter_word(name: str, record: dict[str, Any]) -> str:
-    """Return a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
+    """Return a parameter as one word: omega2=0.7, turns=3[0.001,1000], or omega2 where it has no default.
+
+    `record` has its "default", which may be None, and may have its "range", two numbers.
+    """
     from atlas.pictures.parameters import typed
 
     word = name if record["default"] is None else f"{name}={typed(record['default'])}"

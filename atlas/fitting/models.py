@@ -94,7 +94,10 @@ def _top(p: Values) -> Any:
 
 
 def direction_of(p: Values) -> FloatArray:
-    """Return the direction n (3,) of a top's field, scaled to length 1; zeros for n = 0."""
+    """Return the direction n (3,) of a top's field from the parameters n1, n2, n3, scaled to length 1.
+
+    It is zero where all three are.
+    """
     n = vector(p, DIRECTION)
     return np.asarray(n / (np.linalg.norm(n) or 1.0))
 

@@ -110,7 +110,10 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
 
 
 def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str | None) -> None:
-    """Set each figure's keys, and its contents from the cache; set the cause where it must be drawn."""
+    """Set each figure's keys, and its contents from the cache; set the cause where it must be drawn.
+
+    `gl` names the library that draws shaded pictures, None where there is none.
+    """
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
         figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}

@@ -159,7 +159,7 @@ def charges(request: Request) -> Data:
 
 
 class DiamagnetismParameters(StrictStruct, frozen=True):
-    """The susceptibility of the material, and its density in kg/m^3."""
+    """The material: its volume susceptibility in SI, of either sign, and its density in kg/m^3."""
 
     susceptibility: float
     density: float

@@ -85,7 +85,10 @@ def _precession(motion: TopMotion) -> float:
 
 
 class Lines(Dipole, frozen=True):
-    """A `Dipole` with its rates of spin, and the least amplitude of a line of its axis, as a fraction of the whole."""
+    """A `Dipole` with its rates of spin, for a table of the lines in the spectrum of its axis.
+
+    A line is shown if its amplitude is `least` or more; the axis has length 1.
+    """
 
     least: float = 1e-3
 

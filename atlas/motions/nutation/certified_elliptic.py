@@ -212,7 +212,10 @@ class EllipticMotion(Nutating):
 
     @property
     def turn_per_period(self) -> arb:
-        """Angle in rad by which the body has rotated about B after one period: K is then along the same body axes."""
+        """Angle in rad, a ball, by which the body has rotated about B after one period.
+
+        K, the field along the axes of the body, is then the same again.
+        """
         return super()._angles()[0]
 
     def _angles(self) -> tuple[arb, arb]:

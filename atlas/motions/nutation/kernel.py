@@ -50,7 +50,7 @@ class NutatingMotion(Motion[Nutation]):
 
     @cached_property
     def _scalars(self) -> Scalars:
-        """Scalars of all motions in arrays."""
+        """`Scalars` of all motions: quantities that do not depend on time, each an array by its name."""
         return self._scalars_of(self._blocks)
 
     @cached_property

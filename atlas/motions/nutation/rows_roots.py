@@ -92,7 +92,10 @@ class TurningPoints:
 
 @dataclass(frozen=True)
 class Roots(TurningPoints):
-    """The turning points of motions, with further constants of their spheres; `a` and `top` of tops alone.
+    """The turning points of motions, with further constants of their spheres, each an array (m,).
+
+    I is I3/I2 and `less` (I2 - I3)/I2; `omega` is Omega at t = 0; A and a are coefficients of Q, see `roots_of`;
+    `a` and `top` are of tops alone.
 
     `moving`, `steady` are where theta is certain to vary, or not to; `b` is the length of (n2, n3), I c3 the momentum
     M3 along the axis, M2 that along e2; `frame` is the rate k2/I2 of the frame about n; `plane` (2, m) are cosine and

@@ -179,9 +179,10 @@ class SingleGeneral(SingleMotion):
 
     @cached_property
     def _zeros(self) -> list[int]:
-        """Indices of the quaternion components that vanish at all times in a product of two rotations.
+        """Indices in the quaternion (x, y, z, w) of the components that vanish at all times, all from 0 to 2.
 
-        The rotations are by k about `turning_axis` and by phi about e3; the list is empty unless theta is constant.
+        A motion of constant theta is a rotation at the rate k about `turning_axis` times one at the rate phi about e3.
+        The list is empty for other motions.
         """
         if not self.exact.is_steady:
             return []

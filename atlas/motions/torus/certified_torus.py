@@ -49,7 +49,11 @@ NEWTON_ROUNDS = 4
 
 @dataclass(frozen=True)
 class Period:
-    """Times (H, F) of the flows of H and F/2 after which M and K return, and the angle in rad of S about the field."""
+    """A period of a `Torus`: after the flow of H for a time and then that of F/2 for another, M and K are back.
+
+    `H` and `F` are these times, which the two flows have in units of their own; `angle` is the angle in rad by which
+    the rotation S = R_B(bt) R has then turned about the field. All three are balls.
+    """
 
     H: arb
     F: arb
