@@ -204,7 +204,7 @@ def test_a_bad_file_or_a_changed_one_leaves_the_page(folder: Path, tmp_path: Pat
         run_page(file, place / "out", "--predict", "20")
     recipe.write_bytes(contents[recipe.name])
     file.write_text("t,R11\n0,1\n", "utf-8")
-    with pytest.raises(AtlasError, match="5 or more"):
+    with pytest.raises(AtlasError, match="5 times or more"):
         run_page(file, place / "out", "--predict", "20")
     assert {file.name: file.read_bytes() for file in (place / "out").iterdir()} == contents
 
