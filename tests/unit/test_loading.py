@@ -159,7 +159,7 @@ class Step(NamedTuple):
 STEPS = [
     Step("nothing: the first build", "", "", f"{PAGES} {FONTS} {DRAWING} {SHADING}"),
     Step("nothing", "", "", "msgspec"),
-    Step("a comment", "[[pages]]", "# the only one\n[[pages]]", PAGES),
+    Step("a comment", "[[pages]]", "# the only one\n[[pages]]", PAGES.replace("typst", "")),
     Step("a formula", "$R(t)$", "$R(t^2)$", PAGES),
     Step("a parameter of the figure in the plane", "1.5", "1.6", f"{PAGES} {FONTS} {DRAWING}"),
 ]
