@@ -11,15 +11,15 @@ from atlas.book.tables.table import Data
 
 @dataclass(frozen=True)
 class Finding:
-    """Finding of the trial on one entry of the ledger, in the plain letters of its record.
+    """Finding of the trial on one entry of the ledger, in the plain letters of its record; "" where there is nothing.
 
     verdict         proved, refuted, undecided, definition, or supported, then with the count in `method`
     method          how it was decided, and `follows`: source from which the printed form was derived
-    corrected       TeX of the true form where the printed one is refuted, and the verdict on it
-    counterexample  values of the letters that break the printed form, and the values of its two sides there
+    corrected       TeX of the true form where the printed one is refuted, and `corrected_verdict` on that form
+    counterexample  values of the letters that break the printed form, and the values of its two sides there, by name
     note            meaning of the verdict, where it needs a word
-    modules         the modules that cite the entry, such as ``motions/elementary/kernel_hyperbola.py``
-    grade, slip     kind of slip, if it needs an erratum, and the entry that shares the slip, if one does
+    modules         paths of modules that cite the entry, such as ``motions/elementary/kernel_hyperbola.py``
+    grade, slip     kind of slip, if it needs an erratum, and name of the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
     script          plain SymPy that shows it, or the line that says why there is none
     said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed
@@ -46,7 +46,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Described:
-    """A public name of the package: its arguments as text, its docstring, and the members inside it."""
+    """A public name of the package: its arguments as text, such as "(a, b=1)", its docstring, its members by name."""
 
     arguments: str
     docstring: str
@@ -55,10 +55,10 @@ class Described:
 
 @dataclass(frozen=True)
 class Appendices:
-    """Recorded results that the blocks of a report show.
+    """Recorded results that the blocks of a report show; each mapping is empty where no block asks for it.
 
-    `findings` are the trial's by entry of the ledger, `tables` the recorded tables by "source: name", `reference` the
-    public names of the package.
+    `findings` are the trial's by name of the entry of the ledger, `tables` the recorded tables by "source: name",
+    `reference` the public names of the package.
     """
 
     findings: Mapping[str, Finding] = field(default_factory=dict)

@@ -19,9 +19,10 @@ _MODES = ("AuthorInText", "NormalCitation")
 
 @dataclass(frozen=True)
 class Bibliography:
-    """Works by key, in the order of the list: names in a sentence, names in brackets, and entries as HTML.
+    """The works of a BibTeX file, as three mappings by key in the order of the list.
 
-    `source` is the text of the BibTeX file.
+    `named` holds a work's citation in a sentence, "Author (1990)", `bracketed` that in brackets, without the brackets,
+    `entries` the work's entry as HTML. `source` is the text of the BibTeX file.
     """
 
     source: str = ""
@@ -55,7 +56,7 @@ def read(path: Path) -> Bibliography:
 
 
 def _citation(key: str, mode: str) -> dict[str, Any]:
-    """Return pandoc's node, a dict, of a citation of the work `key`; `mode` is pandoc's name of the form."""
+    """Return pandoc's node, a dict, of a citation of the work `key`; `mode` is "AuthorInText" or "NormalCitation"."""
     nothing: dict[str, Any] = {"citationPrefix": [], "citationSuffix": [], "citationNoteNum": 0, "citationHash": 0}
     return {"citationId": key, "citationMode": {"t": mode}, **nothing}
 

@@ -18,8 +18,8 @@ from atlas.book.schema import StrictStruct
 class Kind:
     """A kind of block: its record class, the function (record, composer) -> view, and the name of its templates.
 
-    `outline`, if given, replaces the view where only numbers and places are wanted, since the view computes or reads
-    more.
+    `outline`, if given, is called in place of `view` for a related report, of which only numbers and anchors are
+    wanted, since `view` computes or reads more; its result is None.
     """
 
     record: type[StrictStruct]
@@ -52,5 +52,5 @@ else:
 
 
 def kind_of(block: Block) -> str:
-    """Return the name of a block's kind, as in the report file."""
+    """Return the name of a block's kind as in the report file, such as "figure": a key of `KINDS`."""
     return str(block.__struct_config__.tag)

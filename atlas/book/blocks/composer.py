@@ -12,7 +12,7 @@ from atlas.trial.ledger.equation import slug
 
 @dataclass(frozen=True)
 class Use:
-    """A place that cites an entry of the ledger: title of its page, file, anchor, and words such as "Figure 3"."""
+    """A place that cites an entry of the ledger: title of its page, HTML file, anchor, and words such as "Figure 3"."""
 
     page: str
     file: str
@@ -23,13 +23,16 @@ class Use:
 class Composer:
     """Composes the views of a report's blocks, and collects their texts, numbers and names in its `document`.
 
+    It is made from an empty `Document` and the recorded results; its fields are
+
     slug, title      slug and title of the current page
-    place            the place that an error names
+    place            the place that an error names, such as "file, line 3: page 'x', block 2 (figure)"
     figures, tables  how many there are so far
-    parameters       the bodies and fields of the report
-    recorded         the recorded results that its blocks show
+    parameters       the `BodiesAndFields` of the report
+    recorded         the `Appendices`, recorded results that its blocks show
     ledger           slug of the page that holds each entry of the ledger, by name
     uses             list of `Use` of each equation, by name
+    cited, said      names of equations cited and sentences said on the current page
     """
 
     def __init__(self, document: Any, recorded: Appendices) -> None:
@@ -39,16 +42,16 @@ class Composer:
         self.uses, self.ledger, self.parameters = document.uses, document.ledger, document.report.parameters
 
     def begin(self, slug: str, title: str) -> None:
-        """Begin a page with this slug and title.
-
-        Equations cited and sentences said on the page before are forgotten.
-        """
+        """Begin a page with this slug and title; citations and sentences of the page before are forgotten."""
         self.slug, self.title = slug, title
         self.cited: set[str] = set()
         self.said: set[str] = set()
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
-        """Add a Markdown text to the document and return its index among the texts."""
+        """Add a Markdown text and return its index among the document's texts.
+
+        `inline` says that it is no paragraph.
+        """
         return int(self.document.texts.add(markdown, self.place, inline=inline))
 
     def paragraphs(self, markdown: str) -> int:
@@ -66,20 +69,23 @@ class Composer:
         return int(self.document.texts.add(markdown, self.place, anchors=anchors))
 
     def caption(self, markdown: str, anchor: str, words: str) -> int:
-        """Add a caption and return its index among the texts; its citations count as uses by the figure or table."""
+        """Add a caption and return its index among the texts; each equation cited in it gets a `Use`.
+
+        `anchor` is that of the figure or table, `words` are its name, such as "Figure 3".
+        """
         for name in citations(markdown):
             if name in EQUATIONS:
                 self.use(name, anchor, words)
         return self.text(markdown, inline=True)
 
     def once(self, sentence: str) -> str:
-        """Return the sentence if it was not said on this page before, else ""."""
+        """Return the sentence if this method was not given it before on this page, else ""."""
         new = sentence not in self.said
         self.said.add(sentence)
         return sentence if new else ""
 
     def anchors(self, names: Iterable[str]) -> list[str]:
-        """Return the anchors in the PDF of cited names; names of other reports have none and are left out.
+        """Return the anchors in the PDF of cited names, in order; names of other reports have none and are left out.
 
         Raises AtlasError for a name that is not defined.
         """
@@ -88,9 +94,9 @@ class Composer:
         return [anchor for anchor in anchors if anchor]
 
     def use(self, name: str, anchor: str, words: str) -> None:
-        """Record that the item at ``anchor`` of this page, in words such as "Figure 3", cites an equation.
+        """Record in `uses` that the item at ``anchor`` of this page, called `words` ("Figure 3"), cites an equation.
 
-        Each `Use` once.
+        An equal `Use` is recorded once.
         """
         place = Use(self.title, f"{self.slug}.html", anchor, words)
         if place not in self.uses[name]:
@@ -109,7 +115,8 @@ class Composer:
     def anchor(self, kind: str, ident: str | None, word: str, number: int) -> str:
         """Return the anchor "kind-ID" of a figure or table, and make it the target of citations of kind:ID.
 
-        ID is ``ident``, or the number; citations read "word number", such as "Figure 3".
+        `kind` is "fig" or "tab"; ID is ``ident``, or `number` if that is None; citations read "word number", such as
+        "Figure 3". An earlier target of the same name stays.
         """
         name = ident or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")

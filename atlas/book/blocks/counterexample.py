@@ -36,7 +36,9 @@ _CALLS = {
 def written(values_by_name: Mapping[str, str], section: str) -> str:
     """Return a counterexample in Markdown with TeX: values of the letters, and the broken equation or a reason.
 
-    `section` is that of the paper, on which the meaning of a letter depends.
+    `values_by_name` holds the values as text by letter, and under "relation", "left", "right" the broken equation
+    with the values of its sides, or under "reason" why it is false. `section` is that of the paper: in IV and V, B
+    and E have a prime.
     """
     values = {
         name: value for name, value in values_by_name.items() if name not in {"relation", "left", "right", "reason"}
@@ -54,19 +56,22 @@ def written(values_by_name: Mapping[str, str], section: str) -> str:
 
 
 class _Letters:
-    """Writes formulas in plain letters as TeX; those of `vectors` are bold."""
+    """Writes formulas in plain letters as TeX; names in `vectors` become bold, with `primed` B and E get a prime."""
 
     def __init__(self, vectors: set[str], *, primed: bool) -> None:
         self.vectors, self.primed = vectors, primed
 
     def value(self, name: str, value: str) -> str:
-        """Return "$letter=value$" in TeX, or "any other $letter=value$"; the unit matrix is written as 1."""
+        """Return "$letter=value$" in TeX, or "any other $letter=value$".
+
+        Vectors stand in round brackets; the unit matrix is written as 1.
+        """
         partner = "any other " if name.startswith("any other ") else ""
         number = "1" if value == _ONE else value.replace("[", "(").replace("]", ")")
         return f"{partner}${self.formula(name.removeprefix(partner))}={number}$"
 
     def told(self, side: str) -> str:
-        """Return the text of one side of a relation, a number or a formula, as TeX between dollar signs.
+        """Return one side of a relation, a number or a formula in plain letters, as TeX between dollar signs.
 
         Of a text "formula has remark" only the formula becomes TeX; " has remark" follows as words.
         """
@@ -74,12 +79,18 @@ class _Letters:
         return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{remainder}"
 
     def formula(self, line: str) -> str:
-        """Return a relation or an expression in plain letters, such as "a = b^2", as TeX without dollar signs."""
+        """Return a relation or an expression in plain letters, such as "a = b^2", as TeX without dollar signs.
+
+        Raises SyntaxError or TypeError for a text that is no formula of the trial.
+        """
         python = re.sub(r"(?<![<>!=])=(?!=)", "==", line).replace("^", "**")
         return self.tex(ast.parse(python, mode="eval").body)
 
     def letter(self, name: str, *, bold: bool, accent: str = "") -> str:
-        """Return the TeX of a letter: its hat, name, dots (``accent``) and lower index; bold for a vector."""
+        """Return the TeX of a letter such as "hB2": its hat, name, dots (``accent`` dot or ddot) and lower index.
+
+        It is in bold type if `bold`.
+        """
         if name in _LETTERS:
             letter, below = _LETTERS[name], ""
         else:
@@ -119,7 +130,7 @@ class _Letters:
         raise TypeError(f"{ast.unparse(node)} is no formula of the trial")
 
     def joined(self, node: ast.BinOp) -> str:
-        """Return the TeX of a sum, a difference, a product, a quotient or a power."""
+        """Return the TeX of a sum, a difference, a quotient or a power; any other operator is written as a product."""
         match node.op:
             case ast.Add():
                 return f"{self.tex(node.left)}+{self.tex(node.right)}"
@@ -132,7 +143,10 @@ class _Letters:
         return f"{self.factor(node.left)} {self.factor(node.right)}"
 
     def entry(self, name: str, indices: list[ast.expr]) -> str:
-        """Return the TeX of a letter with indices; the first index of x is the particle, a second one is set above."""
+        """Return the TeX of a letter with one or more indices, set below.
+
+        The first index of x is the particle; a second one is the component and set above, and x is bold without it.
+        """
         example, *alternatives = map(self.tex, indices)
         if name == "x":
             return f"{self.letter(name, bold=not alternatives)}_{{{example}}}" + "".join(

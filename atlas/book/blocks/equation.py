@@ -12,7 +12,10 @@ from atlas.trial.ledger.equation import slug
 
 
 class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
-    """A displayed equation: ``name`` of an entry in the ledger, such as ``(72)``, or an own one with ``tex``."""
+    """A displayed equation: ``name`` of an entry in the ledger, such as ``(72)``, or an own one with ``tex``.
+
+    ``scale`` is the factor by which the display is enlarged.
+    """
 
     name: EquationName
     tex: str | None = None
@@ -21,9 +24,10 @@ class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
 
 @dataclass(frozen=True)
 class EquationView:
-    """An equation with its name and number; only the first display of a name is the one that links lead to.
+    """A displayed equation: its name, number as cited, index of its TeX among the texts, and scale of the display.
 
-    `ledger` is the page, without its suffix, with its entry in the ledger.
+    `anchor` says whether links to the name lead here: only to its first display. `ledger` is the page, without its
+    suffix, that holds its entry of the ledger, or "".
     """
 
     name: str
@@ -40,7 +44,10 @@ class EquationView:
 
 
 def view(block: Equation, composer: Composer) -> EquationView:
-    """Return the view of an equation of the ledger, or of one of the report's own, which gets a number."""
+    """Return the `EquationView` of an entry of the ledger, or of the block's own TeX, which gets the next own number.
+
+    Raises AtlasError for a name that the ledger lacks where the block has no TeX.
+    """
     name, tex = (block.name, block.tex) if block.tex is not None else _entry(block.name)
     number = composer.document.numbered(name)
     is_first = composer.target(name, f"eq-{slug(name)}", number)

@@ -25,10 +25,10 @@ Panel = Literal["plane", "space", "body", "frequencies", "portrait", "rosette"]
 
 
 class Step(StrictStruct, frozen=True):
-    """One step of a page that scrolls past a scene: title and text in Markdown, and the motion shown beside it.
+    """One step of a page that scrolls past a scene: title and text in Markdown, and the motion shown beside them.
 
-    ``motion`` has values of sliders by name; omega3 is that of the hyperbola where it is left out. ``panel`` is the
-    panel shown.
+    ``motion`` has values of sliders by name; where omega3 is left out, the start lies on the hyperbola (67).
+    ``panel`` is the one that is shown.
     """
 
     title: str
@@ -40,13 +40,13 @@ class Step(StrictStruct, frozen=True):
 class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     """A sentence in Markdown with TeX, and below it the motion that the sliders choose.
 
-    ``panels`` are the pictures: the ``plane`` of omega2 and omega3 with the hyperbola, the ``space`` with the quadric,
-    the ``body``; the ``frequencies`` over omega2, the phase ``portrait``, the ``rosette`` of a point, 40 degrees
-    from the axis, as seen along the field.
-    With ``steps`` the page scrolls past one scene, where of the panels in space only the step's is seen; ``still`` is
-    the id of the figure that stands there without script.
-    ``sliders`` are among I, angle, omega1, omega2, omega3, p and q; a parameter without a slider keeps the
-    register's start, and omega3 is that of the hyperbola. ``start`` sets some of them, ``at`` the field (B2, B3).
+    ``panels`` are the pictures: the ``plane`` of omega2 and omega3 with the hyperbola, the ``space`` with the
+    quadric, the ``body``; the ``frequencies`` over omega2, the phase ``portrait``, the ``rosette`` of a point, 40
+    degrees from the axis, as seen along the field. With ``steps`` the page scrolls past one scene, where of the
+    panels in space only the step's is seen; ``still`` is the id of the figure that stands there without script.
+    ``sliders`` are among I, angle (of the field with e2, in degrees), omega1, omega2, omega3, p and q; a parameter
+    without a slider keeps the register's start, and omega3 is that of the hyperbola. ``start`` sets the starts of
+    some sliders by name, ``at`` the field (B2, B3); None is the register's.
     """
 
     text: str
@@ -60,11 +60,11 @@ class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
 
 @dataclass(frozen=True)
 class ExplorerView:
-    """View of an explorer: number of its text, panels, sliders, and for the script the field (B2, B3).
+    """View of an explorer: index of its text among the texts, names of its panels, sliders, and the field (B2, B3).
 
-    ``steps`` holds (number of the title, number of the text, address, panel in space). The field is exact until a
-    slider turns it; ``free`` says that the sliders allow a start off the hyperbola; ``still`` is the id of a figure
-    or None.
+    ``steps`` holds (index of the title, index of the text, motion as a query of a URL, panel in space). The field
+    is exact until a slider turns it; ``free`` says that the sliders allow a start off the hyperbola; ``still`` is
+    the id of a figure or None.
     """
 
     text: int
@@ -82,14 +82,15 @@ class ExplorerView:
 
     @property
     def in_space(self) -> bool:
-        """Whether a panel is drawn in space."""
+        """Whether a panel, "space" or "body", is drawn in space."""
         return any(name in IN_SPACE for name in self.panels)
 
 
 def view(block: Explorer, composer: Composer) -> ExplorerView:
-    """Return the view of an explorer; sliders have the register's ranges and starts where the block sets none.
+    """Return the `ExplorerView`; sliders have the register's ranges and starts where the block sets none.
 
-    Raises AtlasError for a slider that there is not.
+    A slider of time is added unless the only panel is "frequencies". Raises AtlasError for an unknown slider, and for a
+    start of a slider that the block does not show.
     """
     B2, B3 = (
         block.at
@@ -112,7 +113,10 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
 
 def sliders_of(B2: float, B3: float) -> dict[str, Slider]:
-    """Return all `Slider` that an explorer can have, by name; the one of the angle starts at the field (B2, B3)."""
+    """Return by name every `Slider` that an explorer can have.
+
+    That of the angle starts at atan2(B3, B2), in degrees.
+    """
     defaults = {
         slider.name: slider for name in ("general", "elementary") for slider in sliders_of_family(FAMILIES[name])
     }

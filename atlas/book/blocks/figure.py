@@ -15,7 +15,13 @@ from atlas.trial.ledger.citation import marked
 
 
 class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
-    """A figure block: recipe with parameters; renderer ``both`` shows shaded picture and line drawing side by side."""
+    """A figure block: recipe with parameters; renderer ``both`` shows shaded picture and line drawing side by side.
+
+    `recipe` is a name in figures/ or a file beside the report, `id` the name that ``@fig:ID`` cites (None: the figure's
+    number). `body`, `bodies`, `field` and `sets` name the report's bodies, field and sets of parameters, which give
+    parameters to the recipe; `parameters`, values by name, go before them. `caption`, Markdown with TeX, replaces the
+    scene's; `width` is the width shown in millimetres, None for the scene's own.
+    """
 
     recipe: str
     id: Id | None = None
@@ -34,14 +40,15 @@ class Picture:
     """A picture that is drawn once for all the blocks that show it: its recipe, and its files or failure.
 
     stem        its name among the files of the report
-    recipe, renderer, parameters    the drawing: a name in figures/ or a file; `title` is that of the recipe
-    caption, alt, size    caption and alternative text of the scene, and its size in millimetres
-    given       all parameters of the scene as text
-    file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
-    tables      the commands that make tables of the numbers that it shows
-    beside      places of further files for the page, where there are any: the same for a `narrow` screen, the
-                script with which the page turns the `scene`, the one that tells how it `moves`
-    failure     why there is none, or nothing; `remark` a sentence for the reader on how it was drawn
+    recipe, renderer, parameters    the drawing: a name in figures/ or a file, vector or shaded, values by name
+    title       title of the recipe
+    caption, alt, size    caption and alternative text of the scene, and its (width, height) in millimetres
+    given       all parameters of the scene as text, by name
+    file        path in the report of the SVG or PNG; `files` the paths of all its formats by kind, data as CSV included
+    tables      shell commands that make tables of the numbers that it shows
+    beside      paths of further files for the page, where there are any: "narrow" for a narrow screen, "scene", the
+                script with which the page turns it, "moves", the script of its motion
+    failure     why it could not be drawn, or ""; `remark` a sentence for the reader on how it was drawn, or ""
     """
 
     stem: str
@@ -62,17 +69,17 @@ class Picture:
 
     @property
     def called(self) -> str:
-        """Name of the recipe as shown in the report; of a file beside the report its file name."""
+        """Name of the recipe as shown in the report; of a recipe in its own file the file name, without folders."""
         return Path(self.recipe).name
 
     @property
     def printed(self) -> str:
-        """The file that the PDF shows: the PDF in the place of an SVG, otherwise `file`."""
+        """Path in the report of the file that the PDF shows: the PDF in the place of an SVG, otherwise `file`."""
         return self.file.replace(".svg", ".pdf")
 
     @property
     def command(self) -> str:
-        """The shell command that draws the picture, with its parameters and renderer."""
+        """Shell command "atlas figure ..." that draws the picture; parameters that are None are left out."""
         from atlas.pictures.parameters import typed
 
         settings = [f"{name}={typed(value)}" for name, value in self.parameters.items() if value is not None]
@@ -82,9 +89,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class FigureView:
-    """A figure with its pictures: `width` and `height` of each in millimetres, `alt` the alternative text.
+    """A figure with its pictures: `width` and `height` of each in millimetres, `alt` the first one's alternative text.
 
-    `number` is that of the figure; `caption` and `given` (its parameters) are indices among the document's texts.
+    `number` is that of the figure, `id` its anchor, such as "fig-3"; `caption` and `given` (the parameters of the first
+    picture) are indices among the document's texts.
     """
 
     number: int
@@ -98,17 +106,20 @@ class FigureView:
 
     @property
     def failure(self) -> str:
-        """The reason why a picture is missing, that of the first one; "" if none is."""
+        """Reason why a picture is missing, that of the first missing one; "" if none is missing."""
         return next((picture.failure for picture in self.pictures if picture.failure), "")
 
     @property
     def remark(self) -> str:
-        """Remark for the reader on how the picture was drawn, or an empty string."""
+        """First remark on how a picture was drawn, a sentence for the reader, or ""."""
         return next((picture.remark for picture in self.pictures if picture.remark), "")
 
 
 def view(block: Figure, composer: Composer) -> FigureView:
-    """Return the view of a figure, with its number and caption, or with the reason of its failure."""
+    """Return the `FigureView` with the next number; the caption is the block's, the scene's, or says that it failed.
+
+    A width set by the block scales the height in proportion.
+    """
     composer.figures += 1
     pictures = tuple(composer.document.pictures_of(block))
     picture = pictures[0]

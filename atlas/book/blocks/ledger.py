@@ -19,7 +19,8 @@ GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint
 class EntryView:
     """An entry of the ledger, the trial's finding, and its `uses`, which grow while the report is composed.
 
-    The other fields are indices among the document's texts; None for a missing text.
+    The other fields are indices among the document's texts, those of the meaning (`says`), formula, assumptions, method
+    (`how`), and of the finding's texts; None for a missing text.
     """
 
     equation: Equation
@@ -45,24 +46,24 @@ class EntryView:
 
     @property
     def number(self) -> str:
-        """Name of the entry if its equation is numbered in print, else ""."""
+        """Name of the entry, such as "(72)", if its equation is numbered in print, else ""."""
         return self.name if self.equation.number is not None else ""
 
     @property
     def slug(self) -> str:
-        """Name of the entry as links have it."""
+        """Name of the entry as it stands in links and anchors, without brackets."""
         return slug(self.name)
 
     @property
     def same(self) -> str:
-        """Slug of the entry that shares the slip, "" without."""
+        """Slug of the entry that shares the slip; "" if there is none."""
         return slug(self.finding.slip)
 
 
 def entries(composer: Composer, names: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
-    """Return the views of the entries for which `names` holds, in the paper's order.
+    """Return the views of the entries for which `names` (entry, finding) is true, in the order of the ledger.
 
-    An entry without a finding of the trial is undecided.
+    An entry without a recorded finding of the trial is undecided. The texts of the views are added to the document.
     """
     nothing = Finding("undecided", "not tried", "")
     pairs = ((entry, composer.recorded.findings.get(name, nothing)) for name, entry in EQUATIONS.items())
@@ -122,19 +123,22 @@ class Ledger(StrictStruct, frozen=True, tag_field="kind", tag="ledger"):
 
 
 class Errata(StrictStruct, frozen=True, tag_field="kind", tag="errata"):
-    """Every entry of the ledger with a slip, the grave ones first: as printed, as corrected, and a counterexample."""
+    """Every entry of the ledger with a slip, the grave ones first: as printed, as corrected, and a counterexample.
+
+    The block has no fields.
+    """
 
 
 @dataclass(frozen=True)
 class LedgerView:
-    """Views of the entries of one section of the paper."""
+    """View of a `Ledger` block: an `EntryView` for each entry of the section, in the order of the ledger."""
 
     entries: tuple[EntryView, ...]
 
 
 @dataclass(frozen=True)
 class ErrataView:
-    """Views of the entries with a slip, grave ones first."""
+    """View of an `Errata` block: an `EntryView` for each entry with a slip, the gravest first."""
 
     entries: tuple[EntryView, ...]
 
@@ -148,9 +152,9 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
 
 
 def view_errata(_block: Errata, composer: Composer) -> ErrataView:
-    """Return the `ErrataView` of all entries with a slip, the gravest first.
+    """Return the `ErrataView` of all entries with a slip, the gravest first; its page becomes the document's `errata`.
 
-    A note that several share stands at the first.
+    A note that several entries share stands at the first of them.
     """
     composer.document.errata = composer.slug
     ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))

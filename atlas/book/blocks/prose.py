@@ -22,21 +22,27 @@ class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
 
 
 class Note(StrictStruct, frozen=True, tag_field="kind", tag="note"):
-    """A remark in a frame, with a title."""
+    """A remark in a frame, with a title.
+
+    `text` is paragraphs in Markdown with TeX, `title` one line of the same.
+    """
 
     text: str
     title: str = "Remark"
 
 
 class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
-    """A notebook of the folder ``reports/`` in MyST Markdown, as paragraphs and code with the output of its cells."""
+    """A notebook of the folder ``reports/`` in MyST Markdown, as paragraphs and code with the output of its cells.
+
+    `file` is the file's name; the output stands in the file as text, and no cell is run.
+    """
 
     file: str
 
 
 @dataclass(frozen=True)
 class ProseView:
-    """View of prose: index of its text among the document's texts, and index of its heading or None."""
+    """View of prose: index of its text among the document's texts, and index of its heading there, None without one."""
 
     text: int
     title: int | None = None
@@ -48,7 +54,10 @@ def view_prose(block: Prose, composer: Composer) -> ProseView:
 
 
 def view_notebook(block: Notebook, composer: Composer) -> ProseView:
-    """Return the `ProseView` of a notebook's text, without its head. Raises AtlasError if the file does not exist."""
+    """Return the `ProseView` of a notebook's text, without its YAML head.
+
+    Raises AtlasError if there is no such file.
+    """
     path = folder("reports") / PurePath(block.file).name
     if not path.is_file():
         raise AtlasError(f"{block.file}: there is no such notebook in {folder('reports')}.")
@@ -57,5 +66,5 @@ def view_notebook(block: Notebook, composer: Composer) -> ProseView:
 
 
 def view_note(block: Note, composer: Composer) -> ProseView:
-    """Return the `ProseView` of a note, with its title."""
+    """Return the `ProseView` of a note: the indices of its paragraphs and of its title among the texts."""
     return ProseView(title=composer.text(block.title, inline=True), text=composer.paragraphs(block.text))

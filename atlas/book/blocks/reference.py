@@ -11,13 +11,16 @@ from atlas.errors import AtlasError, unknown
 
 
 class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliography"):
-    """The works that the report cites, by author and year; once in a report that names a BibTeX file."""
+    """The works that the report cites, by author and year; once in a report that names a BibTeX file.
+
+    The block has no fields.
+    """
 
 
 def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
-    """Return the block, and make its page the target of citations of works.
+    """Return the block itself as its view, and make the current page the target of citations of works.
 
-    Raises AtlasError without a BibTeX file, and for a second list.
+    Raises AtlasError if the report names no BibTeX file, and for a second list.
     """
     document = composer.document
     if not document.report.bibliography:
@@ -38,14 +41,17 @@ _TABLES = frozenset({"Parameters", "Attributes", "Returns", "Raises", "Warns"})
 
 
 class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
-    """Public names of the package, such as "Quadric", in the order of the reference."""
+    """Public names of the package, such as "Quadric", in the order of the reference.
+
+    The block shows the docstring of each, and of the members of classes.
+    """
 
     names: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class DescribedView:
-    """A public name with its arguments as text, the index of its docstring among the texts, and its members."""
+    """A public name: its arguments as text, the index of its docstring among the texts, and the views of its members."""
 
     name: str
     arguments: str
@@ -61,7 +67,7 @@ class ReferenceView:
 
 
 def view_reference(block: Reference, composer: Composer) -> ReferenceView:
-    """Return the view of the docstrings of the public names that a block lists."""
+    """Return the `ReferenceView` of the names that a block lists. Raises AtlasError for a name that `atlas` lacks."""
     records = composer.recorded.reference
 
     def described(name: str, member: Described) -> DescribedView:
@@ -75,7 +81,7 @@ def view_reference(block: Reference, composer: Composer) -> ReferenceView:
 
 
 def outline(_block: Reference, _composer: Composer) -> None:
-    """Return nothing: no citation leads to the names of a reference."""
+    """Do nothing: no citation leads to the names of a reference, so an outline needs none of them."""
 
 
 def markdown_of_sections(docstring: str) -> str:
@@ -91,7 +97,10 @@ def markdown_of_sections(docstring: str) -> str:
 
 
 def _table(title: str, body: str) -> str:
-    """Return the entries `name : type` or `type` of a section, with their meanings, as a Markdown table."""
+    """Return the entries `name : type` or `type` of a section's `body`, with meanings, as a Markdown table.
+
+    `title` is the head of the first column.
+    """
     rows = [f"| {title} | Meaning |", "|:----|:--------|"]
     for entry, meaning in _ENTRY.findall(body.strip()):
         name, _, kind = entry.partition(" : ")
@@ -100,7 +109,7 @@ def _table(title: str, body: str) -> str:
 
 
 def markdown(docstring: str) -> str:
-    """Return text as Markdown: examples, indented lines and names in backticks as code, all else letter by letter."""
+    """Return text as Markdown: examples, indented paragraphs and names in backticks as code, other markup escaped."""
     paragraphs = []
     for paragraph in docstring.split("\n\n"):
         if all(line.startswith("    ") for line in paragraph.splitlines()):

@@ -29,7 +29,13 @@ COMMANDS = {
 
 
 class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
-    """A table of computed numbers."""
+    """A table of computed numbers, of as many significant digits as `digits` says.
+
+    `table` is a name in `atlas.book.tables`, `id` the name that ``@tab:ID`` cites (None: the table's number).
+    `body`, `bodies`, `field` and `sets` name the report's bodies, field and sets of parameters; `parameters` are
+    the table's, values by name, and go before those of the sets. `caption`, Markdown with TeX, replaces the table's
+    own.
+    """
 
     table: str
     id: Id | None = None
@@ -45,7 +51,8 @@ class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
 class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
     """A table of words and formulas, written out in the file.
 
-    `rows` have as many Markdown cells as `columns`; `sorts` says whether heads of columns sort them on a page.
+    `columns` are the heads, and each of the `rows` has as many cells, all in Markdown with TeX. ``@tab:ID`` cites
+    the `id` (None: the table's number); `sorts` says whether heads of columns sort the rows on a page.
     """
 
     columns: tuple[str, ...]
@@ -56,7 +63,10 @@ class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
 
 
 class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
-    """A table of recorded results: the record `source`, and the table's name in that record."""
+    """A table of recorded results: the record `source`, and the table's name in that record.
+
+    ``@tab:ID`` cites the `id` (None: the table's number); `caption`, Markdown with TeX, replaces the table's own.
+    """
 
     source: Literal["trial", "bench", "stress", "machines"]
     table: str
@@ -66,9 +76,10 @@ class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
 
 @dataclass(frozen=True)
 class Cell:
-    """A table cell: the index of a text, or a number split into whole part, fraction with its point, power of ten.
+    """A table cell: the index of a text, or a number as three texts: whole part, fraction with its point, power of ten.
 
-    `proven` says whether all digits of the number are proven. A cell without text and number is empty.
+    `power` is the exponent, "" without one; `proven` says whether all digits of the number are proven. A cell
+    without text and number is empty.
     """
 
     text: int | None = None
@@ -80,7 +91,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class ColumnView:
-    """A column: indices of its head's and unit's texts (None without a unit), and whether it is `numeric`.
+    """A column: indices of its head's and unit's texts (None without a unit), and whether any of its cells is a number.
 
     `before` and `after` are the room that its numbers take before and after the point, in widths of a digit.
     """
@@ -94,9 +105,11 @@ class ColumnView:
 
 @dataclass(frozen=True)
 class TableView:
-    """A table, of numbers or of words; `name` is that of a computed one, whose rows are single lines.
+    """View of a table: its number, its anchor `id`, such as "tab-3", its columns and rows of cells.
 
-    `command` makes recorded results; `sorts` says whether heads of columns sort its rows on a page.
+    `caption` and `note` are indices among the texts, `note` None without one; `name` is that of a computed table,
+    whose rows are single lines, else ""; `command` is the shell command that makes recorded results, "" for others
+    and after its first mention on a page; `sorts` says whether heads of columns sort its rows on a page.
     """
 
     number: int
@@ -111,7 +124,10 @@ class TableView:
 
     @property
     def tight(self) -> bool:
-        """Whether the rows are set close: of a computed or long table, or with numbers in all columns but the first."""
+        """Whether the rows are set close: a computed table, more than MAX_UNBROKEN_ROWS rows, or a table of numbers.
+
+        The last means that all columns but the first have numbers.
+        """
         return (
             bool(self.name) or len(self.rows) > MAX_UNBROKEN_ROWS or all(column.numeric for column in self.columns[1:])
         )
@@ -128,12 +144,18 @@ class TableView:
 
     @property
     def flows(self) -> bool:
-        """Whether the table stands at its place in the text; other tables float to the head or foot of a page."""
+        """Whether the table stands at its place in the text: any but a computed table with numbers of up to 24 rows.
+
+        Tables that do not flow float to the head or foot of a page.
+        """
         return self.tall or self.words or not self.name
 
 
 def view_computed(block: Table, composer: Composer) -> TableView:
-    """Return the view of a table, computed for the block's bodies, field and parameters."""
+    """Return the `TableView`, computed for the block's bodies, field and parameters; its field is named in the caption.
+
+    Raises AtlasError for an unknown table and for a body, field or parameter that it does not take.
+    """
     request = Request(chosen(block, composer.parameters), block.parameters, block.digits)
     data, named = compute(block.table, request), composer.parameters.fields.get(block.field or "")
     if named and not block.caption and named.title not in data.caption:
@@ -142,7 +164,7 @@ def view_computed(block: Table, composer: Composer) -> TableView:
 
 
 def view_listing(block: Listing, composer: Composer) -> TableView:
-    """Return the view of a table of words. Raises AtlasError for a row of another length than the heading."""
+    """Return the `TableView` of a table of words. Raises AtlasError for a row of another length than the heading."""
     for row in block.rows:
         if len(row) != len(block.columns):
             raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
@@ -151,7 +173,7 @@ def view_listing(block: Listing, composer: Composer) -> TableView:
 
 
 def view_recorded(block: Recorded, composer: Composer) -> TableView:
-    """Return the view of a table of recorded results. Raises AtlasError for an unknown table."""
+    """Return the `TableView` of recorded results. Raises AtlasError for a table that the record lacks."""
     tables, name = composer.recorded.tables, f"{block.source}: {block.table}"
     if name not in tables:
         raise unknown("recorded table", name, tables)
@@ -159,7 +181,7 @@ def view_recorded(block: Recorded, composer: Composer) -> TableView:
 
 
 def outline(block: Table | Recorded, composer: Composer) -> None:
-    """Count a table, and link citations to it, without computing it."""
+    """Count a table and make it the target of citations, without computing it."""
     composer.tables += 1
     composer.anchor("tab", block.id, "Table", composer.tables)
 
@@ -167,7 +189,11 @@ def outline(block: Table | Recorded, composer: Composer) -> None:
 def _view(
     block: Table | Listing | Recorded, composer: Composer, data: Data, *, name: str = "", command: str = ""
 ) -> TableView:
-    """Return the view of a table, numbered, with columns aligned on the decimal point."""
+    """Return the `TableView` of `data`, with the next number; numbers are split at the point so that columns align.
+
+    Each number becomes a target, "cell:ID-row-column". `name` and `command` are fields of the view. A note says that
+    uncertified values are starred, if there are any.
+    """
     composer.tables += 1
     words = f"Table {composer.tables}"
     anchor = composer.anchor("tab", block.id, "Table", composer.tables)
@@ -205,7 +231,7 @@ def _view(
 
 
 def _cell(value: str | Number, composer: Composer) -> Cell:
-    """Return the `Cell` of a number, split at its point, or of a text; an empty cell for ""."""
+    """Return the `Cell` of a number, split at its point, or of a text, which is added to the texts; empty for ""."""
     if isinstance(value, Number):
         return Cell(None, *value.parts(), value.proven)
     return Cell(composer.text(value, inline=True)) if value else Cell()

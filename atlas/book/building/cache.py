@@ -28,13 +28,16 @@ UNUSED = 90 * DAY
 
 
 class Cache:
-    """Entries, bytes by key (a digest), in the files of a folder."""
+    """Byte strings by key, a hexadecimal digest, each in a file of `folder`, which is made when first written to."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.absolute()
 
     def get(self, key: str) -> bytes | None:
-        """Return the entry of a key; None where it is missing or damaged."""
+        """Return the bytes stored under a key; None where the file is missing or damaged.
+
+        An entry unread for a day gets a new time, so that `prune` keeps it.
+        """
         path = self._path(key)
         try:
             expected, _, content = path.read_bytes().partition(b"\n")
@@ -45,28 +48,28 @@ class Cache:
         return content if _hash(key, content) == expected else None
 
     def put(self, key: str, content: bytes) -> bytes:
-        """Store bytes under a key, and return the bytes."""
+        """Store `content` under a key and return it; an earlier entry is replaced. Raises OSError if that fails."""
         files.write(self._path(key), _hash(key, content) + b"\n" + content)
         return content
 
     def recall(self, key: str, make: Callable[[], bytes]) -> bytes:
-        """Return the entry of a key, from `make` and stored if it is missing."""
+        """Return the bytes stored under a key; if missing or damaged, store and return those of `make()`."""
         entry = self.get(key)
         return self.put(key, make()) if entry is None else entry
 
     def load(self, name: str) -> Any:
-        """Return the value that was saved under a name, an empty dictionary if there is none."""
+        """Return the JSON value that `save` stored under a name; an empty dictionary if there is none."""
         content = self.get(digest("name", name))
         return {} if content is None else json.loads(content)
 
     def save(self, name: str, value: Any) -> None:
-        """Store a JSON value under a name, replacing the previous one."""
+        """Store a JSON value under a name, which need be no digest; the previous value is replaced."""
         if self.load(name) != value:
             self.put(digest("name", name), json.dumps(value).encode())
 
     @contextmanager
     def temporary(self) -> Iterator[Path]:
-        """Yield an empty folder of the cache, which is removed at the end of the context."""
+        """Yield a new empty folder below the cache's folder; it is removed with its files when the context ends."""
         (self.folder / "tmp").mkdir(parents=True, exist_ok=True)
         if not (self.folder / ".gitignore").exists():
             files.write(self.folder / ".gitignore", "*\n")
@@ -77,7 +80,7 @@ class Cache:
             shutil.rmtree(folder, ignore_errors=True)
 
     def prune(self) -> None:
-        """Remove entries unused for longer than `UNUSED`, and unfinished files older than a day."""
+        """Remove entries unread for 90 days (`UNUSED`), and what a killed build left unfinished over a day ago."""
         now = time.time()
         for path in (*self.folder.glob("??/*"), *self.folder.glob("??/.*"), *self.folder.glob("tmp/*")):
             with suppress(FileNotFoundError):  # another build has removed it

@@ -36,9 +36,11 @@ def composed(
 ) -> "tuple[Document, dict[str, FigureBuild], Path]":
     """Return (report with computed tables, figures by the stems of their pictures, the report's folder in `out`).
 
-    The figures are drawn in the formats that `kinds` returns for a picture, each for the first of the `targets` that is
-    wide enough; `inputs` are texts by name. `style`, or that of the report, is a style sheet of Matplotlib, a file or a
-    name. Raises AtlasError for a mistake in the report and for a figure that fails.
+    The figures are drawn, by `jobs` processes (None: one a core), in the formats that `kinds` returns for a
+    picture, each for the first of the `targets` that is wide enough. `progress` is called with (figures done, their
+    number, name); `inputs` are texts by name. `style`, or that of the report, is a style sheet of Matplotlib, a
+    file or a name; None means the package's own. Raises AtlasError for a mistake in the report and for a figure
+    that fails.
     """
     from atlas import gl
     from atlas.book.building.report import check_style, document_of
@@ -77,13 +79,15 @@ def build_data(
     style: str | None = None,
     inputs: Mapping[str, str] = NO_INPUTS,
 ) -> Path:
-    """Write tables and drawn data of a report into `out`/NAME; return the path of the file that describes them.
+    """Write tables and drawn data of a report into `out`/NAME; return the path of the JSON file that describes them.
 
-    They are CSV, and Parquet if that is wanted.
+    They are CSV, and with `parquet` also Parquet. `name` is a report of the package or the path of a file;
+    `progress` is called with (figures done, their number, name); `jobs`, `style` and `inputs` are those of
+    `composed`.
 
-    The folder is replaced at once, with files that the user put there. Raises AtlasError for a mistake in the report, a
-    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
-    written.
+    The folder is replaced at once; files that the user put there stay. Raises AtlasError for a mistake in the
+    report, for a figure that fails, and for a file that the user edited: it stays, and the new one is written
+    beside it. Raises OSError when something can't be written.
     """
     from atlas.book.data_package import DESCRIPTION, package
 
@@ -113,11 +117,14 @@ def build_tex(
     style: str | None = None,
     inputs: Mapping[str, str] = NO_INPUTS,
 ) -> Path:
-    """Write a report as LaTeX into `out`/NAME; return the path of the .tex file.
+    """Write a report as LaTeX, with its figures, into `out`/NAME; return the path of the .tex file.
 
-    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
-    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
-    written.
+    `name` is a report of the package or the path of a file; `progress` is called with (figures done, their number,
+    name); `jobs`, `style` and `inputs` are those of `composed`.
+
+    The folder is replaced at once; files that the user put there stay. Raises AtlasError for a mistake in the
+    report, for a figure that fails, and for a file that the user edited: it stays, and the new one is written
+    beside it. Raises OSError when something can't be written.
     """
     from atlas.book.latex import PAPER, sources
 

@@ -30,17 +30,20 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(eq=False)
 class FigureBuild:
-    """A figure to be drawn in several kinds of files, and its result.
+    """A figure to be drawn in several kinds of files, and its result, filled in by `find` and `draw`.
 
-    The recipe is a name, or the path of a file.
-
-    The kinds are svg, pdf, png, pgf, csv, csv.gz, and three that may be empty: narrow, an SVG for a narrow screen (a
-    PNG where shaded) if the figure itself is too wide; scene, a script for the viewer of the pages; and moves, a script
-    of its motion.
-
-    It is made for the first of its `targets` that is wide enough, see `atlas.pictures.arrange.suited`.
-
-    `keys` are those of its files in the cache, `contents` the files, `facts` its caption, size and cost.
+    recipe, parameters  name of a recipe or path of its file, and the values that it is called with, by name
+    renderer            vector or shaded
+    kinds               svg, pdf, png, pgf, csv, csv.gz, and three that may be empty files: narrow, an SVG for a narrow
+                        screen (a PNG where shaded) if the figure itself is too wide; scene, a script for the viewer of
+                        the pages; moves, a script of its motion
+    style               style sheet of Matplotlib, a name or a file; None for the package's own
+    targets             names of media; the first that is wide enough is used, see `atlas.pictures.arrange.suited`
+    parts               digests of all that the figure depends on, by name (see `parts_of`)
+    keys, contents      keys in the cache, and contents of the files, both by kind
+    facts               title, caption, size in millimetres, cost and others, as `worker.draw` stores them
+    new, why            whether it was drawn by this build, and the cause in words
+    failure             reason why it could not be drawn, or ""
     """
 
     recipe: str
@@ -77,11 +80,11 @@ class FigureBuild:
         return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
 
     def missing(self) -> dict[str, str]:
-        """Return the cache keys by kind of file if the figure is not yet made, else {}."""
+        """Return the keys in the cache by kind of file while the figure's files are not loaded, else {}."""
         return {} if self.contents else dict(self.keys)
 
     def take(self, cache: Cache) -> None:
-        """Set `contents` and `facts` from the cache, if all the figure's files are there."""
+        """Set `contents` and `facts` from the cache if the files of all kinds are there; otherwise change nothing."""
         entries = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
         if entries.keys() == self.keys.keys():
             for kind, entry in entries.items():
@@ -89,7 +92,11 @@ class FigureBuild:
 
 
 def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str, str]:
-    """Return the digests of everything on which a figure depends, by name."""
+    """Return the digests of everything on which a figure depends, by name: "parameters", "recipe and kernels", ....
+
+    `gl` names the library that draws shaded pictures; it counts for a shaded figure alone. A recipe that can't be
+    loaded gets no records.
+    """
     from atlas.pictures import recipes
 
     drawing = [path for path in (PACKAGE / "pictures" / "drawing").rglob("*") if path.suffix not in {".py", ".pyc"}]
@@ -127,7 +134,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
 
 
 def _why(figure: FigureBuild, cache: Cache) -> str:
-    """Return why a figure must be drawn, in words: a missing file, or what has changed since it was last drawn."""
+    """Return why a figure must be drawn, in words: changed parts, a missing file, changed inputs, or never drawn."""
     if before := cache.load(figure.name):
         changed = [name for name, value in figure.parts.items() if before.get(name) != value]
         return f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
@@ -137,14 +144,16 @@ def _why(figure: FigureBuild, cache: Cache) -> str:
 
 
 def _inputs(figure: FigureBuild) -> dict[str, str]:
-    """Return a digest of each input of a figure by its name."""
+    """Return the digest of each of a figure's parameters by name, and under "target" that of its targets."""
     return {name: digest(value) for name, value in figure.parameters.items()} | {"target": digest(figure.targets)}
 
 
 def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Progress) -> None:
-    """Draw the missing files of some figures: a single one in this process, several by `jobs` workers.
+    """Draw the missing files of some figures: a single one in this process, several by up to `jobs` worker processes.
 
-    Shaded figures are drawn first, since they take longest. Raises OSError when the cache can't be written.
+    Sets `new`, `failure`, `contents` and `facts` of those figures. Shaded figures are drawn first, since they take
+    longest. `progress` is called after each with (figures done, number of figures, stem); cached ones count as done.
+    Raises OSError when the cache can't be written.
     """
     missing = sorted((build for build in figures if build.missing()), key=lambda build: build.renderer != "shaded")
     for done, (figure, failure) in enumerate(_finished_figures(missing, cache, jobs), len(figures) - len(missing) + 1):
@@ -156,10 +165,10 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 
 
 def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
-    """Draw figures; yield pairs (figure, reason of its failure or "") as each is finished.
+    """Draw figures into the cache; yield pairs (figure, reason of its failure or "") as each is finished.
 
-    If a worker dies, unfinished figures are drawn again one by one in a fresh process, so that the figure that kills
-    its process is identified; the others are drawn.
+    At most `jobs` processes draw at once. If one dies, unfinished figures are drawn again one by one in a fresh
+    process, so that the figure that kills its process is identified and reported as failed; the others are drawn.
     """
     settle_matplotlib()
     waiting = {
@@ -201,16 +210,17 @@ def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -
 
 
 def cores() -> int:
-    """Return the default number of workers: the processors, at most MAX_WORKERS."""
+    """Return the default number of worker processes: that of the processors, at most MAX_WORKERS."""
     return min(processors(), MAX_WORKERS)
 
 
 @dataclass(frozen=True)
 class Files:
-    """Result of one figure: its files, their renderer, a line for the user, and the reason; or its failure.
+    """Result of one figure: stem of its recipe, its files, their renderer, a line for the user, and the reason.
 
-    `left_out` names the panels without room at the target's size. `edited` says which new files stand beside files that
-    the user wrote or edited.
+    `reason` says why it was drawn or taken; `failure` why it could not be drawn, with no files. `left_out` is a
+    sentence that names the panels without room at the target's size, or "". `edited` is a sentence on the new files
+    that stand beside files which the user wrote or edited, or "".
     """
 
     name: str
@@ -260,7 +270,10 @@ def build_figures(
 
 
 def _put(figure: FigureBuild, out: Path) -> Files:
-    """Write the files of a figure to `out` and return its `Files`; a file that the user edited is kept."""
+    """Write the files of a drawn figure to `out` and return its `Files`; of a failed one only the `Files`.
+
+    Where the user has edited a file, it stays and the new one is written beside it.
+    """
     name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
@@ -279,9 +292,10 @@ HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms
 
 
 def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Mapping[str, float], jobs: int) -> Path:
-    """Write the costs of a build as JSON into the file `path`, and return the path.
+    """Write the costs of the build of the report `name` as JSON into the file `path`, and return the path.
 
-    `times` are the clock's readings in seconds at the end of each step, in order.
+    `times` are the clock's readings in seconds at the end of each step, by the step's name and in order; the first
+    is the start. `jobs` is the number of workers.
     """
     steps = {
         step: round(end - start, 4) for (step, end), start in zip([*times.items()][1:], times.values(), strict=False)
@@ -298,7 +312,10 @@ def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Ma
 
 
 def rows_of_costs(path: Path) -> list[list[str]]:
-    """Return the rows of a table of costs, from their JSON file: texts in the order of `HEADING`."""
+    """Return a row for each figure of a file by `write_costs`: eight texts in the order of `HEADING`.
+
+    The row of a failed figure has "failed" in the second place and "" from the third on.
+    """
     return [
         [entry["scene"], "failed", *[""] * 6]
         if entry["from"] == "failed"
@@ -317,7 +334,10 @@ def rows_of_costs(path: Path) -> list[list[str]]:
 
 
 def _costs(figure: FigureBuild) -> dict[str, Any]:
-    """Return the cost record of one figure; for a cached one, its cost when drawn."""
+    """Return the cost record of one figure, {"scene": name, "from": "drawn" or "cache", "reason": ..., costs}.
+
+    The costs are counts, seconds, MB and bytes; for a cached figure those when it was drawn, for a failed one none.
+    """
     if figure.failure:
         return {"scene": figure.name, "from": "failed", "reason": figure.failure}
     origin = "drawn" if figure.new else "cache"

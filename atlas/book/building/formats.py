@@ -50,7 +50,10 @@ _SCRIPT = re.compile(r'<script src="([^"]+)" defer></script>\n?')
 
 
 def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
-    """Typeset a document's texts for these formats into `document.written`; earlier results come from the cache."""
+    """Typeset a document's texts for these formats ("html", "pdf", "single") into `document.written`, in place.
+
+    Texts that an earlier build has set come from the cache.
+    """
     # pages of one object have most of their texts in common
     group = "a page" if len(document.pages) == 1 else document.report.name
     name = f"texts of {group} by {sources.closure([PACKAGE / 'book' / 'texts.py'])}"
@@ -60,7 +63,7 @@ def set_texts(document: "Document", formats: Sequence[str], cache: Cache, source
 
 
 def manifest_of(document: "Document") -> bytes:
-    """Return the manifest of a report as JSON; it depends on the report and on the versions alone."""
+    """Return the manifest of a report as JSON: its name, its title in plain words, and versions by library."""
     from atlas.book.templates import versions
 
     report = document.report
@@ -71,7 +74,11 @@ def manifest_of(document: "Document") -> bytes:
 def _pages(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
-    """Return the HTML pages of a report and all files beside them, contents by path."""
+    """Return the HTML pages of a report and all files beside them (figures, cards, fonts, manifest), contents by path.
+
+    A path begins with the report's name. `figures` are the drawn figures with their pictures; thumbnails and fonts that
+    an earlier build has made come from the cache.
+    """
     from atlas.book import fonts, html
 
     code = sources.closure([PACKAGE / "book" / "fonts.py"])
@@ -98,14 +105,17 @@ def _pages(
 def _single(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
-    """Return {"NAME.html": content}: the pages of a report as one file with everything they need."""
+    """Return {"NAME.html": content}: the page of a one-page report as one file with everything that it needs.
+
+    The parameters are those of `_pages`. Raises AtlasError for a report of several pages.
+    """
     name = document.report.name
     files = _pages(document, figures, cache, sources)
     return {f"{name}.html": single({place.removeprefix(f"{name}/"): files[place] for place in files}, name)}
 
 
 def single(files: Mapping[str, bytes], name: str) -> bytes:
-    """Return a one-page report's files joined into one page. Raises AtlasError for a report of several pages.
+    """Return a one-page report's files joined into one page, as UTF-8. Raises AtlasError for a report of several pages.
 
     `files` has the page, index.html, and the files that belong to it, by path; `name` is that of the
     report, whose PDF may lie beside the page. Figures can be saved from it; its policy lets it run its own
@@ -159,10 +169,12 @@ def files_of(
     cache: Cache,
     sources: Sources,
 ) -> Iterator[tuple[str, dict[str, bytes]]]:
-    """Yield each format with its files, contents by path: the pages first, while Typst sets the PDF.
+    """Yield (format, files) of the wanted `formats`, files as contents by path: pages first, while Typst sets the PDF.
 
-    The cache holds the last PDF of each report, which is taken where nothing in it has changed. Typst never gives
-    memory back: a process of its own, where there can be one, ends with the report.
+    `figures` are the drawn figures with their pictures. The cache holds the last PDF of each report, which is taken
+    where nothing in it has changed. Typst never gives memory back: a process of its own, where there can be one,
+    ends with the report. Raises AtlasError if that process is ended, and for the format "single" of a report of
+    several pages.
     """
     from concurrent.futures.process import BrokenProcessPool
 
@@ -193,7 +205,7 @@ def files_of(
 
 
 def _pdf_key(source: str, folder: Path, faces: Sequence[Path], sources: Sources) -> str:
-    """Return the digest of all that a PDF depends on: its Typst source, files beside it, fonts, code and Typst."""
+    """Return the digest of all that a PDF depends on: its Typst `source`, files in `folder`, fonts, code and Typst."""
     beside = {path.relative_to(folder).as_posix(): digest_of(path) for path in folder.rglob("*") if path.is_file()}
     code = sources.closure([PACKAGE / "book" / "typesetting.py"])
     return digest(source, beside, [digest_of(face) for face in faces], code, versions())

@@ -13,9 +13,10 @@ from atlas.sources import Sources
 def build_gallery(
     names: Sequence[str], out: Path, progress: Progress, *, style: str | None = None, jobs: int | None = None
 ) -> Built:
-    """Build a gallery of recipes, of all when none is named, as out/gallery/gallery.html.
+    """Build a gallery of recipes, of all when none is named, as out/gallery/gallery.html; return the `Built`.
 
-    The report that it is made from is written to out/gallery.md; a file NAME.py is a recipe of the user's own.
+    The report that it is made from is written to out/gallery.md; a name that ends in .py is the path of a recipe of the
+    user's own. `progress`, `style` and `jobs` are those of `build_report`, which raises the errors.
     """
     places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names] or ["*"]
     sources = Sources(Cache(cache_folder(out)))

@@ -16,15 +16,17 @@ UNFINISHED = ".atlas-"
 
 
 def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, lines_before: Iterable[str] = ()) -> None:
-    """Write the files of each format, all of them before the first takes its place.
+    """Write the files of each format into `out`, all of them before the first takes its place.
 
-    Files below `name`/ are replaced at once: their folder is exchanged with the previous one, if the system can do that
-    and it is no link. So a killed build leaves the pages of one build, and a PDF of this build or the previous one;
-    other files that it leaves are removed by the next build. Two builds at once take turns.
+    `pages` holds for each format its files, contents by path. Files below `name`/ are replaced at once: their
+    folder is exchanged with the previous one, if the system can do that and it is no link. So a killed build leaves
+    the pages of one build, and a PDF of this build or the previous one; other files that it leaves are removed by
+    the next build. Two builds at once take turns.
 
-    Only files that are unchanged since they were written are replaced or removed; `lines_before` are lines of such a
-    list, with names in `out`, for a folder without one. An edited file stays, the new one is written beside it, and
-    AtlasError is raised after everything is written.
+    Only files that are unchanged since they were written are replaced or removed. A folder holds a list of the
+    files that builds wrote, lines "digest  path"; `lines_before` are such lines, with paths in `out`, for a folder
+    without a list. An edited file stays, the new one is written beside it, and AtlasError is raised after
+    everything is written.
     """
     contents = {path: content for page in pages.values() for path, content in page.items()}
     inner = f"{name}/"
@@ -47,8 +49,9 @@ def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, line
 def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], work: Path) -> dict[str, str]:
     """Replace the files of the folder `place` by those of `inside`, contents by path, at once.
 
-    Returns the new names, by path, of files beside which an edited one is kept. `lines_before` are lines "digest  path"
-    of files that a build wrote before.
+    Returns {path: new path} of the files that are written beside an edited one, which is kept. `lines_before` are
+    lines "digest  path" of files that a build wrote before; `work` is the folder on the same disk where all are
+    written first.
     """
     before = files.lines(place) | lines_before
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
@@ -74,20 +77,29 @@ def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], wor
 
 
 def replace(place: Path, contents: Mapping[str, bytes]) -> None:
-    """Write these files, contents by path, into a folder, and remove others that a build wrote, see `publish`."""
+    """Write files, contents by path, into the folder `place`, and remove others there that a build wrote.
+
+    Files that the user wrote or edited stay; for an edited one AtlasError is raised at the end, see `publish`.
+    """
     inside = {f"{place.name}/{path}": content for path, content in contents.items()}
     publish({"folder": inside}, place.parent, place.name)
 
 
 def _user_files(place: Path, lines: set[str], names: set[str]) -> list[str]:
-    """Return the paths in a folder, except `names`, that no build wrote."""
+    """Return the sorted paths in the folder `place`, except `names`, of files that no build wrote or that were edited.
+
+    `lines` are the lines "digest  path" of the files that builds wrote.
+    """
     paths = (path.relative_to(place).as_posix() for path in place.rglob("*"))
     return sorted(name for name in paths if name not in {WRITTEN, *names} and files.edited(place, name, lines))
 
 
 @contextmanager
 def _work(out: Path) -> Iterator[Path]:
-    """Yield a folder to write to, on the disk of `out`, under a lock; files of a killed process are removed."""
+    """Yield an empty folder to write to, on the disk of `out`, under a lock of `out`; it is removed at the end.
+
+    Such folders of killed processes are removed at the beginning.
+    """
     out.mkdir(parents=True, exist_ok=True)
     with files.turn(out):
         for remaining in out.glob(f"{UNFINISHED}*"):
@@ -100,7 +112,7 @@ def _work(out: Path) -> Iterator[Path]:
 
 
 def _write(contents: Mapping[str, bytes], folder: Path) -> None:
-    """Write files, contents by path, into a folder; missing folders are made."""
+    """Write files, contents by path, into a folder, over existing ones; missing folders are made."""
     for path, content in contents.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(content)
@@ -114,7 +126,7 @@ def _place(work: Path, out: Path, names: Iterable[str]) -> None:
 
 
 def _remove_others(folder: Path, stay: set[str]) -> None:
-    """Remove from a folder all files whose path is not in `stay`, and empty folders."""
+    """Remove from a folder, at any depth, all files whose path is not in `stay`, then the empty folders."""
     for old in sorted(folder.rglob("*"), reverse=True):
         if old.is_dir() and not old.is_symlink():
             if not any(old.iterdir()):

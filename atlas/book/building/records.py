@@ -37,7 +37,7 @@ _SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
 
 
 def gather(report: Report) -> Appendices:
-    """Return the `Appendices` with those records that the blocks of a report show."""
+    """Return the `Appendices` with those records that the blocks of a report show, and nothing else."""
     blocks = [block for page in report.pages for block in page.blocks]
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     requests = {block.source for block in blocks if isinstance(block, Recorded)}
@@ -81,7 +81,7 @@ PHYSICS = ("arithmetic", "bodies", "surfaces", "motions", "maps")
 
 
 def _modules() -> dict[str, tuple[str, ...]]:
-    """Return the modules of the motions whose docstrings cite an entry, by its name."""
+    """Return, by name of an entry of the ledger, the modules of `PHYSICS` whose docstrings cite it, as paths."""
     modules: defaultdict[str, list[str]] = defaultdict(list)
     files = [path for place in PHYSICS for path in sorted((PACKAGE / place).rglob("*.py"))]
     for path in files:
@@ -93,7 +93,7 @@ def _modules() -> dict[str, tuple[str, ...]]:
 
 
 def _trial() -> dict[str, Data]:
-    """Return two tables by name: counts of verdicts for each section, and the slips by grade."""
+    """Return two tables: "totals", counts of verdicts for each section, and "slips", the entries with one by grade."""
     from atlas.trial.proofs import recorded
     from atlas.trial.proofs.verdict import slips
 
@@ -130,7 +130,7 @@ def _trial() -> dict[str, Data]:
 
 
 def _bench() -> dict[str, Data]:
-    """Return the tables of the stored benchmark by their titles: the limits of speed, and errors by time."""
+    """Return the tables of the stored benchmark by title: "Limits of speed", and for each case errors by time."""
     from atlas.checking import benchmark
 
     stored = benchmark.read()
@@ -159,7 +159,7 @@ def _bench() -> dict[str, Data]:
 
 
 def _stress() -> dict[str, Data]:
-    """Return the table of the worst recorded error of each quantity, and of the regime where it occurred."""
+    """Return {"worst errors": table}: each quantity's worst recorded error and its limit in ulps, and the regime."""
     from atlas.motions.register import FAMILIES
 
     limits = {name: ulps for family in FAMILIES.values() for name, ulps in family.promises.items()}
@@ -183,7 +183,7 @@ def _stress() -> dict[str, Data]:
 
 
 def _machines() -> dict[str, Data]:
-    """Return the table of systems on which a fresh checkout was tried, with user and result."""
+    """Return {"systems": table} of the systems on which a fresh checkout was tried, with user and results."""
     with (folder("reports") / "data" / "machines.csv").open(encoding="utf-8", newline="") as file:
         _, *rows = csv.reader(file)
     columns = heads("System", "Python", "User", "GL", "Set-up", "`make report`", "`make test`", "Works", "Tried")
@@ -206,7 +206,7 @@ def title(name: str) -> str:
 
 
 def _tex(letter: str, index: str, power: str) -> str:
-    """Return TeX of a letter with its index, or of a power of ten if there is one."""
+    """Return the TeX of a letter with its index ("" if none); of 10 to `power` where that is not empty."""
     if power:
         return f"10^{{{power}}}"
     text = _NAMED.get(letter, f"\\{letter}" if len(letter) > 1 else letter)
@@ -214,14 +214,14 @@ def _tex(letter: str, index: str, power: str) -> str:
 
 
 def _ulps(error: float) -> Number:
-    """Return an error in ulps as a `Number` of three decimals, from `MAX_PLAIN` on with a power of ten."""
+    """Return an error in ulps as a `Number` with three decimals, from 1000 on with one and a power of ten; 0 as "0"."""
     if not error:
         return Number("0")
     return Number(f"{error:.3f}" if error < MAX_PLAIN else f"{error:.1e}")
 
 
 def _three(value: float | None) -> str | Number:
-    """Return a `Number` of three digits, of two if below MIN_PLAIN; a dash for None."""
+    """Return a `Number` of three digits, of two if its magnitude is below 0.01 (MIN_PLAIN); "–" for None."""
     if value is None:
         return "–"
     return Number(f"{value:.1e}" if 0 < abs(value) < MIN_PLAIN else f"{value:.3g}")
@@ -234,13 +234,16 @@ def _words(text: str) -> str:
 
 
 def described() -> dict[str, Described]:
-    """Return the arguments and docstring of each public name, with the public and inherited members of classes."""
+    """Return the `Described` of each public name: arguments, docstring, and members of a class, own and inherited."""
     names = [name for name in atlas.__all__ if not name.startswith("_")]
     return {name: _described(getattr(atlas, name), _members(getattr(atlas, name))) for name in names}
 
 
 def _members(owner: Any) -> Mapping[str, Described]:
-    """Return the documented members of a class by name, its own before inherited ones."""
+    """Return the public functions, methods and properties of a class of this package by name, own before inherited.
+
+    {} for an object that is no class; members that are not functions are left out.
+    """
     members: dict[str, Described] = {}
     for cls in inspect.getmro(owner) if inspect.isclass(owner) else ():
         for name, member in vars(cls).items() if cls.__module__.startswith("atlas") else ():
@@ -257,7 +260,7 @@ def _described(member: Any, members: Mapping[str, Described], *, is_callable: bo
 
 
 def _arguments(member: Any) -> str:
-    """Return the arguments of a class or function with their defaults, as text; empty for an exception."""
+    """Return the arguments of a class or function as "(a, b=1)", without annotations and self; "" for an exception."""
     if inspect.isclass(member) and issubclass(member, BaseException):
         return ""
     signature = inspect.signature(member)

@@ -41,10 +41,11 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(frozen=True)
 class Built:
-    """Result of a build: paths of the first page and the PDF, counts, and failed figures as (name, reason).
+    """Result of a build: name, paths of the first page and the PDF, counts of pages and figures drawn, and failures.
 
-    `notes` are lines for the user, `reasons` tuples (part, name, reason why it was made or taken), `costs` the path of
-    the figures' costs or None.
+    `failures` are pairs (stem of the figure, reason), `notes` lines for the user, `reasons` tuples (part, name,
+    reason why it was made or taken), `costs` the path of the JSON file with the figures' costs, None where nothing
+    was built.
     """
 
     name: str
@@ -59,7 +60,7 @@ class Built:
 
     @property
     def single(self) -> Path:
-        """Path of the report as one file."""
+        """Path of the report as one file, NAME.html beside the PDF; it exists only if that format was asked for."""
         return self.pdf.with_name(f"{self.name}.html")
 
     @property
@@ -103,7 +104,11 @@ def build_report(
 
 
 def key_of(file: Path, sources: Sources, style: str | None = None, values: Mapping[str, Any] | None = None) -> str:
-    """Return the digest of all that a report depends on: file, inputs, code, recipes, templates, records, libraries."""
+    """Return the digest of all that a report depends on: file, inputs, code, recipes, templates, records, libraries.
+
+    `style` is a style sheet of Matplotlib, a file or a name, and `values` are the report's inputs by name; None for
+    none.
+    """
     from atlas import gl
 
     text = file.read_bytes()
@@ -121,7 +126,10 @@ def key_of(file: Path, sources: Sources, style: str | None = None, values: Mappi
 
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
-    """Return the `Built` of the existing report if its key is the same and its files are unedited, else None."""
+    """Return the `Built` of the existing report if each of its `formats` was built with this key, else None.
+
+    Its files must be unedited, too.
+    """
     record_before = cache.load(_noted(name, out))
     for form in formats:
         record = record_before.get(form, {"key": None})
@@ -132,7 +140,7 @@ def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: 
 
 
 def _noted(name: str, out: Path) -> str:
-    """Return the cache key of the record of a build in a folder."""
+    """Return the name under which the cache holds the record of the builds of a report in the folder `out`."""
     return f"report {name} in {out.resolve()}"
 
 
@@ -149,9 +157,11 @@ def _build(
     key: str | None,
     progress: Progress,
 ) -> Built:
-    """Build a report whose inputs have these `values`, and return its `Built`.
+    """Build a report whose inputs have these `values`, by name, and return its `Built`.
 
-    `key` is that of `key_of`; if None, it is computed while the figures are drawn.
+    `file` is the report's, `name` that of its folder in `out`; `formats`, `style`, `jobs` and `progress` are those
+    of `build_report`. `key` is that of `key_of`; if None, it is computed while the figures are drawn. Raises
+    AtlasError for a mistake in the report, and at the end for files that the user edited.
     """
     from atlas import gl
     from atlas.book.building import figures
@@ -217,7 +227,11 @@ def _publish(
     counts: dict[str, int],
     cache: Cache,
 ) -> None:
-    """Write the files of a format into `out`, and save their digests, the key and the counts in the cache."""
+    """Write the files of the format `form`, contents by path, into `out`; save digests, key and counts in the cache.
+
+    `key` is None if a figure failed, so that the next build starts anew; `counts` are the numbers of pages and figures.
+    Raises AtlasError for files that the user edited.
+    """
     record: dict[str, Any] = cache.load(_noted(name, out))
     before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
     publish({form: files}, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
@@ -229,7 +243,11 @@ def _publish(
 def document_of(
     report: "Report", file: Path, drawings: "Mapping[str, Picture]", builds: "Mapping[FigureBuild, Picture]"
 ) -> "Document":
-    """Return the `Document` of a report, with computed tables; `builds` gives the drawn figures their captions."""
+    """Return the `Document` of a report, with computed tables; `builds` gives the drawn figures their captions.
+
+    `file` is the report's file, beside which its bibliography lies; `drawings` are all its pictures by key. The
+    pictures of `builds` are changed in place, see `describe`.
+    """
     from atlas.book import bibliography
     from atlas.book.building.records import gather
     from atlas.book.compose import compose
@@ -241,7 +259,7 @@ def document_of(
 
 
 def outlines(report: "Report") -> "dict[str, Document]":
-    """Return the related reports by name, as `Document`s with numbers and anchors, but without computed tables."""
+    """Return the reports related to this one by name: `Document`s with numbers and anchors, without computed tables."""
     from atlas.book.compose import compose
     from atlas.book.load import load
     from atlas.book.pictures import pictures
@@ -251,7 +269,7 @@ def outlines(report: "Report") -> "dict[str, Document]":
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:
-    """Return the paths of a report's first page and of its PDF."""
+    """Return (path of a report's first page, path of its PDF)."""
     return out / name / "index.html", out / f"{name}.pdf"
 
 
@@ -264,7 +282,7 @@ def _check(name: str, file: Path) -> None:
 
 
 def check_style(style: str | None) -> None:
-    """Raise AtlasError for a style sheet that can't be used; None is allowed."""
+    """Raise AtlasError for a style sheet, a file or a name, that Matplotlib can't use; None is allowed."""
     if style is not None:
         from atlas.pictures.drawing.style import context
 
@@ -279,10 +297,12 @@ def _figures(
     library: str | None,
     cards: Container[str] = (),
 ) -> "dict[FigureBuild, Picture]":
-    """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
+    """Return {build: picture}, the figures of a report to be drawn: shaded ones as PNG, others as SVG and PDF.
 
-    The pages offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen, and turn
-    panels in space. Pictures that front-page `cards` show, by key, are drawn as PNG as well.
+    Pictures whose recipe failed are left out. The SVG is for the pages (``html`` or ``single`` among the
+    `formats`), which offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen,
+    and turn panels in space. Pictures that front-page `cards` show, by key, are drawn as PNG as well. `library`
+    draws shaded pictures; without one (None) they are drawn as the others.
     """
     from atlas.book.building.figures import FigureBuild
 
@@ -301,7 +321,10 @@ def _figures(
 
 
 def describe(figure: "FigureBuild", picture: "Picture") -> None:
-    """Set caption, alternative text, size and file names of a picture from a drawn figure, or its failure."""
+    """Set caption, alternative text, size in millimetres, file names and remark of a picture from a drawn figure.
+
+    Of a figure that failed only `failure` is set.
+    """
     from atlas.book.digits import shown
 
     picture.failure = figure.failure

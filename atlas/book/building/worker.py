@@ -24,7 +24,12 @@ from atlas.targets import find
 
 @dataclass(frozen=True)
 class Task:
-    """A figure to be drawn: recipe, parameters, style and targets, and for each kind of file its key in the cache."""
+    """A figure to be drawn by one process: an order that can be pickled.
+
+    `recipe` is a name or a path, `parameters` are its values by name, `renderer` is vector or shaded, `style` a
+    style sheet of Matplotlib or None, `keys` holds the key in the cache of each kind of file to be made, `cache` is
+    the cache's folder, and the first of the `targets`, names of media, that is wide enough is drawn for.
+    """
 
     recipe: str
     parameters: Mapping[str, Any]
@@ -36,9 +41,10 @@ class Task:
 
 
 def draw(task: Task) -> str:
-    """Draw a figure into the cache; return "", or the reason of its failure as a sentence.
+    """Draw a figure's files into the cache; return "", or the reason of its failure as a sentence.
 
-    Raises OSError when the cache can't be written: that is no fault of the figure.
+    Any exception of the recipe is a failure; only OSError is raised, when the cache can't be written: that is no
+    fault of the figure. What the recipe prints goes to standard error.
     """
     try:
         with redirect_stdout(sys.stderr):  # what a recipe or a library prints is no result
@@ -104,7 +110,10 @@ def _draw(task: Task) -> None:
 
 
 def _page_files(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
-    """Return the files other than pictures by kind: scene and motion for the viewer of a page, and points as CSV."""
+    """Return the wanted kinds of files that are no pictures: scripts "scene" and "moves" for a page, "csv", "csv.gz".
+
+    `figures` are the drawn Matplotlib figures of the scene, from which the scripts read places; [] if there are none.
+    """
     contents = {}
     if "scene" in task.keys:
         from atlas.pictures.drawing import viewer
@@ -130,7 +139,7 @@ def _compressed(content: bytes) -> bytes:
 
 
 def counted(scene: Scene) -> dict[str, int]:
-    """Return {"points": n, "faces": m} of a scene: points of lines, regions and marks; faces of surfaces and maps."""
+    """Return {"points": n, "faces": m} of a scene: points of lines, regions and marks; cells of surfaces and maps."""
     points = faces = 0
     for layer in (layer for panel in scene.panels for layer in panel.layers):
         if isinstance(layer, Curve | Points | Region):
@@ -144,15 +153,16 @@ def counted(scene: Scene) -> dict[str, int]:
 
 
 def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
-    """Return the facts of a figure (caption, size, cost), and its file, from its cache entry."""
+    """Return (facts, content) from a cache entry: a dict with title, caption, size, cost, ..., and the file's bytes."""
     facts, _, content = entry.partition(b"\n")
     return json.loads(facts), content
 
 
 def begin(environment: Mapping[str, str]) -> None:
-    """Set the environment of a worker process to the caller's, and let its standard output go to standard error.
+    """Replace the environment of a worker process by the caller's, and let its standard output go to standard error.
 
-    The environment may have changed since the fork server was started.
+    The environment may have changed since the fork server was started. Unless Python was started with -W,
+    RuntimeWarning is ignored.
     """
     os.environ.clear()
     os.environ.update(environment)
