@@ -33,7 +33,12 @@ GAUSSIAN_UNITS = {"kg": "g", "m": "cm", "C": "statC", "kg m$^2$": "g cm$^2$"}
 
 
 class Body(StrictStruct, frozen=True):
-    """A body's record: the ratio I = I3/I2, or (I2, I3), or a shape with dimensions in metres and kilograms."""
+    """A body's record: the ratio I = I3/I2, or (I2, I3), or a shape with dimensions in metres and kilograms.
+
+    Exactly one of `ratio`, `inertia` and `shape`, a key of `SHAPES`, is given; a shape takes its mass and its own
+    lengths: `radius`, `height`, `length`, or the semi-axes `equatorial` and `polar`. `charge` is in C; in a
+    Gaussian field lengths are in cm, masses in g and charges in statC. `title` names the body in sentences.
+    """
 
     title: str
     ratio: float | None = None
@@ -49,7 +54,12 @@ class Body(StrictStruct, frozen=True):
 
 
 class Field(StrictStruct, frozen=True):
-    """A field's record: (B2, B3) of B' in 1/s, or the vector B with its system of units."""
+    """A field's record: (B2, B3) of B' in 1/s, or the vector B with its system of units.
+
+    Exactly one of `prime` = (B2, B3) and `B` is given. `B` in T and `E` in V/m, or in Gaussian units, are vectors
+    (3,) in the laboratory, `axis` is the direction of the body's axis there, and `charge_to_mass` (None: that of
+    the body) turns B into B'. `title` names the field in sentences.
+    """
 
     title: str
     prime: tuple[Exact, Exact] | None = None
@@ -61,7 +71,10 @@ class Field(StrictStruct, frozen=True):
 
 
 class BodiesAndFields(StrictStruct, frozen=True):
-    """The bodies, fields and sets of parameters that the blocks call by name."""
+    """The bodies, fields and sets of parameters that the blocks call by name, each a dict by that name.
+
+    A set holds values by name of a parameter.
+    """
 
     bodies: dict[str, Body] = msgspec.field(default_factory=dict)
     fields: dict[str, Field] = msgspec.field(default_factory=dict)
@@ -70,10 +83,11 @@ class BodiesAndFields(StrictStruct, frozen=True):
 
 @dataclass(frozen=True)
 class BodyAndField:
-    """A body in a field, and the records from which both come.
+    """A body in a field, and the records from which both come; None for a body or field that is not given.
 
     `body` and `body_record` are the body and its record; `field` = (B2, B3), components of B' in 1/s. `physical`,
-    `frame` and `units` are set if the field was given as B.
+    the field B and E with the charge-to-mass ratio, `frame`, the laboratory's axes, and `units` are set if the
+    field was given as B.
     """
 
     body: SymmetricBody | None = None
@@ -86,7 +100,7 @@ class BodyAndField:
 
     @property
     def exact(self) -> Any:
-        """The body's `Moments` (I2, I3) without rounding; of a shape, from its dimensions.
+        """The body's `Moments` (I2, I3) without rounding, as given; of a shape, computed from its dimensions.
 
         Raises AtlasError without a body.
         """
@@ -108,7 +122,10 @@ class BodyAndField:
 
     @property
     def exact_components(self) -> tuple[float | Fraction, ...]:
-        """Components (B2, B3) of B' in 1/s: exact if B is in the plane of e2 and e3, else rounded to floats."""
+        """Components (B2, B3) of B' in 1/s: exact if B is in the plane of e2 and e3, B3 >= 0; else rounded to floats.
+
+        B' given as such is exact. Raises AtlasError without a field.
+        """
         if self.field_record and self.field_record.prime is not None:
             return tuple(as_float_or_fraction(rational(x, "prime")) for x in self.field_record.prime)
         field, frame = self.physical, self.frame
@@ -117,7 +134,7 @@ class BodyAndField:
 
     @property
     def ratio(self) -> float:
-        """The double nearest to the exact I = I3/I2, for figures."""
+        """The float nearest to the exact I = I3/I2, for figures. Raises AtlasError without a body."""
         from atlas.bodies.certified_body import ratio_of
 
         I = ratio_of(self.exact)
@@ -153,15 +170,19 @@ def body(record: Body) -> SymmetricBody:
 
 
 def dimensions(record: Body) -> dict[str, float]:
-    """Return the given dimensions and the mass of a body's record, without its charge, by name."""
+    """Return the given lengths in m and the mass in kg of a body's record by name, without its charge.
+
+    {} without any.
+    """
     values = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
     return {key: value for key, value in values.items() if value is not None}
 
 
 def chosen(block: Any, records: BodiesAndFields) -> tuple[BodyAndField, ...]:
-    """Return a `BodyAndField` for each body that a block names, all in the block's field.
+    """Return a `BodyAndField` for each body that a block names by `body` or `bodies`, all in the block's `field`.
 
-    One without a body if the block names none; `field` is None if the block names no field.
+    If the block names no body, there is one item without a body; without a field its `field` is None. Raises AtlasError
+    for records that make no body or field.
     """
     field = records.fields[block.field] if block.field else None
     bodies = block.bodies or ((block.body,) if block.body else (None,))
@@ -172,7 +193,7 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
     """Return the `BodyAndField` of two records, either of which may be None.
 
     A field B becomes B' by the charge-to-mass ratio of the field's record, else of the body's. Raises AtlasError for a
-    field given neither or both ways, and without such a ratio.
+    field given neither or both ways, for B without such a ratio, for B' with one, and for a drift as fast as light.
     """
     symmetric_body = body(body_record) if body_record else None
     if field_record is None:
@@ -195,7 +216,7 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
 
 
 def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fraction:
-    """Return the charge-to-mass ratio of the field's record, else charge over mass of the body's.
+    """Return the charge-to-mass ratio of the field's record, else charge over mass of the body's, in C/kg or statC/g.
 
     Raises AtlasError where neither record has it.
     """
@@ -208,7 +229,7 @@ def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fr
 
 
 def parameters(known_records: BodiesAndFields) -> list[str]:
-    """Return lines of Markdown, one for each body and each field: its title and its inputs."""
+    """Return lines of Markdown, one for each body, then one for each field: "title: name = value unit, ..."."""
     fields = [*known_records.fields.values()]
     is_gaussian = bool(fields) and all(one.system == "Gaussian" for one in fields)
     records: list[Body | Field] = [*known_records.bodies.values(), *fields]
@@ -236,9 +257,9 @@ _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": 
 
 
 def _written_out(record: Body | Field, is_gaussian: bool) -> str:
-    """Return the inputs of a record as text, "name = value unit", separated by commas; left out are defaults.
+    """Return the inputs of a record as text, "name = value unit", separated by commas; defaults of E and axis left out.
 
-    `is_gaussian` says that a body's dimensions are in Gaussian units, as those of its field.
+    `is_gaussian` says that a body's dimensions are in Gaussian units, as its field's.
     """
     units = _UNITS["Gaussian" if is_gaussian else getattr(record, "system", "SI")]
     numbers = []

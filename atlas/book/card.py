@@ -17,7 +17,10 @@ from atlas.motions.register import FAMILIES, Family
 
 @dataclass(frozen=True)
 class Entry:
-    """A number of the card: its key, words, letter in TeX, unit of the register, equations."""
+    """A number of the card: its key, meaning in words, letter in TeX, unit of the register ("" for a pure number).
+
+    `equation` is the entry of the ledger that it is computed by, or "".
+    """
 
     key: str
     says: str
@@ -48,7 +51,7 @@ ONE_PERIOD = "it has one period and two rates"
 
 
 def has_card(family: Family) -> bool:
-    """Return whether objects of a family are bodies with an axis, in a field or free."""
+    """Return whether objects of a family are bodies with an axis, in a field or free: not a particle, nor a flight."""
     return any(p.name == "ratio" or (p.name == "inertia" and p.columns) for p in family.parameters)
 
 
@@ -63,7 +66,10 @@ def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> tuple[float | None, str]:
-    """Return (number of the card in doubles, ""), or (None, reason in words why there is none)."""
+    """Return (value, "") of the card's number `key`, or (None, reason in words why there is none).
+
+    The value is computed in doubles, in rad, time or rad/time; `arguments` are the family's inputs by name.
+    """
     try:
         value = float(_number(key, family, motion, arguments, math))
     except DomainError as reason:
@@ -78,7 +84,8 @@ def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, A
 def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
     """Return the card's number `key` from a motion, in doubles if `functions` is `math`, in balls if it is `Balls`.
 
-    Raises DomainError, with the reason, where the motion has no such number.
+    `arguments` are the family's inputs by name. Raises DomainError, with the reason, where the motion has no such
+    number.
     """
     if not has_card(family):
         raise DomainError(f"it has the numbers of a body with an axis, and this is the {family.says}")
@@ -96,9 +103,10 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
 
 
 def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
-    """Return the rate about the body's axis for the key "spin", or the time of one turn about the field for "turn".
+    """Return the rate about the body's axis in rad/time for the key "spin", the time of one turn for "turn".
 
-    `arguments` are the family's inputs. Raises DomainError where the axis does not go round.
+    The turn is that of the axis about the field. `arguments` are the family's inputs by name, `functions` is `math` or
+    `Balls`. Raises DomainError for "turn" where the axis does not go round.
     """
     if (rate := _spin_of_free_body(arguments)) is not None:
         if key == "spin":
@@ -118,7 +126,10 @@ def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], f
 
 
 def _spin_of_free_body(arguments: Mapping[str, Any]) -> Any:
-    """Return the rate of a free body's spin about its symmetry axis, or a principal one; None for any other motion."""
+    """Return the rate, in rad/time, of a free body's spin about its symmetry axis or a principal axis; else None.
+
+    None also for a body at rest, in a field, or without a start.
+    """
     omega = arguments.get("omega")
     if omega is None or any(arguments.get("field", (1.0,))):
         return None
@@ -127,16 +138,20 @@ def _spin_of_free_body(arguments: Mapping[str, Any]) -> Any:
 
 
 def _is_steady(motion: Any, arguments: Mapping[str, Any]) -> bool:
-    """Return whether a start by all three rates is an elementary motion whose omega3 follows from omega2."""
+    """Return whether a start by all three rates is an elementary motion whose omega3 follows from omega2 by (67).
+
+    `arguments` are the family's inputs by name; False where B2 = 0 or at the pole omega2 = -B2.
+    """
     if not {"ratio", "omega"} <= arguments.keys() or motion.kind != "precession":
         return False
     return bool(arguments["field"][0]) and arguments["omega"][1] != -arguments["field"][0]
 
 
 def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
-    """Return the magnitude |B'|, or for the key "tilt" the angle in rad between field and axis at t = 0.
+    """Return |B'| in rad/time, or for the key "tilt" the angle in [0, pi] rad between field and axis at t = 0.
 
-    Raises DomainError without a field, and for |B'| of a top.
+    Of a top the field's direction counts for the angle. `functions` is `math` or `Balls`. Raises DomainError without a
+    field, and for |B'| of a top.
     """
     *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
     if not any((*across, along)):
@@ -151,7 +166,7 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
 def _words(one: Entry, centre: str, motion: Any) -> str:
     """Return the words of an entry, "the field" replaced by `centre`, the direction about which the axis precesses.
 
-    For a free body of three moments "body's axis" is replaced by the name of the axis.
+    For a free body of three moments "body's axis" becomes the axis of the motion's mode, "long axis" or "short axis".
     """
     says = one.says.replace("the field", centre)
     if centre == "the vertical":
@@ -162,9 +177,9 @@ def _words(one: Entry, centre: str, motion: Any) -> str:
 
 
 def _pole(key: str, arguments: Mapping[str, Any]) -> str:
-    """Return a clause for motions whose axis passes through the direction of the field, "" for others.
+    """Return a clause for "turn" and "spin" of motions whose axis passes through the field's direction, "" for others.
 
-    It says that the rate `key` is the mean of those on both sides of the pole.
+    It says that the rate is the mean of those on both sides of the pole. `arguments` are the family's inputs by name.
     """
     *across, along = arguments.get("field") or arguments.get("direction") or (0.0,)
     W1, W2, *_ = arguments.get("omega") or (0.0, 0.0)
@@ -184,7 +199,7 @@ def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, 
 
 
 def _ratio(arguments: Mapping[str, Any]) -> Any:
-    """Return I3/I2 of a symmetric body. Raises DomainError for three moments."""
+    """Return I3/I2 of a symmetric body, from the inputs by name. Raises DomainError for three moments."""
     if "ratio" in arguments:
         return getattr(arguments["ratio"], "ratio", arguments["ratio"])
     moments = arguments["inertia"]
@@ -194,7 +209,7 @@ def _ratio(arguments: Mapping[str, Any]) -> Any:
 
 
 def _nutation(family: Family, motion: Any, functions: Any) -> Any:
-    """Return the period of nutation; of an elementary motion the period of small nutations about it.
+    """Return the period of nutation, in time; of an elementary motion the period of small nutations about it.
 
     `functions` is `math` for doubles, or `Balls`. Raises DomainError where small nutations do not oscillate.
     """
@@ -208,7 +223,7 @@ def _nutation(family: Family, motion: Any, functions: Any) -> Any:
 
 
 class Balls:
-    """Stand-ins for functions of `math` that take balls and exact fractions and return balls."""
+    """Stand-ins for `pi` and functions of `math` that take balls and exact fractions and return balls."""
 
     def __init__(self) -> None:
         from flint import arb
@@ -232,9 +247,11 @@ class Balls:
 
 
 def card(request: Asked) -> dict[str, dict[str, Any]]:
-    """Return the card: for each key a record with value, digits as text, unit, sigma, proven digits, equation, reason.
+    """Return the card: for each key of `ENTRIES` a dict with the number, or the reason why there is none.
 
-    A value is the double nearest to the proven number; one that is not proven is computed in doubles.
+    Its keys are says, letter, value, unit, sigma (standard deviation or None), digits as text, proven_digits (their
+    count), equation and reason; value, unit and digits are None without a number. A value is the double nearest to
+    the proven number; one that is not proven is computed in doubles, with proven_digits 0.
     """
     item = thing_of(request)
     names = [p.name for p in request.family.parameters]
@@ -277,7 +294,10 @@ def _unit(unit: str, time: str) -> str:
 
 
 def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: int) -> tuple[float | None, str]:
-    """Return the double nearest to a number of the card, and its proven digits as text; (None, "") without a proof."""
+    """Return the double nearest to a number of the card, and its proven digits as text; (None, "") without a proof.
+
+    `twin` is the certified motion, None where there is none; `exact` holds the inputs by name.
+    """
 
     def number() -> Any:
         if key == "ratio" and hasattr(exact.get("ratio"), "I2"):
@@ -297,7 +317,7 @@ def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: 
 
 
 def thing_of(request: Asked) -> Thing:
-    """Return the object of a request. Raises AtlasError where there is no such object."""
+    """Return the object of a request: its family with its inputs. Raises AtlasError for inputs that make no object."""
     return Thing.of(
         Request([case_of(request)], {"family": request.family.name, **request.exact_values}, request.digits)
     )

@@ -33,7 +33,7 @@ def compose(
     *,
     outline: bool = False,
 ) -> Document:
-    """Number the blocks of a report, compute its tables, and collect its texts.
+    """Return the `Document` of a report: its blocks numbered, its tables computed, its texts collected.
 
     `pictures` are those of `atlas.book.pictures.pictures`, `recorded` holds the recorded results that its blocks
     show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
@@ -107,7 +107,7 @@ def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
 
 
 def _cite_formulas(composer: Composer) -> None:
-    """Add to `document.formulas` the formulas of equations that are cited, but displayed on no page of this report."""
+    """Add to `document.formulas`, by name, the texts of cited equations that no page of this report displays."""
     document, composer.place = composer.document, "the equations cited"
     for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
         if name in EQUATIONS and name not in document.targets and name not in document.ledger:
@@ -115,7 +115,10 @@ def _cite_formulas(composer: Composer) -> None:
 
 
 def _explain_symbols(composer: Composer) -> None:
-    """Add the index's symbols, with anchors, to `document.symbols`. Raises AtlasError for one that no page explains."""
+    """Add the index's symbols to `document.symbols` as (index of the text, anchors).
+
+    Raises AtlasError for a symbol that no page of this report explains.
+    """
     document, composer.place = composer.document, "the index"
     for symbol in document.report.index.symbols:
         anchors = composer.anchors(symbol.at)

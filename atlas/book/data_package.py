@@ -41,7 +41,11 @@ _LETTER = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)|GREEK (PHI|THETA|EPSIL
 
 @dataclass(frozen=True)
 class Resource:
-    """One table: name, description, columns in the terms of a Data Package, and rows as texts."""
+    """One table: name, which is its path without suffix, description, columns and rows.
+
+    `facts` are keys of the Data Package such as title and equations; each of the `fields` is the dict of a column with
+    name, title, type and unit; `rows` are the cells as texts, in the order of the columns.
+    """
 
     name: str
     facts: Mapping[str, Any]
@@ -52,8 +56,8 @@ class Resource:
 def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = True) -> dict[str, bytes]:
     """Return the files of a report's data, contents by path: a CSV and, if `parquet`, a Parquet file for each table.
 
-    `drawn` holds each figure's data as CSV, by its anchor; these become tables too. A JSON file describes the tables.
-    Raises AtlasError where pyarrow, which writes Parquet, is missing.
+    `drawn` holds each figure's data as CSV, by its anchor; these become tables too. A JSON file, `datapackage.json`,
+    describes the tables. Raises AtlasError where pyarrow, which writes Parquet, is missing.
     """
     files, resources = dict[str, bytes](), []
     texts = [text.markdown for text in document.texts.texts]
@@ -91,7 +95,10 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
 
 
 def _table(table: TableView, texts: Sequence[str]) -> Resource:
-    """Return the resource of a table; an extra column marks numbers whose digits are not all proven."""
+    """Return the `Resource` of a table; an extra column of true and false marks numbers not all proven.
+
+    `texts` are the document's, in Markdown.
+    """
     names = unique(ascii_name(words(texts[column.head])) or "column" for column in table.columns)
     fields, columns = list[Mapping[str, Any]](), list[list[str]]()
     for place, (name, column) in enumerate(zip(names, table.columns, strict=True)):
@@ -117,9 +124,9 @@ def _table(table: TableView, texts: Sequence[str]) -> Resource:
 
 
 def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence[str]) -> dict[str, Any]:
-    """Return a column's description, a dict: name, title, type, unit, and the largest number of digits.
+    """Return a column's description, a dict: name, title, type, and, where it has them, unit and largest digits count.
 
-    The type is "number" only if all cells are numbers.
+    The type is "number" only if all cells are numbers, else "string". `texts` are the document's, in Markdown.
     """
     numbers = [cell for cell in cells if cell.text is None and cell.whole]
     numeric = bool(numbers) and all(cell.text is None for cell in cells)
@@ -134,7 +141,10 @@ def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence
 
 
 def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str]) -> Iterator[Resource]:
-    """Yield a `Resource` of the drawn points of each figure that has CSV text in `files`, by its id."""
+    """Yield a `Resource` of the drawn points of each figure that has CSV text in `files`, by its anchor.
+
+    `texts` are the document's, in Markdown.
+    """
     views: list[FigureView] = document.listed("figure")
     for figure in views:
         if figure.id not in files:
@@ -166,7 +176,10 @@ def _csv(resource: Resource) -> bytes:
 
 
 def _parquet(resource: Resource) -> bytes:
-    """Return a table as Parquet's bytes, numbers as the doubles nearest to the printed digits."""
+    """Return a table as Parquet's bytes, numbers as the doubles nearest to the printed digits, null for empty cells.
+
+    Raises AtlasError where pyarrow is missing.
+    """
     pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     kinds: dict[str, tuple[Callable[[str], Any], Any]] = {
         "number": (float, pa.float64()),
@@ -187,7 +200,10 @@ def _parquet(resource: Resource) -> bytes:
 
 
 def value(cell: Cell, texts: Sequence[str]) -> str:
-    """Return a cell as text: words, or the digits of a number as "-1.25e-7"; "" where no digit is proven."""
+    """Return a cell as text: plain words of its text, or a number as "-1.25e-7"; "" where no digit is proven.
+
+    `texts` are the document's, in Markdown.
+    """
     if cell.text is not None:
         return words(texts[cell.text])
     digits = f"{cell.whole}{cell.fraction}".replace(THIN, "").replace(MINUS, "-")
@@ -196,7 +212,7 @@ def value(cell: Cell, texts: Sequence[str]) -> str:
 
 
 def digits(number: str) -> int:
-    """Return the count of significant digits in a number's text."""
+    """Return the count of significant digits in a number's text, 3 for "-0.0120e5"; 0 for zero."""
     return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
 
 
@@ -219,7 +235,7 @@ def ascii_name(head: str) -> str:
 
 
 def unique(names: Iterable[str]) -> list[str]:
-    """Return the names in order; a repeated name gets a number, as in ["a", "a_2"]."""
+    """Return the names in order; the n-th occurrence of a name gets "_n", as in ["a", "a_2"]."""
     counts, unique = Counter[str](), []
     for name in names:
         counts[name] += 1

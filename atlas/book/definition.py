@@ -15,7 +15,8 @@ from atlas.book.schema import Id, Slug, StrictStruct, TwoNumbers
 class Thumbnail(StrictStruct, frozen=True):
     """A detail of a page's figure (by default the first), enlarged ``zoom`` times about the point ``at``.
 
-    The point is given in fractions of width and height.
+    ``figure`` is the id of the figure, "" for the first. The point is given in fractions of width and height, from the
+    upper left corner.
     """
 
     figure: Id = ""
@@ -26,9 +27,10 @@ class Thumbnail(StrictStruct, frozen=True):
 class Page(StrictStruct, frozen=True):
     """One page of the HTML, one chapter of the PDF; pages of one part are grouped in the contents.
 
-    An appendix is lettered and set in small type. A page with ``printed = false`` or with a ledger stands in the HTML
-    alone, and the contents of the PDF name it; pages with ``printed = false`` come last. ``thumbnail`` represents the
-    page on the front page. Titles are plain words, with formulas between dollars.
+    ``slug`` names the page's file. An appendix is lettered and set in small type. A page with ``printed = false``
+    or with a ledger stands in the HTML alone, and the contents of the PDF name it; pages with ``printed = false``
+    come last. ``thumbnail`` represents the page on the front page. Titles are plain words, with formulas between
+    dollars.
     """
 
     slug: Slug
@@ -48,7 +50,10 @@ class Symbol(StrictStruct, frozen=True):
 
 
 class Index(StrictStruct, frozen=True):
-    """The index of the PDF: words, whose pages are found there, and symbols."""
+    """The index of the PDF: words, whose pages are found there, and symbols.
+
+    Each `Symbol` names the places where it is explained.
+    """
 
     words: tuple[str, ...] = ()
     symbols: tuple[Symbol, ...] = ()
@@ -72,15 +77,16 @@ MAX_PAGES_WITHOUT_COVER = 2
 class Report(StrictStruct, frozen=True):
     """The records of a whole report file.
 
-    ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
-    this one: the contents lead to them, and so do citations of names that only they have.
-    ``gallery`` names recipes, ``*`` for all, which the pages show in pictures on ``gallery.html``.
-    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is a
-    style sheet of Matplotlib for the figures, a name or a file beside this one. ``inputs`` are those that a call may
-    set; they are filled in wherever ``<$ NAME $>`` stands. Without
-    ``front_matter``, as in a report of one or two pages that does not ask for it, the PDF has no cover, contents and
-    lists: its title stands above the text, whose heads have no
-    numbers, and a single page has no head of its own.
+    ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand
+    beside this one, each with words on it: the contents lead to them, and so do citations of names that only they
+    have. ``gallery`` names recipes, ``*`` for all, which the pages show in pictures on ``gallery.html``.
+    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is
+    a style sheet of Matplotlib for the figures, a name or a file beside this one. ``parameters`` holds the bodies,
+    fields and sets that blocks name. ``inputs`` are those that a call may set; they are filled in wherever ``<$
+    NAME $>`` stands. ``source``, which has no key in the file, says where pages and blocks begin. Without
+    ``front_matter``, as in a report of one or two pages that does not ask for it, the PDF has no cover, contents
+    and lists: its title stands above the text, whose heads have no numbers, and a single page has no head of its
+    own.
     """
 
     name: str
@@ -112,5 +118,5 @@ class Report(StrictStruct, frozen=True):
 
     @property
     def bound(self) -> bool:
-        """Whether the PDF has a cover, contents and lists."""
+        """Whether the PDF has a cover, contents and lists: as `front_matter` says, else for three pages and more."""
         return len(self.pages) > MAX_PAGES_WITHOUT_COVER if self.front_matter is None else self.front_matter

@@ -13,7 +13,7 @@ THIN = "\N{NARROW NO-BREAK SPACE}"
 class Number:
     """A number as its proven digits, "" if there are none; `proven` says that all requested digits are proven.
 
-    ``-1.25e-7``, or with a standard deviation in its last digits ``-1.25(17)e-7``.
+    `digits` is ASCII text such as ``-1.25e-7``, or with a standard deviation in its last digits ``-1.25(17)e-7``.
     """
 
     digits: str
@@ -25,10 +25,10 @@ class Number:
         return cls(plain(value))
 
     def parts(self) -> tuple[str, str, str]:
-        """Return the integer part, the point with the fraction, and the power of ten.
+        """Return three texts: the integer part, the point with the fraction, the exponent of the power of ten.
 
-        The digits after the point are grouped in threes if there are more than four; a question mark means that
-        no digit is proven.
+        The last two are "" if there is no fraction, no power. The digits after the point are grouped in threes if
+        there are more than four; "?" for the first means that no digit is proven.
         """
         if not self.digits:
             return "?", "", ""
@@ -39,7 +39,10 @@ class Number:
         return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
 
     def words(self) -> str:
-        """Return the number as text for a sentence: "?" without digits, "1.2×10^5^" if far from 1, else a decimal."""
+        """Return the number as Markdown for a sentence: "?" without digits, "1.2×10^5^" if far from 1, else a decimal.
+
+        Far from 1 is an exponent beyond -3 to 3, or any exponent with a standard deviation.
+        """
         mantissa, _, power = self.digits.lower().partition("e")
         if not self.digits:
             return "?"

@@ -31,8 +31,9 @@ THEOREMS = {
 class PageView:
     """A page: its position in the contents, the views of its blocks and the names of their templates.
 
-    `number` is the chapter's number or the appendix's letter; `title` is plain words, `heading` its index among the
-    document's texts.
+    `number` is the chapter's number or the appendix's letter; `title` is plain words, `heading` the index of the
+    title among the document's texts; `blocks` and `templates` are as long as each other; `part` groups pages, and
+    `printed` says whether the PDF has the page.
     """
 
     number: str
@@ -57,9 +58,9 @@ class PageView:
 
     @property
     def floated(self) -> list[tuple[str, Any]]:
-        """Pairs (template, view) of the blocks, in which a figure precedes the prose that stood above it.
+        """Pairs (template, view) of the blocks, in which a figure precedes the prose that stood directly above it.
 
-        So it can float onto that prose's page.
+        So it can float onto that prose's page. Figures and tables between that prose and the figure are passed over.
         """
         floated: list[tuple[str, Any]] = []
         for template, view in self.placed:
@@ -81,12 +82,14 @@ class PageView:
 class Document:
     """A report ready to be typeset: its pages, pictures, texts, and the target of each citation.
 
-    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
-    that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
-    ledger; `errata` the page of the errata. `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas` (cited
-    equations that no page of this report displays) are numbers of texts. `gallery` is the page of pictures, in the HTML
-    alone. `related` holds the related reports in outline; a citation of a name that is missing here leads there.
-    `bibliography` holds the works that can be cited, `listed_on` is the page of their list.
+    `pictures` are by `key`; `targets` holds (page's file, anchor, words) for each name that can be cited;
+    `equations` the numbers of equations that have none in the paper, those of the theorems the same in every
+    report; `ledger` the slug of the page of each entry of the ledger; `errata` that of the page of the errata.
+    `title`, `subtitle`, `abstract`, `given`, `symbols` (with their anchors) and `formulas` (cited equations that no
+    page of this report displays, by name) are indices of texts. `written` holds the typeset texts by target, `uses`
+    the places that cite each equation. `gallery` is the page of pictures, in the HTML alone. `related` holds the
+    related reports in outline; a citation of a name that is missing here leads there. `bibliography` holds the
+    works that can be cited, `listed_on` is the page of their list.
     """
 
     report: Report
@@ -111,7 +114,10 @@ class Document:
     gallery: PageView | None = None
 
     def set(self, *targets: Target) -> None:
-        """Typeset all texts for each target into `written`, in parallel threads."""
+        """Typeset all texts for each target, "html", "typst" or "latex", into `written`, in parallel threads.
+
+        Raises AtlasError for a formula that can't be read, a link that is not allowed, and an unknown citation.
+        """
         self.texts.read()
         with ThreadPoolExecutor(len(targets)) as threads:
             texts = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
@@ -165,7 +171,8 @@ class Document:
     def place(self, name: str, *, printed: bool = False) -> tuple[str, str, str] | None:
         """Return (page's file, anchor, words) of a name in this report: in its ledger, else where it is shown; or None.
 
-        If `printed`, file and anchor are "" for a name that only the HTML shows.
+        If `printed`, a name that the PDF displays too leads there, and file and anchor are "" for one that only the
+        HTML shows.
         """
         here = self.targets.get(name)
         if name in self.ledger and not (printed and here):
@@ -175,7 +182,10 @@ class Document:
         return here
 
     def entry(self, name: str) -> str:
-        """Return the page, without suffix, of an equation's ledger entry, in this or a related report; else ""."""
+        """Return the address, without suffix, of the page of an equation's ledger entry, here or in a related report.
+
+        Else "".
+        """
         ledgers = ((folder, related.ledger) for folder, related in self.related.items())
         page = next((f"../{folder}/{ledger[name]}" for folder, ledger in ledgers if name in ledger), "")
         return self.ledger.get(name, page)
@@ -185,7 +195,10 @@ class Document:
         return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
     def numbered(self, name: str) -> str:
-        """Return an equation's number; an equation without one in the paper gets the next number of the report."""
+        """Return an equation's number.
+
+        One without a number in the paper gets the next of this report, such as "(3)" or "(A3)".
+        """
         if not name.startswith("("):
             number = len(self.equations) - len(THEOREMS) + 1
             self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{number})")
@@ -198,22 +211,25 @@ class Document:
         return any(getattr(block, "name", "").startswith("(") or isinstance(block, Ledger | Errata) for block in blocks)
 
     def pictures_of(self, block: Figure) -> list[Picture]:
-        """Return the pictures of a figure block."""
+        """Return the pictures of a figure block: two with the renderer "both", else one."""
         return [self.pictures[key] for key in keys(block, self.report)]
 
     @property
     def cover(self) -> Picture | None:
-        """The `Picture` of the figure whose id is the report's `cover`, or None."""
+        """The first `Picture` of the figure whose id is the report's `cover`; None without such a figure."""
         blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
         chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
         return self.pictures_of(chosen)[0] if chosen else None
 
     def listed(self, template: str) -> list[Any]:
-        """Return the views of all blocks with this template, "figure" or "table", in order."""
+        """Return the views of all blocks with this template, such as "figure" or "table", in order."""
         return [block for page in self.pages for name, block in page.placed if name == template]
 
     def flows_after(self, table: Any) -> bool:
-        """Return whether the table after this one `flows`: it stands at its place in the text. False after the last."""
+        """Return whether the table after the view `table` `flows`: it stands at its place in the text.
+
+        False after the last.
+        """
         return any(table_after.flows for table_after in self.listed("table")[table.number : table.number + 1])
 
     @property
@@ -223,6 +239,6 @@ class Document:
 
     @property
     def works(self) -> dict[str, str]:
-        """The entries of the works that are cited, by key, in the order of the list."""
+        """Entries of the works that are cited, as HTML by key, in the order of the list."""
         names = {name for text in self.texts.texts for name in citations(text.markdown)}
         return {key: entry for key, entry in self.bibliography.entries.items() if key in names}

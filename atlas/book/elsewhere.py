@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 
 
 def near(request: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield (words, request) for neighbouring objects: other starts, other bodies, and all motions of the body.
+    """Yield (words in Markdown, request) for neighbouring objects: other starts, other bodies, all motions of the body.
 
     Nothing is yielded without a body.
     """
@@ -53,7 +53,10 @@ def opposite(B: float, omega: float) -> float:
 
 
 def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield (words, request) of the same motion for a ball, and for a disk or loop."""
+    """Yield (words, request) of the same motion for a ball (I = 1) and for a disk or loop (I = 2), unless it is one.
+
+    Nothing is yielded for a body of point masses.
+    """
     ratio = case_of(request).ratio
     shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
     if request.body and "density" in request.options:
@@ -64,7 +67,7 @@ def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
 
 
 def reproduced(request: Asked, motion: Any) -> str:
-    """Return Markdown with the shell command and the lines of Python that print the numbers of this motion."""
+    """Return Markdown with the shell command and the lines of Python that print the numbers of `motion`."""
     family = request.family
     kernels = family.kernels()
     values = zip(
@@ -85,7 +88,7 @@ def reproduced(request: Asked, motion: Any) -> str:
 
 
 def _is_printed(quantity: Any, motion: Any) -> bool:
-    """Return whether a quantity is a readable attribute of the motion with digits to print.
+    """Return whether a quantity of the register is a readable attribute of the motion with digits to print.
 
     False for a quantity with a getter of its own, and where reading raises DomainError.
     """

@@ -26,7 +26,10 @@ MARKS = re.compile(f"[{chr(FIRST_MARK)}-{chr(LAST_MARK)}]")
 
 
 class ExpansionError(ValueError):
-    """A message about a template, with its line in the body, from 1, or the head's text that has the mistake."""
+    """A message about a template, with its `line` in the body, from 1, or the head's `text` that has the mistake.
+
+    The line is 0, or the text "", where the mistake is in the other or its place is unknown.
+    """
 
     def __init__(self, sentence: str, line: int = 0, text: str = "") -> None:
         super().__init__(sentence)
@@ -36,7 +39,9 @@ class ExpansionError(ValueError):
 def expanded(values: Mapping[str, Any], head: Any, body: str) -> tuple[Any, str, list[int]]:
     """Return a report's head and body with their tags filled in, and the template's line for each new line.
 
-    A text of the head that is a single expression becomes the expression's value, such as a number.
+    `values` are those that the tags name, `head` a nested dict or list, `body` the text below it; the third result
+    is a list of lines from 1. A text of the head that is a single expression becomes the expression's value, such
+    as a number.
 
     Raises
     ------
@@ -59,7 +64,8 @@ def expanded(values: Mapping[str, Any], head: Any, body: str) -> tuple[Any, str,
 def fill(values: Mapping[str, Any], head: Any, body: str) -> dict[str, Any]:
     """Return {"head", "body", "lines"}: head and body filled in, and the template's line for each line of the body.
 
-    For a mistake it is {"error": (message, line, text of the head or "")}.
+    The parameters are those of `expanded`. For a mistake the result is {"error": (message, line, text of the head
+    or "")}.
     """
     environment = sandbox()
 

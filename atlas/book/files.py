@@ -24,7 +24,10 @@ def names() -> list[str]:
 
 
 def find(name: str) -> Path:
-    """Return the path of a report, given its name or its path. Raises AtlasError if there is none."""
+    """Return the path of a report, given its name in ``reports/`` or the path of a .md or .toml file.
+
+    Raises AtlasError if there is none, or the file has another suffix.
+    """
     path = Path(name)
     if path.suffix in SUFFIXES:
         if path.is_file():
@@ -39,13 +42,16 @@ def find(name: str) -> Path:
 
 
 def beside(name: str, folder: Path) -> Path | None:
-    """Return the path of a file in or below the report's folder; None if it is missing or a link that leads out."""
+    """Return the path of a file, `name` relative to `folder`, in or below that folder of a report.
+
+    None if the file is missing or outside, also through a link.
+    """
     file = folder / name
     return file if file.resolve().is_relative_to(folder.resolve()) and file.is_file() else None
 
 
 def text_of(path: Path) -> str:
-    """Return the text of a report file. Raises AtlasError for one that is no UTF-8."""
+    """Return the text of a report file, without a byte order mark. Raises AtlasError for one that is no UTF-8."""
     try:
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -62,12 +68,15 @@ def head(path: Path) -> dict[str, Any]:
 
 
 def head_of(text: str) -> str:
-    """Return the TOML text between the rules at the beginning of a report in Markdown."""
+    """Return the TOML text between the rules "+++" at the beginning of a report in Markdown.
+
+    All of it without a rule.
+    """
     return text.partition(f"\n{RULE}")[0].removeprefix(RULE)
 
 
 def related_to(file: Path) -> list[str]:
-    """Return the names of the reports related to a file's report; [] if the file cannot be read."""
+    """Return the names of the reports in ``reports/`` that a report's head names as related; [] if it can't be read."""
     try:
         related = head(file).get("related", {})
     except AtlasError:

@@ -49,9 +49,10 @@ class Fitted:
 
     fit       an `atlas.fit`, of the data in `file`, a path from the folder of the page; `digest` that of its content
     options   the options of the command that makes the page, each with the typed words, by name
-    given     arguments of `fit_file` by which it is made, from values that were found before
+    given     arguments of `fit_file` that repeat the fit from the values found before, by name
     motion    request of a page of the fitted motion
     ahead     lines on the predictions that were asked for
+    title, called    title and file name that were asked for, or ""
     """
 
     fit: Any
@@ -71,12 +72,12 @@ class Fitted:
 
     @property
     def command(self) -> str:
-        """The command that makes the page."""
+        """The shell command that makes the page, "atlas page --fit ...", quoted."""
         return shlex.join(["atlas", "page", *self.words, *(["--name", self.called] if self.called else [])])
 
     @property
     def name(self) -> str:
-        """Name of the page's files: the given name, else made from the typed words, cut and with a digest if long."""
+        """Name of the page's files: the given name, else "fit-" and the typed words, cut and with a digest if long."""
         words = ["fit", PurePath(self.words[1]).stem, *self.words[2:]]
         name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
         short = f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
@@ -88,7 +89,7 @@ class Fitted:
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
     def sources(self) -> dict[str, str]:
-        """Return the texts of the report file and of its picture's recipe, by file name."""
+        """Return the texts of the report file NAME.md and of its picture's recipe NAME.py, by file name."""
         return {
             f"{self.name}.md": templated(self.name, "fit.md", self.head(), self.values(), self.command),
             f"{self.name}.py": headed(self.name, self._recipe(), self.command),
@@ -146,7 +147,7 @@ class Fitted:
         return rows
 
     def _correlations(self) -> Iterator[list[str]]:
-        """Yield [names, correlation] as texts for pairs of parameters above `MIN_CORRELATION`, the strongest first."""
+        """Yield [names, correlation] as texts for pairs of parameters correlated by 0.5 or more, strongest first."""
         pairs = {
             frozenset((name, partner)): size
             for name, p in self.fit.parameters.items()
@@ -157,7 +158,10 @@ class Fitted:
             yield [", ".join(f"`{name}`" for name in self.fit.names if name in pair), f"{size:.3f}".replace("-", MINUS)]
 
     def _horizons(self) -> list[list[str]]:
-        """Return rows of texts: an error of a prediction, its meaning, and the time until which errors are smaller."""
+        """Return rows of three texts: an error of a prediction, its meaning, the time until which errors are smaller.
+
+        The time is in the file's unit, "any time" without an end, "nowhere" where the error is larger from the start.
+        """
         fit = self.fit
         unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
         return [

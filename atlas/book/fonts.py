@@ -25,7 +25,7 @@ ITALIC = "\N{PLANCK CONSTANT}" + "".join(map(chr, [*range(0x1D434, 0x1D468), *ra
 
 @dataclass(frozen=True)
 class Face:
-    """A font file, the package that contains it, and the CSS family, weight and style for which it is used."""
+    """A font: its file, a path in the `package` that contains it, and the CSS family, weight and style of its use."""
 
     package: str
     file: str
@@ -45,7 +45,10 @@ FACES: Mapping[str, Face] = MappingProxyType(
 
 
 def source(face: Face) -> Path:
-    """Return the path of a face's font file, without importing its package. Raises AtlasError if it is missing."""
+    """Return the path of a face's font file, without importing its package.
+
+    Raises AtlasError if the package or the file is missing.
+    """
     path = carried(face.package, face.file)
     if path is None:
         raise AtlasError(f"the package {face.package} has no font {face.file}: install the locked dependencies.")

@@ -42,14 +42,14 @@ class Plate:
 
 @dataclass(frozen=True)
 class GalleryView:
-    """Plates by heading of their row, and the targets' widths as text such as "86 mm" by name."""
+    """Plates by heading of their row, and the width of each target of figures by its name, as text such as "86 mm"."""
 
     rows: dict[str, list[Plate]]
     widths: dict[str, str]
 
     @property
     def plates(self) -> list[Plate]:
-        """All plates, in order."""
+        """All plates, in the order of the rows."""
         return [plate for row in self.rows.values() for plate in row]
 
     @property
@@ -59,7 +59,7 @@ class GalleryView:
 
 
 def page(composer: "Composer") -> PageView:
-    """Return the view of a report's gallery page; a recipe that failed has no plate.
+    """Return the `PageView` of a report's gallery, one block with a `Plate` for each recipe that did not fail.
 
     The sentence of a plate is that of its recipe, or the first one of the picture's caption.
     """

@@ -37,7 +37,7 @@ CARD = (400, 250)
 
 
 class Card(NamedTuple):
-    """A figure that represents a page on the front page; `cut` is the detail that is shown."""
+    """A figure that represents a page on the front page; `cut` is the detail that is shown, by default its centre."""
 
     page: PageView
     figure: FigureView
@@ -45,12 +45,12 @@ class Card(NamedTuple):
 
     @property
     def file(self) -> str:
-        """Path of the card's picture in the report."""
+        """Path of the card's picture in the report, "cards/SLUG.webp"."""
         return f"cards/{self.page.slug}.webp"
 
 
 def pages(document: Document) -> dict[str, str]:
-    """Return the files of a document by name: its HTML pages, their stylesheet, their scripts and the search index.
+    """Return the files of a document, texts by name: its HTML pages, stylesheet, scripts and search index.
 
     The texts must be typeset before. A page's section links are added only to a report of one page.
     """
@@ -81,7 +81,7 @@ def pages(document: Document) -> dict[str, str]:
 
 
 def whole(text: str) -> str:
-    """Return HTML whose options in inline code are not broken at hyphens by a browser."""
+    """Return HTML in which each option of inline code, such as --out, is a span that is not broken at hyphens."""
     option = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
     return re.sub("<code>[^<]*</code>", lambda code: option.sub(r'<span class="option">\g<0></span>', code[0]), text)
 
@@ -102,7 +102,7 @@ def anchored(page: str) -> str:
 
 
 def _with_sections(page: str) -> str:
-    """Return the HTML of a report of one page with links to its sections in the contents."""
+    """Return a page's HTML with links to its sections h2 below its own entry in the contents."""
     sections = re.findall(r'<h2 id="([^"]+)">(.*?) <a class="anchor"', page)
     items = "\n".join(f'<li><span></span><a href="#{anchor}">{words}</a></li>' for anchor, words in sections)
     return re.sub(
@@ -153,7 +153,7 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
 
 
 def _drawn(document: Document, name: str, key: str) -> Card | None:
-    """Return the `Card` of the figure `name`; None if the figure failed.
+    """Return the `Card` of the figure with the id `name`; None if the figure failed.
 
     Raises AtlasError, which begins with `key`, if there is no such figure.
     """
@@ -190,7 +190,11 @@ def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) ->
 
 
 def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
-    """Yield (file, anchor, title, text) tuples for the search, a page split at its anchors."""
+    """Yield (file, anchor, title, text) for the search: the HTML of one page split at its anchors.
+
+    `page` is the page's number and title, which end the titles; the text of an equation is `page`, its title its
+    number.
+    """
     starts = list(_START.finditer(html))
     for start, end in pairwise(starts):
         anchor = next(filter(None, start.groups()))
@@ -205,7 +209,10 @@ def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, s
 
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
-    """Return the HTML of formulas by the slug of the equation: in the ledger, displayed, or only cited."""
+    """Return the HTML of formulas by the slug of the equation: those in the ledger, displayed, or only cited.
+
+    `texts` are the document's, typeset in HTML.
+    """
     equations = {slug(name): texts[number] for name, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
@@ -224,7 +231,7 @@ def _words(html: str) -> str:
 
 
 def linear(mathml: str) -> str:
-    """Return a formula on one line, in plain letters: ω'2 for an index, x^2 for a power, 3/2 for a fraction."""
+    """Return a formula in MathML as a line of plain letters: ω'2 for an index, x^2 for a power, 3/2 for a fraction."""
     return _joined("".join(_line(ET.fromstring(mathml)).split()))  # noqa: S314  what pandoc has written
 
 

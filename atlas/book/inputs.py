@@ -21,9 +21,10 @@ TRUTH = {"true": True, "false": False}
 
 
 class Input(StrictStruct, frozen=True):
-    """An input: its kind, unit, range or choices, default (required without one), and a line of help.
+    """An input of a report: its kind, unit, range or choices, default (required without one), and a line of help.
 
-    `range` has its least and largest value; `count` is how many numbers an input of the kind "numbers" takes.
+    `range` has its least and largest value, in its `unit` ("" for none); `choices` are the texts that a "choice"
+    may be; `count` is how many numbers an input of the kind "numbers" takes, None for any number.
     """
 
     kind: Literal["number", "integer", "numbers", "text", "choice", "truth"]
@@ -74,7 +75,9 @@ def declared(path: Path) -> dict[str, Input]:
 
 
 def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
-    """Return the value of each input of a report by name: from its given text, or else its default.
+    """Return the value of each input of a report by name: from its `given` text, or else its default.
+
+    Values are as `read` returns them.
 
     Raises
     ------
@@ -99,7 +102,10 @@ def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
 
 
 def read(declaration: Input, text: str) -> Any:
-    """Return the value of a text for an input of its kind. Raises AtlasError for an unsuitable text."""
+    """Return the value of a text for an input: a float, int, list of floats, text or boolean, by its kind.
+
+    Raises AtlasError for a text that does not suit the kind, unit, range or choices.
+    """
     if declaration.kind == "text":
         if not text.isprintable():
             raise AtlasError("is no text of one line; leave out its control characters.")
@@ -123,7 +129,10 @@ def read(declaration: Input, text: str) -> Any:
 
 
 def number(declaration: Input, text: str) -> float:
-    """Return a number in the unit of an input. Raises AtlasError for another text, unit, or one out of range."""
+    """Return a typed number, such as "1.5", "3/2" or "2mT", as a float in the unit of an input.
+
+    Raises AtlasError for another text, another dimension of the unit, and a number out of range.
+    """
     amount, unit = split(text) or (text, declaration.unit)
     try:
         size = Fraction(amount)
@@ -148,7 +157,7 @@ def text_of(value: Any) -> str:
 
 
 def line_of(path: Path, name: str) -> int:
-    """Return the line, from 1, where a head declares an input; for an unknown one the line of [inputs]."""
+    """Return the line, from 1, where a head declares an input; for an unknown one the line of [inputs], else 1."""
     lines = files.text_of(path).split("\n")
     patterns = (rf"\s*(\[inputs\.{re.escape(name)}\]|{re.escape(name)}\s*=)", r"\s*\[?inputs\b")
     found = (k for pattern in patterns for k, line in enumerate(lines, 1) if re.match(pattern, line))
@@ -156,7 +165,7 @@ def line_of(path: Path, name: str) -> int:
 
 
 def digest(values: Mapping[str, Any]) -> str:
-    """Return eight hexadecimal digits of the SHA-256 of the inputs' values."""
+    """Return eight hexadecimal digits of the SHA-256 of the inputs' values by name, in whatever order."""
     return sha256("".join(toml.lines(dict(sorted(values.items())))).encode()).hexdigest()[:8]
 
 
@@ -168,7 +177,10 @@ def name_of(path: Path, values: Mapping[str, Any]) -> str:
 
 
 def filled(text: str, values: Mapping[str, Any], *, markdown: bool) -> tuple[dict[str, Any], str, list[int]]:
-    """Return a report's head and text with the inputs filled in, and the line in the file of each line of text.
+    """Return (head, text, lines) of a report with the inputs' `values`, by name, filled in.
+
+    `head` is a dict, the text the whole file if `markdown`, and `lines` holds the line in the file of each line of
+    text.
 
     Raises
     ------

@@ -48,19 +48,26 @@ def layers() -> Data:
 
 
 def _explained(start: str, kinds: Mapping[str, type], end: str, says: str) -> Data:
-    """Return a `Data` with a row for each class: name, first sentence of its docstring, keys (required ones bold)."""
+    """Return a `Data` with a row for each class: name, first sentence of its docstring, keys (required ones bold).
+
+    `kinds` holds the classes by name in Markdown; `start` and `end` head the first and the last column, `says` is the
+    caption.
+    """
     rows = [(name, _first_sentence(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
     return Data(heads(start, "What it is", end), tuple(rows), says)
 
 
 def _first_sentence(kind: type) -> str:
-    """Return the first sentence of a docstring, in Markdown."""
+    """Return the first sentence of a class's docstring, without its full stop, in Markdown."""
     sentence = re.split(r"[.:;]*(?:\. (?=[A-Z`])|$)", " ".join(str(kind.__doc__).split()), maxsplit=1)[0]
     return re.sub(r"``(.+?)``", r"`\1`", sentence)
 
 
 def _keys(kind: Any) -> Iterator[str]:
-    """Yield the keys of a record, or the fields of a dataclass, as Markdown with defaults; required ones are bold."""
+    """Yield the keys of a record, with their defaults, or the names of a dataclass's fields, in Markdown.
+
+    Required ones bold.
+    """
     if is_dataclass(kind):
         for field in fields(kind):
             yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"

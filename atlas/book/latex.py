@@ -42,9 +42,9 @@ _ESCAPES = str.maketrans(
 
 @dataclass(frozen=True)
 class Numeral:
-    """A number with its `key`: its proven digits as text, their count, and its unit for siunitx.
+    """A number with its `key`, such as "motion/omega2": its digits as text, their count, and its unit for siunitx.
 
-    `cell` is the mark of its table cell, "table-row-column".
+    `digits` is the count of proven digits, `value` the text; `cell` is the mark of the table cell, "table-row-column".
     """
 
     key: str
@@ -55,9 +55,10 @@ class Numeral:
 
 
 def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the LaTeX files of a document, whose texts must be set, by path.
+    """Return the LaTeX files of a document, whose texts must be set, contents by path.
 
-    `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
+    `pictures` are the files of its figures, contents by path: ``figures/ID.pdf`` or ``.png``; they are among the
+    result.
     """
     markdown = [text.markdown for text in document.texts.texts]
     environment = templates("latex")
@@ -85,7 +86,10 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
 
 
 def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
-    """Yield a `Numeral` for each proven number of a computed table; its key is table/row, or table/row/column."""
+    """Yield a `Numeral` for each proven number of a computed table; its key is table/row, or table/row/column.
+
+    `markdown` are the document's texts. The column is named only where several have numbers.
+    """
     heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
     numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]
     places = {name: place for place, name in enumerate(heads)}
@@ -105,7 +109,10 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
 
 
 def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
-    """Return the key of a row: its symbol, else its Python name, else its first cell, else its number."""
+    """Return the key of a row from its texts: its symbol, else its Python name, else its first cell, else its `number`.
+
+    `places` holds the columns by name, `numeric` the columns with numbers.
+    """
     for head in ("Symbol", "Name"):
         if head in places and row[places[head]]:
             return ascii_name(row[places[head]].partition("=")[0])
@@ -113,7 +120,7 @@ def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[i
 
 
 def _with_unit(number: str, unit: str) -> tuple[str, str]:
-    """Return (number with the power of ten that precedes its unit, unit for siunitx)."""
+    """Return (number with the power of ten that precedes its unit, unit for siunitx); the unit is "" for "1"."""
     power = _POWER.match(unit)
     remainder = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
     remainder = re.sub(r"\^([^^{}]+)\^", r"^{\1}", remainder).replace(MINUS, "-")  # an exponent in Markdown
@@ -122,7 +129,11 @@ def _with_unit(number: str, unit: str) -> tuple[str, str]:
 
 
 def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
-    """Return a figure's LaTeX environment, `figure*` over two columns if one of its pictures is wider than a column."""
+    """Return a figure's LaTeX environment, `figure*` over two columns if one of its pictures is wider than a column.
+
+    `texts` are the document's in LaTeX; `pictures` are files by path, of which those named after the figure are
+    included.
+    """
     name = figure.id.removeprefix("fig-")
     files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
     kind = "figure*" if any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures) else "figure"
@@ -134,7 +145,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
 
 
 def _references(document: Document) -> str:
-    """Return the BibTeX source of the report's bibliography, and an entry for the atlas."""
+    """Return the BibTeX source of the report's bibliography, in the terms of old BibTeX, and an entry for the atlas."""
     key = f"""@software{{atlas,
   author  = {{{{The atlas developers}}}},
   title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
@@ -199,7 +210,7 @@ def _in_lines(tex: str) -> str:
 
 
 def _heading(text: str, title: str) -> str:
-    """Return a title in LaTeX; one with formulas has a bookmark in plain words."""
+    """Return a title, `text` in LaTeX; one with formulas has a bookmark in plain words made from `title`."""
     return rf"\texorpdfstring{{{text}}}{{{_escaped(title_words(title))}}}" if r"\(" in text else text
 
 
@@ -218,7 +229,8 @@ PAGE_LINES = 60
 class Layout:
     """Columns of a table in LaTeX: `formats` for siunitx, `letters` the width of the whole table in letters.
 
-    `shares` are the fractions of the page's width for columns whose words are broken into lines, 0 for others.
+    It is made from a table and the document's texts in Markdown. `shares` are the fractions of the page's width for
+    columns whose words are broken into lines, 0 for others; `lines` is the number of lines of text of all rows.
     """
 
     def __init__(self, table: TableView, markdown: Sequence[str]) -> None:
@@ -249,7 +261,10 @@ class Layout:
 
 
 def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
-    """Return a table as a LaTeX environment: over two columns if wide, over several pages if long."""
+    """Return a table as a LaTeX environment: over two columns if wide, over several pages if long.
+
+    `markdown` and `texts` are the document's texts in Markdown and in LaTeX.
+    """
     layout = Layout(table, markdown)
     caption = rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}"
     cells = [_head(column, texts, format_) for column, format_ in zip(table.columns, layout.formats, strict=True)]
@@ -277,7 +292,10 @@ NARROW = r"\resizebox{\ifdim\width>\columnwidth\columnwidth\else\width\fi}{!}{"
 
 
 def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
-    """Return the column type of cells: siunitx's S[table-format=...] with room for their numbers, or "l" for words."""
+    """Return the column type of cells: siunitx's S[table-format=...] with room for their numbers, or "l" for words.
+
+    `markdown` are the document's texts.
+    """
     numbers = [value(cell, markdown) for cell in cells if cell.text is None and cell.whole not in {"", "?"}]
     if not numbers:
         return "l"
@@ -304,20 +322,29 @@ def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
 
 
 def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
-    """Return the LaTeX head of a column with its unit; braces keep siunitx from reading it as a number."""
+    """Return the LaTeX head of a column with its unit; braces keep siunitx from reading it as a number.
+
+    `texts` are the document's in LaTeX; `format_` is the column type, "l" for words.
+    """
     unit = texts[column.unit] if column.unit is not None else ""
     head = texts[column.head] + (f" ({unit})" if unit and unit != "1" else "")
     return head if format_ == "l" else f"{{{head}}}"
 
 
 def _plain_head(column: ColumnView, markdown: Sequence[str]) -> str:
-    """Return a column's heading and unit as plain text, whose letters are counted."""
+    """Return a column's heading and unit as plain text, whose letters are counted.
+
+    `markdown` are the document's texts.
+    """
     unit = "" if column.unit is None else words(markdown[column.unit])
     return words(markdown[column.head]) + f" {unit}" * (unit != "1")
 
 
 def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
-    """Return a cell's LaTeX: words, in braces if the column is `numeric`, or digits, starred if not proven."""
+    """Return a cell's LaTeX: words, in braces if the column is `numeric`, or digits, starred if not proven.
+
+    `texts` are the document's in LaTeX; a number without a proven digit is "?", an empty cell "".
+    """
     if cell.text is not None:
         return f"{{{texts[cell.text]}}}" if numeric else texts[cell.text]
     number = value(cell, ())

@@ -29,7 +29,7 @@ LATEX = re.compile(r"^\s*(text\.usetex|text\.latex\.preamble|pgf\.preamble)\b", 
 
 
 def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
-    """Return the report of a file, with the given values of its inputs or their defaults.
+    """Return the report of a file, with the given values of its inputs, by name, or their defaults (None).
 
     Raises
     ------
@@ -63,7 +63,7 @@ def load(path: Path, values: Mapping[str, Any] | None = None) -> Report:
 
 
 def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
-    """Return the values of a report's text by key; for Markdown also fill `pieces` by (page, block).
+    """Return the values of a report's text by key; for Markdown also fill `pieces` by () or (page,) or (page, block).
 
     Raises AtlasError for a text that is no TOML, LineError for wrong Markdown.
     """
@@ -78,7 +78,10 @@ def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) 
 
 
 def _inconsistencies(report: Report, folder: Path) -> Iterator[SchemaError]:
-    """Yield an error for each repeated name, and for each name or file that does not exist; files are in `folder`."""
+    """Yield an error for each repeated name, each name or file that does not exist, and pages in a wrong order.
+
+    Files are looked for in `folder`, that of the report.
+    """
     blocks = [((k, place), block) for k, page in enumerate(report.pages) for place, block in enumerate(page.blocks)]
     yield from _repeated((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
     yield from _repeated(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")
@@ -106,7 +109,10 @@ def _inconsistencies(report: Report, folder: Path) -> Iterator[SchemaError]:
 
 
 def _unusable_styles(style: str, folder: Path) -> Iterator[SchemaError]:
-    """Yield an error for each name in a list of style sheets that is no style, or that runs LaTeX."""
+    """Yield an error for each name in a comma-separated list of style sheets that is no style, or that runs LaTeX.
+
+    A file is looked for in `folder`, that of the report.
+    """
     for name in filter(None, style.split(",")):
         file = beside(name, folder)
         if file and (latex := LATEX.search(file.read_text(encoding="utf-8", errors="replace"))):
@@ -118,7 +124,7 @@ def _unusable_styles(style: str, folder: Path) -> Iterator[SchemaError]:
 
 
 def _filled(report: Report, folder: Path) -> Report:
-    """Return the report with paths of recipes and style beside it, and sets of parameters merged into its blocks.
+    """Return the report with recipes and style as paths in `folder`, and sets of parameters merged into its blocks.
 
     A later set overrides an earlier one, the block's own parameters override both.
     """
@@ -139,7 +145,7 @@ def _filled(report: Report, folder: Path) -> Report:
 def _unknown_names(block: Block, report: Report, path: tuple[int, int], folder: Path) -> Iterator[SchemaError]:
     """Yield an error for each body, field or set of a block that [parameters] lacks, and for a recipe not in `folder`.
 
-    `path` has the numbers of page and block.
+    `path` is (page, block), both counted from 0.
     """
     records = report.parameters
     place = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
@@ -160,7 +166,10 @@ def _unknown_names(block: Block, report: Report, path: tuple[int, int], folder: 
 
 
 def _repeated(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> Iterator[SchemaError]:
-    """Yield an error for each name, given with its position, that occurred before."""
+    """Yield an error for each name that occurred before; `named` are pairs (position in the report, name or None).
+
+    `kind` is the plural of the named things, `key` the name's key in the file, for the message.
+    """
     names = set[str]()
     for path, name in named:
         if name in names:
@@ -169,14 +178,17 @@ def _repeated(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, ke
 
 
 def _in_file(line: int, lines: Sequence[int]) -> int:
-    """Return the line in the file for a line of the filled template; `lines` maps them, both counted from 1."""
+    """Return the line in the file for a line of the filled template; `lines` maps them, both counted from 1.
+
+    Without `lines`, and for line 0, the line is returned unchanged.
+    """
     return lines[min(line, len(lines)) - 1] if lines and line else line
 
 
 def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> int:
-    """Return the line in the file, from 1, of a mistake's key if that stands once in its block or file.
+    """Return the line, from 1, of a mistake's key if that stands once in its block or file.
 
-    Else it is the first line of the block, 0 without one.
+    Else it is the first line of the block, 0 without one. `pieces` are by (page, block), (page,) or ().
     """
     piece = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
     key, lines, start = re.escape(error.key), piece.lines if piece else text.split("\n"), piece.line if piece else 0

@@ -22,7 +22,7 @@ _PAGE = re.compile(r"#[ \t]+(.*)")
 
 
 class LineError(AtlasError):
-    """A sentence about a line of the file, counted from 1."""
+    """A sentence about a line of the file, which the field `line` counts from 1."""
 
     def __init__(self, line: int, sentence: str) -> None:
         super().__init__(sentence)
@@ -46,7 +46,10 @@ class Piece:
         return "\n".join(self.lines).strip("\n")
 
     def values(self) -> dict[str, Any]:
-        """Return the lines parsed as TOML. Raises LineError, with the line in the file, if they are not TOML."""
+        """Return the lines parsed as TOML, values by key.
+
+        Raises LineError, with the line in the file, if they are not TOML.
+        """
         try:
             return toml.loads("\n" * self.line + "\n".join(self.lines))
         except ValueError as error:
@@ -69,7 +72,10 @@ def split(text: str) -> tuple[Piece, Iterator[Piece]]:
 
 
 def _pieces(lines: list[str], start: int) -> Iterator[Piece]:
-    """Yield headings, texts and blocks; a fence without a kind in braces is code and belongs to the text."""
+    """Yield the `Piece`s of `lines` from the index `start` on: headings, texts and blocks.
+
+    A fence without a kind in braces is code and belongs to the text. Raises LineError for a fence that does not end.
+    """
     number, begin, text = start, start, list[str]()
     while number < len(lines):
         mark, heading = _FENCE.fullmatch(lines[number]), _PAGE.fullmatch(lines[number])
@@ -89,7 +95,7 @@ def _pieces(lines: list[str], start: int) -> Iterator[Piece]:
 
 
 def _end(lines: list[str], opening: int, fence: str) -> int:
-    """Return the number, from 0, of the line that closes a fence.
+    """Return the index, from 0, of the line that closes the fence which the line `opening` begins with `fence`.
 
     Raises LineError if a block begins before that line, or if none closes it.
     """
@@ -138,7 +144,10 @@ def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
 
 
 def _block(piece: Piece) -> dict[str, Any]:
-    """Return the values of a block from its TOML, and of a kind with text also from the text below."""
+    """Return the values of a block by key, from its TOML, and of a kind with text also from the text below.
+
+    Raises LineError for an unknown kind, for wrong TOML, and for a key that the file says outside of the TOML.
+    """
     kind, lines = piece.kind or "prose", piece.lines
     if piece.kind and piece.kind not in FENCED:
         hint = str(unknown("block kind", kind, FENCED)).rstrip(".")
@@ -155,7 +164,7 @@ def _block(piece: Piece) -> dict[str, Any]:
 
 
 def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]:
-    """Return the values unchanged. Raises LineError if one of `keys` is among them."""
+    """Return the values unchanged. Raises LineError, with the line of `piece`, if one of `keys` is among them."""
     for key in values.keys() & {*keys}:
         raise LineError(piece.line, f"this block takes no key {key!r}: the file says it outside of the TOML.")
     return values

@@ -40,7 +40,10 @@ CAPTION = (
 def measurement_of(
     request: Asked, made: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the table of a proposed measurement, if there is one; else add the reason to `left_out`."""
+    """Yield the listing block of a proposed measurement; where there is none, add the reason to `left_out`.
+
+    `made` is the card of the request. Nothing is yielded or added for an object without a card, a start or a turn.
+    """
     rates = [2 * math.pi / abs(x) for key in ("f1", "f2", "f3") if (x := made[key]["value"])]
     turn = made["turn"]["value"] or made["nutation"]["value"] or max(rates, default=0.0)
     if request.family.takes("coupling"):

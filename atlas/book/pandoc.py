@@ -44,7 +44,7 @@ FORMULA_LETTERS, LETTERS_FROM_MISTAKE = 90, 20
 
 
 class FormulaError(AtlasError):
-    """A formula that can't be read, in one sentence; `tex` is the formula."""
+    """A formula that can't be read, and the reason, as one sentence; the field `tex` is the formula."""
 
     def __init__(self, tex: str, reason: str) -> None:
         formula = " ".join(f"${tex.strip()}$".split())
@@ -61,7 +61,8 @@ def release() -> str:
 def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
     """Return the trees of some texts (Markdown, inline): inlines of an inline text, else blocks.
 
-    Each is a string of a YAML header, so that none can reach into another; one that ends a line is read as blocks.
+    Each is read as a string of a YAML header, so that none can reach into another; one that ends a line is read as
+    blocks. Raises AtlasError for what `run` refuses.
     """
     sources = [" ".join(markdown.split()) if inline else f"{markdown.strip()}\n" for markdown, inline in texts]
     header = f"---\n{json.dumps({'texts': sources}, ensure_ascii=True)}\n---\n"
@@ -70,7 +71,10 @@ def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
 
 
 def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
-    """Return trees (tree, inline) as HTML, Typst or LaTeX. Raises FormulaError for a formula that can't be read."""
+    """Return trees (tree, inline) as HTML, Typst or LaTeX, a text for each.
+
+    Raises FormulaError for a formula that can't be read, AtlasError for what else `run` refuses.
+    """
     mark = _MARK[target].format(hashlib.sha256(json.dumps(trees).encode()).hexdigest())
     blocks: list[Any] = []
     for tree, inline in trees:
@@ -80,7 +84,7 @@ def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
 
 
 def document(blocks: Tree) -> str:
-    """Return pandoc's JSON of a document of these blocks."""
+    """Return pandoc's JSON, as text, of a document of these blocks."""
     return json.dumps({"pandoc-api-version": api(), "meta": {}, "blocks": blocks})
 
 
@@ -140,7 +144,10 @@ PARAGRAPHS = {"Para", "Plain"}
 
 
 def with_leading(blocks: list[Any]) -> list[Any]:
-    """Return pandoc's blocks of a text with Typst's `leading` about each paragraph that ends with a colon."""
+    """Return pandoc's blocks of a text with Typst's `leading` about each paragraph that ends with a colon.
+
+    Its argument says whether a paragraph precedes, so that this one is indented.
+    """
     leading: list[Any] = []
     for before, block in zip([None, *blocks], blocks, strict=False):
         if leads(block):
@@ -152,7 +159,7 @@ def with_leading(blocks: list[Any]) -> list[Any]:
 
 
 def leads(block: Any) -> bool:
-    """Return whether a block of pandoc is a paragraph that ends with a colon."""
+    """Return whether a block of pandoc is a paragraph, not a plain text, whose last word ends with a colon."""
     if block["t"] != "Para":
         return False
     previous = block["c"][-1]
@@ -201,7 +208,7 @@ def mend(math: str) -> str:
 
 
 def _mended(element: ET.Element) -> ET.Element:
-    """Return the corrected replacement of one element."""
+    """Return an element of MathML corrected as `mend` says: the element, changed in place, or a new one for a prime."""
     if element.get("mathvariant") == "bold-italic":
         del element.attrib["mathvariant"]
         element.text = "".join(map(_upright, element.text or ""))
@@ -228,7 +235,10 @@ def _mended(element: ET.Element) -> ET.Element:
 
 
 def _space_functions(parent: ET.Element) -> None:
-    """Put a thin space before a function name that follows a factor, and after one that no bracket follows."""
+    """Put thin spaces, in place, about the function names among an element's children.
+
+    One stands before a name that follows a factor, one after a name that no bracket follows.
+    """
     spaced: list[ET.Element] = []
     for place, child in enumerate(parent):
         if not _is_function(child) or parent.tag not in {"mrow", "mtd", "math", "msqrt"}:

@@ -24,17 +24,19 @@ from atlas.places import folder
 
 @dataclass(frozen=True)
 class Asked:
-    """Request of a report.
+    """Request of a report of one object.
 
+    family    the family of the object
     options   the options that say which object it is, each with the typed words, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
     units     the system of units, si or gaussian, of a family whose parameters have different units
-    values    the other parameters of the family; `exact` those that no floats hold, as fractions in text
+    values    the other parameters of the family by name; `exact` those that no floats hold, as fractions in text
+    digits    significant digits of the tables; `title` that was asked for, "" for one made from the object
     called    the name of its files, if it has one of its own
     parts     the parts that the report has; `only`, the same as typed, "" for all
     is_page   whether the command is that of a page
     note      a sentence on its axes
-    deviations   quantity, symbol, value with its standard deviation, unit: rows, where inputs have an uncertainty;
+    deviations   rows (quantity, symbol, value with its standard deviation, unit) where inputs have an uncertainty;
               `deviation_notes` say how they were found, `sigma` has the standard deviations of the numbers of a card
     """
 
@@ -118,7 +120,11 @@ HEAD = (
 
 
 def templated(name: str, template: str, head: Mapping[str, Any], values: Mapping[str, Any], command: str) -> str:
-    """Return a report in Markdown: ``head`` as TOML, then a template of templates/report with ``values`` filled in."""
+    """Return a report in Markdown: ``head`` as TOML, then a template of templates/report with ``values`` filled in.
+
+    `name` is the report's, `template` the template's file, `command` the one that makes the report, for a comment
+    on top.
+    """
     source = (folder("templates") / "report" / template).read_text(encoding="utf-8")
     lines = "".join(toml.lines({"name": name, **head}))
     return headed(name, f"{RULE}\n{lines}{RULE}\n\n{expanded(values, {}, source)[1]}", command)
@@ -167,7 +173,7 @@ def _typeset(value: str) -> str:
 
 
 def other_families(family: Family) -> list[Family]:
-    """Return the families other than this one whose parameters, ratio and field among them, this one has too."""
+    """Return the families with a ratio and a field all of whose parameters this family has too, without itself."""
     names = {p.name for p in family.parameters}
     parameters = {other.name: {p.name for p in other.parameters} for other in FAMILIES.values() if other is not family}
     return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
@@ -186,7 +192,10 @@ def _calls(request: Asked, family: Family) -> dict[str, str]:
 
 
 def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the block of a computed table of a family, with its parameters' values."""
+    """Return the block of the computed `table` of a family, a dict by key of the report file.
+
+    `values` are the family's parameters by name.
+    """
     unit = {"units": request.units} if request.units else {"time": request.time} if request.time != "time" else {}
     return {
         "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(request, FAMILIES[family]),
@@ -223,10 +232,10 @@ def too_slow(motion: Any, time: str) -> Iterator[str]:
 def figures_of(
     request: Asked, recipes_of: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
-    """Yield a figure block for each recipe of ``recipes_of``, a dict of its own parameters by name.
+    """Yield a figure block, a dict by key of the report file, for each recipe of ``recipes_of``.
 
-    Parameters that the request has are added. A recipe that refuses the parameters yields none, and a sentence with the
-    reason is added to ``left_out``.
+    ``recipes_of`` holds for each recipe its own parameters by name. Parameters that the request has are added. A recipe
+    that refuses the parameters yields none, and a sentence with the reason is added to ``left_out``.
     """
     from atlas.bodies.units import system
     from atlas.pictures import recipes
@@ -257,7 +266,10 @@ def figures_of(
 
 
 def case_of(request: Asked) -> Any:
-    """Return the `BodyAndField` of a request, its body and field with their units."""
+    """Return the `BodyAndField` of a request, its body and field with their units; both are None where it has none.
+
+    Raises AtlasError for records that make no body or field.
+    """
     body = convert(request.body, Body) if request.body else None
     return body_and_field(body, convert(request.field, Field) if request.field else None)
 

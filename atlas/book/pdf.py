@@ -14,7 +14,7 @@ MATH_FONT = "STIX Two Math"
 
 
 def source(document: Document) -> str:
-    """Return the Typst source of a document whose texts are already typeset."""
+    """Return the Typst source of a document whose texts are already typeset for "typst"."""
     environment = templates(
         "typst",
         string=_string,
@@ -38,12 +38,12 @@ def _string(text: str) -> str:
 
 
 def _number(cell: Cell) -> str:
-    """Return Typst code of a number as two cells, split at the decimal point; digits not proven are marked."""
+    """Return Typst code of a number as two table cells, split at the decimal point; digits not proven are marked."""
     fraction = _string(cell.fraction) + (f" + power({_string(cell.power)})" if cell.power else "")
     after = f"right-of-point({fraction if cell.proven else f'unproven({fraction})'})"
     return f"left-of-point({_string(cell.whole)}), {after}"
 
 
 def _content(text: str) -> str:
-    """Escape plain text for Typst's markup."""
+    """Return plain text with the signs of Typst's markup escaped by backslashes."""
     return re.sub(r"([\\#$*_`<>@\[\]~/=+-])", r"\\\1", str(text))

@@ -12,7 +12,7 @@ from atlas.errors import AtlasError, unknown
 
 
 def pictures(report: Report) -> dict[str, Picture]:
-    """Return the pictures of a report's figures and gallery, by `key`, in the order of appearance.
+    """Return the pictures of a report's figures and gallery, by a key (see `keys`), in the order of appearance.
 
     Nothing is drawn. A recipe that cannot be loaded leaves the reason in its pictures; a misspelt recipe or parameter
     raises AtlasError.
@@ -43,7 +43,7 @@ def keys(block: Figure, report: Report) -> list[str]:
 
 
 def on_cards(report: Report) -> set[str]:
-    """Return the keys of the pictures that represent pages on the front page."""
+    """Return the keys of the pictures that represent pages on the front page: of thumbnails, else first figures."""
     figures = [(page.slug, block) for page in report.pages for block in page.blocks if isinstance(block, Figure)]
     named = {page.slug: page.thumbnail.figure for page in report.pages}
     blocks = [
@@ -70,9 +70,9 @@ def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Pic
 
 
 def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
-    """Return the recipe's parameters by name: those of the block, and those that its body and field give.
+    """Return the recipe's parameters by name: those that the block's body and field give, below the block's own.
 
-    Raises AtlasError for a body or field that the recipe does not take. `recipe` is None if it cannot be loaded.
+    Raises AtlasError for a body that the recipe does not take. `recipe` is None if it cannot be loaded.
     """
     cases = chosen(block, report.parameters)
     offered: dict[str, Any] = {}
@@ -95,7 +95,10 @@ def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]
 
 
 def _recipe(name: str) -> tuple[Any, str]:
-    """Return (recipe, "") or (None, reason of the failure). Raises AtlasError for an unknown name."""
+    """Return (recipe, "") for a name or a file, or (None, reason why it can't be loaded).
+
+    Raises AtlasError for an unknown name.
+    """
     from atlas.pictures import recipes
 
     if not name.endswith(".py") and name not in recipes.names():

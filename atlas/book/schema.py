@@ -32,11 +32,17 @@ T = TypeVar("T")
 
 
 class StrictStruct(msgspec.Struct, frozen=True):
-    """Base of the records of report files: `faults_of` has unknown keys, and keys whose type is a dataclass."""
+    """Base of the records of report files: `faults_of` refuses unknown keys.
+
+    It also refuses the keys of fields whose type is a dataclass: these are not read from the file.
+    """
 
 
 class SchemaError(AtlasError):
-    """A message about a report file, with the `key` concerned and the `path`, the list indices on the way to it."""
+    """A message about a report file, with the `key` concerned and the `path`, the list indices on the way to it.
+
+    The message is "place: sentence", with "at the top" for an empty `place`.
+    """
 
     def __init__(self, place: str, sentence: str, key: str = "", path: tuple[int, ...] = ()) -> None:
         super().__init__(f"{place or 'at the top'}: {sentence}")
@@ -44,19 +50,28 @@ class SchemaError(AtlasError):
 
 
 def convert(raw: Any, kind: type[T], place: str = "") -> T:
-    """Return a table as a record. Raises SchemaError for the first of its faults."""
+    """Return a table, nested dicts and lists of TOML, as the record `kind`.
+
+    Raises SchemaError for the first of its faults, found at `place` of the file, "" for the top.
+    """
     for fault in faults_of(raw, kind, place):
         raise fault
     return msgspec.convert(raw, kind)
 
 
 def faults_of(raw: Any, kind: Any, place: str = "") -> Iterator[SchemaError]:
-    """Yield an error for each key of a table that is unknown, missing, or of another type than in the record `kind`."""
+    """Yield a SchemaError for each key of a table that is unknown, missing, or not of the type in the record `kind`.
+
+    `place` says in words where the table stands in the file, "" for the top.
+    """
     return _faults(raw, inspect.type_info(kind), place, "")
 
 
 def _faults(raw: Any, kind: inspect.Type, place: str, key: str) -> Iterator[SchemaError]:
-    """Yield a SchemaError for each innermost value in `raw` that does not have the type `kind`."""
+    """Yield a SchemaError for each innermost value in `raw` that does not have the type `kind`.
+
+    `place` says in words where the value stands, and `key` is its key.
+    """
     match kind:
         case inspect.UnionType():
             yield from _faults_of_union(raw, kind, place, key)
@@ -76,7 +91,10 @@ def _faults(raw: Any, kind: inspect.Type, place: str, key: str) -> Iterator[Sche
 
 
 def _infinities(raw: Any, place: str, key: str) -> Iterator[SchemaError]:
-    """Yield a SchemaError for each float that is nan or infinite in a value, its lists and tables."""
+    """Yield a SchemaError for each float that is nan or infinite in a value, its lists and tables.
+
+    `place` says in words where the value stands, and `key` is its key.
+    """
     for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
         yield from _infinities(item, place, key)
     if isinstance(raw, float) and not math.isfinite(raw):
@@ -84,7 +102,11 @@ def _infinities(raw: Any, place: str, key: str) -> Iterator[SchemaError]:
 
 
 def _faults_of_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> Iterator[SchemaError]:
-    """Yield the faults of a value of several types: a block, by its key "kind", or a value that may be left out."""
+    """Yield the faults of a value of several types: a block, by its key "kind", or a value that may be left out.
+
+    `place` says in words where the value stands, and `key` is its key. A value that may be a number or a text is
+    tried as the type that it has.
+    """
     kinds = {
         str(kind_of_record.tag): kind_of_record
         for kind_of_record in union.types
@@ -106,7 +128,7 @@ def _faults_of_union(raw: Any, union: inspect.UnionType, place: str, key: str) -
 
 
 def _faults_of_record(raw: dict[str, Any], kind: inspect.StructType, place: str) -> Iterator[SchemaError]:
-    """Yield the faults of a table: unknown keys, missing keys, and those of its values.
+    """Yield the faults of a table at `place`: unknown keys, missing keys, and those of its values.
 
     A missing key that an unknown one was probably meant for is no fault of its own.
     """
@@ -123,7 +145,10 @@ def _faults_of_record(raw: dict[str, Any], kind: inspect.StructType, place: str)
 
 
 def _faults_of_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> Iterator[SchemaError]:
-    """Yield the faults of each item of a list; pages are named by their slugs, other items by their number from 1."""
+    """Yield the faults of each item of a list, with its index, from 0, put in front of the fault's `path`.
+
+    `kinds` are the types of the items; pages are named by their slugs in messages, other items by their number from 1.
+    """
     for place, (value, kind) in enumerate(zip(raw, kinds, strict=True), 1):
         name = repr(value["slug"]) if isinstance(value, dict) and "slug" in value else place
         for fault in _faults(value, kind, f"{where.removesuffix('s')} {name}", key):
@@ -172,6 +197,6 @@ def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
 
 
 def _value_text(raw: Any) -> str:
-    """Return a wrong value as text, cut if it is long."""
+    """Return a wrong value as its Python source, cut to 40 characters."""
     text = repr(raw)
     return text if len(text) <= MAX_VALUE_LENGTH else f"{text[:MAX_VALUE_LENGTH]}…"

@@ -16,9 +16,10 @@ from atlas.surfaces import formula as quadric
 
 
 def nutation(_: Any, I: Any, B2: Any, B3: Any, *omega: Any) -> tuple[Any, ...]:
-    """Return the coefficients of (dOmega3/dt)^2 as a polynomial in Omega3 - omega3, the constant one first.
+    """Return the coefficients of (dOmega3/dt)^2 as a polynomial in Omega3 - omega3, a tuple, the constant one first.
 
-    `I` is I3/I2, (B2, B3) the field and `omega` the angular velocity in the body at t = 0.
+    `I` is I3/I2, (B2, B3) the field and `omega` the angular velocity (3,) in the body at t = 0, both in 1/time; the
+    first argument, I2 = 1, is not used.
     """
     momenta = (omega[1] + B2, I * (omega[2] + B3))
     return from_start(I, (B2, B3), omega, momenta, (1, 1), I - 1)
@@ -41,7 +42,7 @@ FORMULAIC = "explorer.js"
 class Term:
     """A number of a generated script: the name of a variable, and the list of assignments that all terms share.
 
-    Arithmetic with terms appends an assignment and returns a new term.
+    Arithmetic with terms or numbers appends an assignment, "x3 = x1 + x2", and returns a new term.
     """
 
     def __init__(self, name: str, lines: list[str]) -> None:
@@ -86,18 +87,19 @@ class Term:
         return self._named(f"Math.sqrt({self})")
 
     def scaled(self, power: int) -> "Term":
-        """Return the product with a power of two."""
+        """Return the product with 2**power as a new term."""
         return self._named(f"{self} * {2**power}")
 
     def select(self, positive: Any, alternative: Any) -> "Term":
-        """Return the term of `positive` where this term is positive, of `alternative` elsewhere."""
+        """Return a new term: `positive` where this term is above zero when the script runs, else `alternative`."""
         return self._named(f"{self} > 0 ? {positive} : {alternative}")
 
 
 def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
-    """Return the source of a JavaScript function `name` that evaluates a formula whose first argument, I2, is 1.
+    """Return the source of a JavaScript function `name`, a property of an object, that evaluates a formula with I2 = 1.
 
-    `arguments` are the names of its other arguments, separated by spaces.
+    `arguments` are the names of the formula's arguments after the first, I2, separated by spaces. A tuple becomes
+    an array.
     """
     lines, names = list[str](), arguments.split()
     value = formula(1, *(Term(argument, lines) for argument in names))
@@ -107,7 +109,10 @@ def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
 
 
 def script(name: str) -> str:
-    """Return the source of a script of the pages; formulas and colours are put before the script named FORMULAIC."""
+    """Return the source of a script of the pages, the file `name` of templates/html.
+
+    The functions of `FORMULAS` and the looks of roles are put before the script named FORMULAIC.
+    """
     text = (folder("templates") / "html" / name).read_text(encoding="utf-8")
     if name != FORMULAIC:
         return text

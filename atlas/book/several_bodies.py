@@ -26,7 +26,7 @@ INDEX = "index"
 class Row:
     """A row of a table of bodies: line in the file, words as typed, name, title and card of its report.
 
-    `fault` is the reason why there is no report, "" if there is one.
+    `fault` is the reason why there is no report, "" if there is one; then name, title and card are empty.
     """
 
     line: int
@@ -38,7 +38,10 @@ class Row:
 
 
 def value_of(entry: Mapping[str, Any]) -> str:
-    """Return a number of a card as Markdown, "value(deviation) unit"; a dash if it has no value."""
+    """Return a number of a card as Markdown, "value(deviation) unit"; an en dash if it has no value.
+
+    `entry` is one of the records of `atlas.book.card.card`.
+    """
     if entry["value"] is None:
         return "\N{EN DASH}"
     digits = concise(entry["value"], entry["sigma"]) if entry["sigma"] else entry["digits"]
@@ -70,7 +73,7 @@ def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
 
 
 def link_to(row: Row) -> str:
-    """Return a link to the report of a row."""
+    """Return a Markdown link to the report of a row, with its title as the words."""
     return f"[{as_words(row.title)}]({row.name}/index.html)"
 
 
@@ -80,12 +83,15 @@ def as_words(text: str) -> str:
 
 
 def page(name: str, title: str, blocks: Sequence[str], command: str) -> str:
-    """Return a report of one page as Markdown, of texts and fenced blocks."""
+    """Return a report of one page as Markdown, of texts and fenced blocks; `command` is the one that makes it."""
     return templated(name, "bodies.md", {"title": title, "front_matter": False}, {"blocks": blocks}, command)
 
 
 def table_of(rows: Iterable[Row]) -> str:
-    """Return the cards as CSV: of each number its value, standard deviation and unit; and the faults."""
+    """Return the cards as CSV text: of each number its value, standard deviation and unit; and the faults.
+
+    Cells of a body without a report are empty.
+    """
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     parts = ("value", "sigma", "unit")
@@ -98,7 +104,7 @@ def table_of(rows: Iterable[Row]) -> str:
 
 
 def row_of(line: int, words: Sequence[str], request: Asked, made: Card) -> Row:
-    """Return the row of a report that was built."""
+    """Return the `Row` of a report that was built, from its line, typed words, request and card `made`."""
     return Row(line, words, name_of(request), titled(request, made), made)
 
 
@@ -108,7 +114,7 @@ def titled(request: Asked, made: Card) -> str:
 
 
 def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
-    """Return the name of the page on two bodies side by side, and its files by name."""
+    """Return (name of the page on two bodies side by side, its files: texts by name)."""
     cards, names = (card(first), card(second)), (name_of(first), name_of(second))
     name = f"{names[0]}-against-{names[1].removeprefix(f'{NAME}-')}"
     titles = map(titled, (first, second), cards)
@@ -132,7 +138,7 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
 
 
 def _rows(first: Card, second: Card) -> Iterator[list[str]]:
-    """Yield texts for each number of one of two cards: words, letter, both values, difference, unit, equation."""
+    """Yield seven texts for each number of one of two cards: words, letter, both values, difference, unit, equation."""
     for key, a in first.items():
         b = second[key]
         if a["value"] is None and b["value"] is None:

@@ -24,7 +24,11 @@ def versions() -> dict[str, str]:
 
 
 def templates(kind: Literal["html", "typst", "latex"], **filters: Callable[..., Any]) -> "Environment":
-    """Return the Jinja environment of a language's templates, with `filters`; `versions` is defined in all."""
+    """Return the Jinja environment of a language's templates, with the functions `filters` by name as its filters.
+
+    The global `versions` of templates holds versions by library. HTML escapes texts that are filled in; the others
+    do not.
+    """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(

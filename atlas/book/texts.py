@@ -55,7 +55,7 @@ class Link(NamedTuple):
 
 @dataclass(frozen=True)
 class Text:
-    """A piece of Markdown, its position in the report, and whether it is shorter than a paragraph.
+    """A piece of Markdown, its place in the report for messages (`where`), and whether it is no whole paragraph.
 
     `anchors` are the ids to give to the first citations of some names.
     """
@@ -68,9 +68,10 @@ class Text:
 
 @dataclass
 class Texts:
-    """The texts of one report, typeset together.
+    """The texts of one report, typeset together; `texts` are those added so far.
 
-    `memory` holds results of earlier builds by source; `used` those that this build asked for.
+    `memory` holds results of earlier builds, JSON or typeset text by a key made from their source; `used` those of them
+    that this build asked for.
     """
 
     texts: list[Text] = field(default_factory=list)
@@ -79,7 +80,11 @@ class Texts:
     _trees: list[Tree] = field(default_factory=list)
 
     def add(self, markdown: str, place: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
-        """Add a Markdown text and return its index among the texts."""
+        """Add a Markdown text and return its index among the texts.
+
+        `place` is named by error messages; `inline` says that the text is no paragraph; `anchors` are ids for the first
+        citations of some names.
+        """
         self.texts.append(Text(markdown, place, inline, anchors or {}))
         return len(self.texts) - 1
 
@@ -88,7 +93,7 @@ class Texts:
         return self.texts[number]
 
     def read(self) -> None:
-        """Parse the added texts. Raises AtlasError for a text nested too deeply.
+        """Parse the added texts into trees of pandoc. Raises AtlasError for a text nested more than `MAX_DEPTH` deep.
 
         The time that pandoc takes for such a text doubles with each level.
         """
@@ -104,7 +109,7 @@ class Texts:
         self._trees = [json.loads(tree) for tree in self._recalled(keys)]
 
     def set(self, target: Target, cite: Callable[[str, str], Link]) -> list[str]:
-        """Return all texts typeset for a target, in order.
+        """Return all texts typeset for a target ("html", "typst", "latex"), a list in order.
 
         `cite` (name, place) returns the link of a citation. Raises AtlasError, with the place, for an unreadable
         formula, a link that is not allowed, and a picture.
@@ -129,7 +134,10 @@ class Texts:
         return self._recalled(keys)
 
     def _recalled(self, keys: Sequence[str]) -> list[str]:
-        """Return the cached outputs of the keys, and mark them as used."""
+        """Return the outputs in `memory` for the keys, in order, and mark them as used.
+
+        Raises KeyError for one not there.
+        """
         self.used |= {key: self.memory[key] for key in keys}
         return [self.used[key] for key in keys]
 
@@ -154,18 +162,18 @@ def deepest(markdown: str) -> int:
 
 
 def title(text: str) -> str:
-    """Return a title as Markdown: formulas are set, everything else is escaped as plain words."""
+    """Return a title as Markdown: formulas between dollars are kept, everything else is escaped as plain words."""
     words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(_APOSTROPHE.sub("’", text))
     return "".join(piece if k % 2 else re.sub(words, r"\\\1", piece) for k, piece in enumerate(formulas))
 
 
 def title_words(text: str) -> str:
-    """Return a title in plain words, for bookmarks and navigation."""
+    """Return a title in plain words, formulas too, for bookmarks and navigation."""
     return _FORMULA.sub(lambda formula: plain_words(formula[1]), _APOSTROPHE.sub("’", text))
 
 
 def citations(markdown: str) -> list[str]:
-    """Return the names that a text cites, in order, except in code and formulas."""
+    """Return the names that a text cites, in order and as often, except in code and formulas; "(72)" for ``@(72)``."""
     return [name for name in _CITED.findall(markdown) if name]
 
 
@@ -177,14 +185,17 @@ def _braced(markdown: str) -> str:
 
 
 class _Checked:
-    """Checker of a text's tree: only text and formulas reach a page, and citations are resolved."""
+    """Checker of a text's tree for a target: only text and formulas reach a page; citations are resolved by `cite`."""
 
     def __init__(self, text: Text, target: Target, cite: Callable[[str, str], Link]) -> None:
         self.text, self.target, self.cite = text, target, cite
         self.anchors = dict(text.anchors)
 
     def tree(self, nodes: Tree) -> Tree:
-        """Return pandoc's nodes checked and replaced by `node`, nested lists included."""
+        """Return pandoc's nodes checked and replaced by `node`, nested lists included.
+
+        Spaces before units don't break lines.
+        """
         problem: Tree = []
         for node in nodes:
             if isinstance(node, list):
@@ -196,7 +207,10 @@ class _Checked:
         return _tied(problem) if all(isinstance(node, dict) for node in problem) else problem
 
     def node(self, kind: str, content: Any) -> Tree:
-        """Return the list of nodes that replaces a node of pandoc. Raises AtlasError for pictures and raw text."""
+        """Return the list of nodes that replaces a node of pandoc, given its type `kind` and its content or None.
+
+        Raises AtlasError for pictures and raw text, and for links and citations that are not allowed.
+        """
         if kind in {"Image", "RawInline", "RawBlock"}:
             raise AtlasError(f"{self.text.where}: a text holds no pictures; make a figure block of it.")
         if kind == "Cite":
@@ -219,7 +233,11 @@ class _Checked:
         return [{"t": kind, "c": self.tree(content) if isinstance(content, list) else content}]
 
     def citation(self, pieces: Any) -> Tree:
-        """Return the nodes of a citation's links, in brackets with the surrounding words if written so."""
+        """Return the nodes of a citation's links, in brackets with the surrounding words if written so.
+
+        `pieces` are pandoc's citations, dicts. Works for Typst and LaTeX stay a citation. Raises AtlasError for an
+        unknown name.
+        """
         links = [self.cite(work["citationId"], self.text.where) for work in pieces]
         works = self.are_works(pieces, links)
         if works and self.target != "html":  # Typst and BibTeX set their own bibliography
@@ -234,7 +252,10 @@ class _Checked:
         return [*_words(start), *nodes, *_words(end)] if bracketed else nodes
 
     def are_works(self, citations: Any, links: Sequence[Link]) -> bool:
-        """Return whether a citation is of works, not of equations. Raises AtlasError for a mixture."""
+        """Return whether pandoc's citations are of works, not of equations.
+
+        Raises AtlasError for a mixture, and for words before a work in brackets.
+        """
         works = {bool(link.bracketed) for link in links}
         if len(works) > 1:
             raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
@@ -245,7 +266,8 @@ class _Checked:
     def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
         r"""Return the nodes of one citation's link; the first citation of a name in `anchors` gets its id.
 
-        For LaTeX figures and tables become \ref, and table cells \atlascell.
+        `work` is pandoc's citation, a dict; `bracketed` says that it stands in brackets. For LaTeX figures and
+        tables become \ref, and table cells \atlascell.
         """
         name = work["citationId"]
         words = self.tree(_words(link.bracketed if bracketed and link.bracketed else link.words))
@@ -260,7 +282,7 @@ class _Checked:
         return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
 
     def around(self, work: Any) -> dict[str, Tree]:
-        """Return {"citationPrefix": nodes, "citationSuffix": nodes}, the words before and after a name in brackets."""
+        """Return {"citationPrefix": nodes, "citationSuffix": nodes}: words before and after a citation in brackets."""
         return {key: self.tree(work[key]) for key in ("citationPrefix", "citationSuffix")}
 
     def address(self, url: str) -> str:
@@ -291,7 +313,7 @@ def _tied(nodes: Tree) -> Tree:
 
 
 def _element_text(node: Any) -> str:
-    """Return the text of a word, the TeX of a formula, or the last word of a link."""
+    """Return the text of a word, the TeX of a formula, or the last word of a link; "" for any other node of pandoc."""
     content = node.get("c")
     match node.get("t"):
         case "Str":
@@ -319,7 +341,7 @@ def _words(text: str) -> Tree:
 
 
 def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:
-    """Return pandoc's node of a link."""
+    """Return pandoc's node, a dict, of a link: its words as nodes, its URL, and a title shown on hovering."""
     return {"t": "Link", "c": [["", [], []], words, [url, title]]}
 
 
@@ -334,12 +356,12 @@ def _tex(tex: str, target: Target) -> str:
 
 
 def _mark(text: Text) -> str:
-    """Return a Typst comment that marks a formula's text, to stand before and after the formula."""
+    """Return a Typst comment with the digest of a text, to stand before and after each of its formulas."""
     return f"/*{hashlib.sha256(text.markdown.encode(errors='surrogatepass')).hexdigest()}*/"
 
 
 def _finished(piece: str, target: Target, text: Text) -> str:
-    """Return a text written by pandoc with corrected formulas, in Typst the parts between marks."""
+    """Return a text written by pandoc with corrected formulas, in Typst the parts between marks; LaTeX is unchanged."""
     if target != "typst":
         return mend_all(piece) if target == "html" else piece
     pieces = piece.split(_mark(text))

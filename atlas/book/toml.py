@@ -15,7 +15,10 @@ def loads(text: str) -> dict[str, Any]:
 
 
 def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
-    """Yield lines of TOML for the values by key; dictionaries follow as tables, and None is left out."""
+    """Yield lines of TOML for the values by key; dictionaries follow as tables, and None is left out.
+
+    `place` is the name of the table that holds them, "" at the top.
+    """
     for key, value in values.items():
         if not isinstance(value, dict) and value is not None:
             yield f"{key} = {written(value)}\n"
@@ -28,7 +31,10 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
 
 
 def written(value: Any) -> str:
-    """Return a value as TOML source: a dict as an inline table, a text with line breaks between triple quotes."""
+    """Return a value as TOML source: a dict as an inline table, a text with line breaks between triple quotes.
+
+    Raises TypeError or ValueError for a value that is no dict, list, tuple, text, boolean or number.
+    """
     if isinstance(value, dict):
         return f"{{ {', '.join(f'{key} = {written(item)}' for key, item in value.items() if item is not None)} }}"
     if isinstance(value, list | tuple):

@@ -9,9 +9,10 @@ from atlas.errors import AtlasError
 
 
 def compiled(typst_source: str, folder: Path, fonts: Sequence[Path]) -> bytes:
-    """Return the PDF of a Typst source whose pictures are in a folder, from font files alone.
+    """Return the PDF, as bytes, of a Typst source whose pictures are in `folder`, set in the font files `fonts` alone.
 
-    No system font and no date: the bytes repeat. Raises AtlasError with Typst's reason.
+    The source is written into the folder. No system font and no date: the bytes repeat. Raises AtlasError with Typst's
+    reason for an error or a warning.
     """
     import typst
 
@@ -31,7 +32,7 @@ def compiled(typst_source: str, folder: Path, fonts: Sequence[Path]) -> bytes:
 
 
 def _reason(error: Any) -> str:
-    """Return Typst's message, with the source line's number and text, as one line."""
+    """Return the message of Typst's error or warning, with the source line's number and text, as one line."""
     message = str(error.message).removeprefix("error: ").strip()
     place = re.search(r"\.typ:(\d+):\d+", error.diagnostic or "")
     excerpt = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)

@@ -17,7 +17,7 @@ NEAR_BALL = 0.01
 
 
 def stands(ratio: float) -> str:
-    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" over "a ball" to a disk or a loop."""
+    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" (below 0.1) to "as flat as ..." (2)."""
     if ratio == 1.0:
         return "a ball: every axis is like every other"
     if ratio == 2.0:
@@ -80,7 +80,10 @@ def is_stable(item: Thing) -> bool | None:
 
 
 def is_still(item: Thing) -> bool:
-    """Return whether a body is at rest, or spins about its symmetry or third axis along the field or without one."""
+    """Return whether a body is at rest, or spins about its symmetry or third axis along the field or without one.
+
+    False for an object without a start.
+    """
     values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
     if not item.family.sampled or not {"field", "direction"} & values.keys() or not {"omega", "omega2"} & values.keys():
         return False
@@ -103,7 +106,10 @@ def turns_over(item: Thing) -> bool:
 
 
 def place_of(family: Family, motion: Any) -> str:
-    """Return a sentence on whether the start lies on the curve of motions without nutation, for the family's motion."""
+    """Return a sentence on whether the start of `motion` lies on the curve of motions without nutation.
+
+    Without a start it is a sentence on all other starts.
+    """
     if not family.sampled:
         return "Any other start makes the axis nod."
     if family.takes("omega2"):

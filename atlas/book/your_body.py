@@ -60,7 +60,7 @@ PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stabilit
 
 
 def body_named(request: Asked, made: Mapping[str, Any]) -> str:
-    """Return the body in words, with its size or its moments as they were typed."""
+    """Return the body in words, with its size or its moments as they were typed; `made` is the card."""
     options = request.options
     if "shape" in options:
         shape = options["shape"][0].replace("-", " ").replace("_", " ")
@@ -77,7 +77,10 @@ def body_named(request: Asked, made: Mapping[str, Any]) -> str:
 
 
 def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
-    """Return the title of a report: the body, the time of one turn, and the verdict."""
+    """Return the title of a report: the body, the time of one turn, and the verdict `says`; `made` is the card.
+
+    Of an object without a card it is the object's description.
+    """
     if not has_card(request.family):
         return thing_of(request).says
     turn, body = made["turn"], body_named(request, made)
@@ -97,7 +100,10 @@ def sign_of(request: Asked) -> str:
 
 
 def shape_of(request: Asked) -> dict[str, Any] | None:
-    """Return parameters of the body's picture: {"is_ball": True}, or radius and height in m; None for other shapes."""
+    """Return parameters of the body's picture: {"is_ball": True}, or {"radius": m, "height": m}.
+
+    None for a spheroid, and without a shape.
+    """
     body = request.body or {}
     if "shape" not in body or body["shape"] == "spheroid":
         return None
@@ -126,7 +132,10 @@ def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
 
 
 def evaluated(request: Asked) -> dict[str, Any]:
-    """Return the inputs as evaluated, a dict for JSON: equal for two ways to type one body."""
+    """Return the inputs as evaluated, a dict for JSON: equal for two ways to type one body.
+
+    Its keys are family, time, values, and where there are such body, field, sigma and parts.
+    """
     records = {"body": request.body, "field": request.field}
     bare = {name: {k: v for k, v in one.items() if k != "title"} for name, one in records.items() if one}
     sigma = {"sigma": {key: float(f"{x:.6g}") for key, x in request.sigma.items()}} if request.sigma else {}
@@ -147,7 +156,7 @@ def name_of(request: Asked) -> str:
 
 
 def inputs_of(request: Asked) -> str:
-    """Return the file NAME.inputs.toml: inputs as typed and as evaluated, defaults marked, versions, no clock."""
+    """Return the text of NAME.inputs.toml: inputs as typed and as evaluated, defaults, digest, versions; no clock."""
     omitted = [
         p.name
         for p in request.family.parameters
@@ -160,7 +169,7 @@ def inputs_of(request: Asked) -> str:
 
 
 def works() -> str:
-    """Return BibTeX for the paper and for this version of the atlas."""
+    """Return BibTeX text for the paper, where the references have it, and for this version of the atlas."""
     entries = (folder("reports") / "references.bib").read_text(encoding="utf-8")
     paper = re.search(r"@article\{deriglazov2024,.*?\n\}\n", entries, re.DOTALL)
     version = SOFTWARE.format(version=versions()["atlas"])
@@ -168,7 +177,9 @@ def works() -> str:
 
 
 def files_of(request: Asked) -> dict[str, str]:
-    """Return the files of a report by name: its Markdown, card, inputs and BibTeX, the recipe of its picture.
+    """Return the files of a report, texts by name: its Markdown, card, inputs and BibTeX, the recipe of its picture.
+
+    The last only where the report shows the body's picture.
 
     Raises
     ------
@@ -193,7 +204,10 @@ def files_of(request: Asked) -> dict[str, str]:
 
 
 def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks."""
+    """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks.
+
+    `made` is the card of the request.
+    """
     family, shape, item, ratio = request.family, shape_of(request), thing_of(request), made["ratio"]["value"]
     motion, beside, left_out = item.kernels(), list(disturbances_of(request, made)), list[str]()
     figures, closed, measured = figures_by_part(request, left_out), list[str](), list[str]()
@@ -228,7 +242,10 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _lasting(entry: Mapping[str, Any]) -> str:
-    """Return a time of the card in a sentence, "132.7 units of time" or "2.5(1) s"; "no time" where it has none."""
+    """Return a time of the card, one of its records, in a sentence, "132.7 units of time" or "2.5(1) s".
+
+    Else "no time".
+    """
     if entry["value"] is None:
         return "no time"
     time = concise(entry["value"], entry["sigma"]) if entry["sigma"] else f"{entry['value']:.4g}"
@@ -236,7 +253,10 @@ def _lasting(entry: Mapping[str, Any]) -> str:
 
 
 def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]:
-    """Return the figures of each part that the report has, in their fences; add to `left_out` why some are missing."""
+    """Return lists of fenced figure blocks by part (card, body, motion, maps), only of those parts that the report has.
+
+    Sentences on why some figures are missing are added to `left_out`.
+    """
     maps = maps_of(request)
     wanted = maps | {name: dict[str, Any]() for name in request.family.figures if maps or name not in PART}
     if "asymmetric_motion" in wanted and turns_over(thing_of(request)):
@@ -252,7 +272,7 @@ def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]
 
 
 def without_change(request: Asked) -> Iterator[tuple[str, str]]:
-    """Yield the recipe of each figure on which nothing of the request's motion would change, with the reason."""
+    """Yield (recipe, reason) of each figure on which nothing of the request's motion would change."""
     item = thing_of(request)
     motion = item.kernels()
     if is_still(item):
@@ -274,7 +294,8 @@ def without_change(request: Asked) -> Iterator[tuple[str, str]]:
 def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the block of an explorer of a symmetric body in a field, from its start.
 
-    Without such a body, field and start nothing is yielded, and the reason is added to `left_out`.
+    Without such a body, field and start, and for values beyond the sliders, nothing is yielded, and the reason is
+    added to `left_out`. In units of time other than "time" rates are in units of |B'|.
     """
     if not (request.body and request.family.sampled and any(case_of(request).components)):
         left_out.append("An explorer: its sliders are those of a symmetric body in a field, with a start.")
@@ -296,7 +317,7 @@ def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]
 
 
 def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
-    """Yield a sentence for each reason why numbers are missing on the card, with their names."""
+    """Yield a sentence for each reason why numbers are missing on the card `made`, with their names."""
     reasons = dict[str, list[str]]()
     for entry in made.values():
         if entry["reason"] not in {None, ONE_PERIOD}:
@@ -307,7 +328,7 @@ def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
 
 
 def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
-    """Yield six texts for each number of the card: words, letter, value with its error, unit, digits, equation."""
+    """Yield six texts for each number of the card `made`: words, letter, value and error, unit, digits, equation."""
     for entry in made.values():
         if entry["value"] is None:
             continue
@@ -320,7 +341,7 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
 
 
 def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
-    """Yield a `Disturbance` for each neglected effect.
+    """Yield a `Disturbance` for each neglected effect, such as gravity; `made` is the card of the request.
 
     Nothing is yielded without a shape, a mass or density, and a field B in SI.
     """
@@ -349,7 +370,10 @@ def _row_of(one: Disturbance) -> list[str]:
 
 
 def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> Iterator[str]:
-    """Yield sentences on parts that this report lacks, with the reason of each."""
+    """Yield sentences on parts that this report lacks, with the reason of each.
+
+    `shape` are the parameters of the body's picture or None; `is_told` says that neglected effects are told.
+    """
     is_top, parts = request.family.takes("coupling"), request.parts
     if not shape and not is_top and "card" in parts:
         yield "A picture of the body: no cylinder, ring, disk, rod or ball was given as its shape."

@@ -51,7 +51,7 @@ class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
 
 @dataclass(frozen=True)
 class DescribedView:
-    """A public name: its arguments as text, the index of its docstring among the texts, and the views of its members."""
+    """A public name: its arguments as text, the index of its docstring among the texts, the views of its members."""
 
     name: str
     arguments: str

@@ -27,7 +27,10 @@ TABLES: dict[str, Maker] = {
 
 
 def compute(name: str, request: Request) -> Data:
-    """Return a table by name. Raises AtlasError for an unknown table, and for a parameter that it does not take."""
+    """Return the computed table `name`, a `Data`, for a request.
+
+    Raises AtlasError for an unknown table, and for a parameter, body or field that it does not take or lacks.
+    """
     if name not in TABLES:
         raise unknown("table", name, TABLES)
     arguments = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
@@ -37,7 +40,10 @@ def compute(name: str, request: Request) -> Data:
 
 
 def _converted_request(kind: type, request: Request) -> Any:
-    """Return the request itself, the `Thing` of its parameters, or these as a record, whichever `kind` is."""
+    """Return the request itself, the `Thing` of its parameters, or the parameters as a record, whichever `kind` is.
+
+    Raises AtlasError for parameters that the kind does not take.
+    """
     if kind is Request:
         return request
     return Thing.of(request) if kind is Thing else convert(dict(request.parameters), kind, "parameters")

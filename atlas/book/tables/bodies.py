@@ -30,7 +30,10 @@ YEAR = 31_557_600.0
 
 
 class SizeParameters(StrictStruct, frozen=True):
-    """Radii in m, density in kg/m^3, the field that the surface bears in V/m, the magnet's field in T."""
+    """Parameters of `sizes` and `radiation`: radii of balls in m, density in kg/m^3, and two fields.
+
+    `surface_field` in V/m is the electric field that the surface bears, `magnet` the magnetic field in T.
+    """
 
     radii: tuple[float, ...]
     density: float
@@ -39,7 +42,12 @@ class SizeParameters(StrictStruct, frozen=True):
 
 
 def sizes(setup: SizeParameters) -> Data:
-    """Return the table of balls with the largest charge: a row per ball with charge, charge/mass, Larmor frequency."""
+    """Return the table of balls with the largest charge that their surface bears, a row for each radius.
+
+    Its eight columns are r in m, e in C, e/e0, e/m0 in C/kg, Larmor's frequency b in 1/s, its period 2 pi/b in s,
+    the angle in rad of `off_the_field`, and the temperature I2 b^2/k_B in K. Raises AtlasError unless there are
+    radii and all parameters are positive.
+    """
     _check(setup)
     rows = []
     for r in setup.radii:
@@ -111,9 +119,9 @@ def moment_of_inertia(mass: float, radius: float) -> float:
 
 
 def off_the_field(b: float) -> float:
-    """Angle in rad between m and B in the elementary motion with k = 2 pi 1/s, for Larmor's frequency `b` in 1/s.
+    """Return the angle in [0, pi] rad between m and B in the elementary motion with k = 2 pi 1/s, (67).
 
-    It follows from (67) and m/I2 = (0, omega2, I omega3).
+    `b` is Larmor's frequency in 1/s; the body has I3/I2 = 1.5, the field B3/B2 = 2, and m/I2 = (0, omega2, I omega3).
     """
     unit = b / hypot(1.0, TILT)
     B2, B3 = unit, TILT * unit
@@ -129,12 +137,16 @@ def _check(setup: SizeParameters) -> None:
 
 
 def two(value: float) -> Number:
-    """Return a number as a `Number` of two digits."""
+    """Return a number as a `Number` of two digits with a power of ten, such as "1.2e-05"."""
     return Number(f"{value:.1e}")
 
 
 def charges(request: Request) -> Data:
-    """Return the table of bodies with mass and radius: m0, r, charge e = mu m0, and the field e/(4 pi eps0 r^2)."""
+    """Return the table of bodies with mass and radius: m0, r, charge e = mu m0, and the field e/(4 pi eps0 r^2).
+
+    The units are kg, m, C and V/m, a row for each body. Raises AtlasError for a body without mass or radius, for a
+    field without a charge-to-mass ratio, and for a field at the surface beyond the largest float.
+    """
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
         body = case.body_record
@@ -166,7 +178,7 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
 
 
 def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
-    """Return (title, body, coefficient of nu^2 in the energy of the body's induced moment, in J).
+    """Return (title, body, coefficient in J of nu^2, nu = cos theta, in the energy of the body's induced moment).
 
     Raises AtlasError for a body without shape or mass, and for a field without a charge-to-mass ratio.
     """
@@ -206,7 +218,10 @@ def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
 
 
 class Coat(StrictStruct, frozen=True):
-    """A body given by the shapes over which mass and charge are spread, with dimensions in one unit."""
+    """A body given by the shapes over which its mass and its charge are spread, with dimensions in one unit of length.
+
+    `mass` and `charge` are names of shapes; `charge_dimensions` are those of the charge's shape, None for `dimensions`.
+    """
 
     name: str
     mass: str
@@ -216,13 +231,17 @@ class Coat(StrictStruct, frozen=True):
 
 
 class CoatParameters(StrictStruct, frozen=True):
-    """The bodies, a row each."""
+    """Parameters of the table `coats`: the bodies, a row each."""
 
     coats: tuple[Coat, ...]
 
 
 def coats(setup: CoatParameters) -> Data:
-    """Return the table of gyromagnetic factors, in units of e/m, of bodies whose charge is not spread like the mass."""
+    """Return the table of gyromagnetic factors, in units of e/m, of bodies whose charge is not spread like the mass.
+
+    A row has the name, I = I3/I2, the factors across and along the axis, and kappa/b and A/b^2 of
+    theorem-every-top, all pure numbers.
+    """
     rows: list[tuple[str | Number, ...]] = []
     for coat in setup.coats:
         body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
@@ -245,7 +264,11 @@ def coats(setup: CoatParameters) -> Data:
 
 
 def swings(request: Request, setup: DiamagnetismParameters) -> Data:
-    """Return the table of swings of bodies released at rest in Larmor's frame: by charge, and with induced moment."""
+    """Return the table of swings of bodies released at rest in Larmor's frame: by charge, and with induced moment.
+
+    A row has the title, Larmor's period in s, then rate in 1/s and period in s by the charge alone, both with the
+    induced moment, and the quotient of the squared rates; a dash for zero. Raises the errors of `magnetised`.
+    """
     from atlas.motions.nutation.kernel_top import TopMotion
 
     rows: list[tuple[str | Number, ...]] = []

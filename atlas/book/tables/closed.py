@@ -16,9 +16,10 @@ PRINTED_DIGITS = 12
 
 
 def closed(request: Request, item: Thing) -> Data:
-    """Return the table of best fractions p/q of phi/k, or of the turns in one nutation, with the closed motion of each.
+    """Return the table of best fractions p/q of phi/k, or of the turns in one nutation, each with its closed motion.
 
-    Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
+    phi/k is that of an elementary motion (72); any other motion has a row (p turns, q nutations, time, miss) for each
+    fraction. Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
     """
     from flint import arb, fmpq
 
@@ -52,7 +53,11 @@ def closed(request: Request, item: Thing) -> Data:
 
 
 def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
-    """Return the table of the closed elementary motions, a row for each fraction that has one."""
+    """Return the table of closed elementary motions with phi/k = p/q, a row for each fraction that has one.
+
+    `value` is the ball phi/k, `fractions` are pairs (p, q), `misses` the differences phi/k - p/q as `Number`s. Raises
+    DomainError if no fraction has a motion.
+    """
     from atlas.motions.elementary.closed import ClosedMotion
 
     ratio, field, omega2, *_ = item.floats
@@ -108,14 +113,19 @@ def convergents(value: Any) -> Iterator[tuple[int, int]]:
 
 
 class CompanionParameters(StrictStruct, frozen=True):
-    """I3/I2 below 1, and (B2, B3, omega2) of some elementary motions, in 1/s."""
+    """Parameters of the table `companions`: I3/I2 below 1, and (B2, B3, omega2) of some elementary motions, in 1/s."""
 
     ratio: float
     motions: tuple[tuple[float, float, float], ...]
 
 
 def companions(request: Request, setup: CompanionParameters) -> Data:
-    """Return the table of steady precessions with companions: theta, growth rate, and the companions' end angles."""
+    """Return the table of steady precessions that other motions leave and come back to, theorem-companion-range.
+
+    A row has B', omega2, the angle theta between axis and field, the growth rate sqrt(c) of a push, and the angles
+    theta_+ and theta_- at which the companions turn: rates in 1/s, angles in degrees. Raises AtlasError where there
+    is no companion.
+    """
     angles_of_each = certified(lambda: [angles(setup.ratio, *motion) for motion in setup.motions], request.digits)
     columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
     motions = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in setup.motions]
@@ -136,7 +146,10 @@ def companions(request: Request, setup: CompanionParameters) -> Data:
 
 
 def angles(ratio: float, B2: float, B3: float, omega2: float) -> tuple[Any, ...]:
-    """Return balls theta (degrees), sqrt(c) (1/s), theta_+, theta_- (degrees). AtlasError without a companion."""
+    """Return balls theta (degrees), sqrt(c) (1/s), theta_+, theta_- (degrees) of an elementary motion.
+
+    They are the columns of `companions`; sqrt(c) = 0 is an exact rational. Raises AtlasError without a companion.
+    """
     from flint import arb, fmpq
 
     I, B2, B3, omega2 = (fmpq(*value.as_integer_ratio()) for value in (ratio, B2, B3, omega2))

@@ -15,7 +15,10 @@ NONE = "–"
 
 
 class Quantity(NamedTuple):
-    """A quantity of one body: meaning, letter, value as a number or a word, unit of a number."""
+    """A quantity of one body: meaning, letter in TeX, value, and unit ("" for a pure number).
+
+    The value is a ball, a rational or a float, or a word.
+    """
 
     name: str
     symbol: str
@@ -52,13 +55,19 @@ def titled(request: Request) -> str:
 
 
 def quadric(request: Request) -> Data:
-    """Return the table of the quadric (51) to (57): ratio I, kind, angle beta, a2, a3, semi-axes and centre."""
+    """Return the table of the quadric (51) to (57), a column for each body: I, kind, angles, a2, a3, semi-axes, centre.
+
+    Angles are in rad, semi-axes and centre in 1/s. With the field along or across the axis there are I and kind alone.
+    """
     columns, rows = side_by_side(request, [of_quadric(case, request.digits) for case in request.cases])
     return Data(columns, rows, f"The quadric of initial data of {titled(request)}, @(51), in canonical form.")
 
 
 def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
-    """Return the quantities of the quadric of a body in a field; only its type for a field along or across the axis."""
+    """Return the quantities of the quadric of a body in a field, see `quadric`, to `digits` digits.
+
+    Only I and kind for a field along or across the axis; a dash for each semi-axis of a ball.
+    """
     from flint import arb
 
     from atlas.surfaces.certified import Quadric
@@ -91,9 +100,10 @@ class PointsParameters(StrictStruct, frozen=True):
 
 
 class Point(NamedTuple):
-    """A point of the hyperbola: its names, and whether the motion is stable.
+    """A point of the hyperbola (67): its names, and whether the motion is stable.
 
-    `values` are omega2, omega3, k, phi and nu_n^2 as balls, in 1/s and 1/s^2.
+    `names` is a text such as "at rest", "" for a value of omega2 that was asked for. `values` are omega2, omega3,
+    k, phi and nu_n^2 as balls, in 1/s and 1/s^2.
     """
 
     names: str
@@ -141,7 +151,10 @@ def points(request: Request, setup: PointsParameters) -> Data:
 
 
 def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[Point]:
-    """Return the named and the given points of the hyperbola of a body, in the order of omega2, but for the pole."""
+    """Return the named and the given points of the hyperbola (67) of a body, by rising omega2, but for the pole.
+
+    Equal points are one with several names. Raises AtlasError if there is none, as with B2 = 0.
+    """
     from atlas.arithmetic.certified_inputs import rational
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
@@ -170,14 +183,14 @@ def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[
 
 
 class Motion(StrictStruct, frozen=True):
-    """An elementary motion: omega2 in 1/s, and omega3 where the hyperbola leaves it free."""
+    """Parameters of an elementary motion: omega2 in 1/s, and omega3 where the hyperbola leaves it free, else None."""
 
     omega2: float
     omega3: float | None = None
 
 
 class Samples(StrictStruct, frozen=True):
-    """An elementary motion: omega2 in 1/s, omega3 where the hyperbola leaves it free, and times in s."""
+    """Parameters of a motion at times in s: omega2 in 1/s, omega3 where the hyperbola leaves it free, else None."""
 
     omega2: float
     times: tuple[float, ...]
@@ -185,7 +198,10 @@ class Samples(StrictStruct, frozen=True):
 
 
 def motion(request: Request, setup: Motion) -> Data:
-    """Return the table of a motion that starts with `omega2`: initial data, frequencies, stability and integrals."""
+    """Return the table of a motion that starts with `omega2`: initial data, frequencies, stability and integrals.
+
+    It has a column for each body, in 1/s and 1/s^2; the rows are those of `of_motion`.
+    """
     columns, rows = side_by_side(request, [of_motion(case, setup, request.digits) for case in request.cases])
     return Data(
         columns,
@@ -226,7 +242,10 @@ def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
 
 
 def samples(request: Request, setup: Samples) -> Data:
-    """Return the table, a row for each of the `times`, of Omega(t), (73), and the third axis R_3(t), (84)."""
+    """Return the table, a row for each of the `times`, of Omega(t), (73), and the third axis R_3(t), (84).
+
+    A row has t in s, three components in the body in 1/s, and three in the laboratory. Only the first body is shown.
+    """
     from atlas.motions.elementary.certified import ElementaryMotion
 
     motion = ElementaryMotion(request.case.exact, request.case.components, setup.omega2, setup.omega3)
@@ -245,7 +264,7 @@ def samples(request: Request, setup: Samples) -> Data:
 
 
 def sheet(request: Request, setup: Motion) -> Data:
-    """Return the table with the rows of `quadric` and `motion` for the motion that starts with `omega2`."""
+    """Return the table with the rows of `quadric` and then of `motion`, a column for each body."""
     columns, rows = side_by_side(
         request,
         [[*of_quadric(case, request.digits), *of_motion(case, setup, request.digits)] for case in request.cases],

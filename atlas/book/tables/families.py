@@ -32,7 +32,10 @@ def quantities() -> Data:
 
 
 def _rows(family: Family) -> Iterator[Row]:
-    """Yield the rows of a family, (name, meaning, unit, equation, error) as texts, of parameters, then quantities."""
+    """Yield five texts (name, meaning, unit, equation, error in ulp) for each parameter and quantity of a family.
+
+    Parameters come first, with "given" for the error; quantities at a time come last.
+    """
     for p in family.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
     for q in family.quantities:
@@ -51,7 +54,10 @@ def _promise(family: Family, checked: str) -> str:
 
 
 def targets() -> Data:
-    """Return the table, a `Data`, of the targets of figures: sizes, type, lines, resolution, and publishers' rules."""
+    """Return the table, a `Data`, of the targets of figures: sizes in mm, type and lines in pt, resolution in dpi.
+
+    Notes below it have the publishers' rules.
+    """
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),
@@ -63,14 +69,20 @@ def targets() -> Data:
 
 
 def _sizes(target: Target) -> tuple[str, ...]:
-    """Return width, height, type, lines and resolution of a target as texts."""
+    """Return (width and height in mm, type and lines in pt, resolution in dpi) of a target as texts.
+
+    Lines are "least to greatest", or the least alone where there is no greatest.
+    """
     least, greatest = target.lines
     lines = f"{least:g}" if greatest == ANY else f"{least:g} to {greatest:g}"
     return f"{target.width:g}", f"{target.height:g}", f"{target.type:g}", lines, f"{target.dpi:g}"
 
 
 def roles() -> Data:
-    """Return the table, a `Data`, of the roles of layers, with their look and the settings that change it."""
+    """Return the table, a `Data`, of the roles of layers: colour, width, dashes and marker in pt.
+
+    Roles of equal look share a row. A setting of Matplotlib stands in the place of a value that a style sheet sets.
+    """
     from atlas.pictures.style import LINES, STYLES
 
     looks: dict[tuple[str, ...], list[str]] = {}

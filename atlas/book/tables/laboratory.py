@@ -28,7 +28,7 @@ RECORDED = {"found": ".0f", "within": ".1f", "seconds": ".2f"}
 class Dipole(StrictStruct, frozen=True):
     """A ball: radius in m, density in kg/m^3, dipole in e um, field in V/m, rates of spin about the dipole in Hz.
 
-    The dipole starts `inclination` rad off the field, with no other angular velocity.
+    The dipole starts `inclination` rad off the field, with no angular velocity but the spin.
     """
 
     radius: float
@@ -39,7 +39,10 @@ class Dipole(StrictStruct, frozen=True):
     inclination: float
 
     def motion(self, spin: float) -> TopMotion:
-        """Return the `TopMotion` with `spin` turns a second and potential -d E nu."""
+        """Return the `TopMotion`, in SI units, with `spin` turns a second and potential -d E nu.
+
+        nu is the cosine between dipole and field.
+        """
         I = from_shape("sphere", mass=self.density * 4 / 3 * pi * self.radius**3, radius=self.radius).I2
         direction = np.sin(self.inclination), np.cos(self.inclination)
         return TopMotion((I, I), (0.0, 0.0), direction, (0.0, 0.0, 2 * pi * spin), -self.energy)
@@ -51,7 +54,10 @@ class Dipole(StrictStruct, frozen=True):
 
 
 def levitated(setup: Dipole) -> Data:
-    """Return the table of nutation and precession of a ball with a dipole, with limits for slow and fast spin."""
+    """Return the table of nutation and precession of a ball with a dipole, a row for each spin, in Hz.
+
+    A row has the spin, the frequency of nutation and that of small librations, the precession and that of a fast spin.
+    """
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
         motion = setup.motion(spin)
@@ -96,8 +102,9 @@ class Lines(Dipole, frozen=True):
 def lines(setup: Lines) -> Data:
     """Return the table of spectral lines of the axis for each spin, with combinations and largest displacements.
 
-    A line a exp(i f t) and its conjugate at -f draw an ellipse, whose larger semi-axis is twice the largest singular
-    value of (Re a, Im a); the mean has no conjugate.
+    A row has spin and line in Hz, the combination of frequencies in words, and the displacement across and along
+    the field, of an axis of length 1. A line a exp(i f t) and its conjugate at -f draw an ellipse, whose larger
+    semi-axis is twice the largest singular value of (Re a, Im a); the mean has no conjugate.
     """
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
@@ -128,7 +135,10 @@ def lines(setup: Lines) -> Data:
 
 
 class Watch(Dipole, frozen=True):
-    """A measurement of the axis: `samples` in `seconds`, each component with a standard deviation `noise`."""
+    """A measurement of a `Dipole`'s axis: `samples` in `seconds`, each component with a standard deviation `noise`.
+
+    The axis has length 1.
+    """
 
     samples: int
     seconds: float
@@ -179,7 +189,8 @@ def _deviations(J: Any) -> list[str | Number]:
 class Design(StrictStruct, frozen=True):
     """Spheroids of some equatorial radii in m, of a material, charged to a field at their surface, in a magnet (T).
 
-    `aspect` is polar over equatorial; they spin `spin` times as fast as Larmor's turn about their own axis, which is
+    `aspect` is polar over equatorial radius, `density` in kg/m^3, `susceptibility` the volume's in SI,
+    `surface_field` in V/m; they spin `spin` times as fast as Larmor's turn about their own axis, which is
     `inclination` rad off the field.
     """
 
@@ -194,10 +205,12 @@ class Design(StrictStruct, frozen=True):
 
 
 def beyond_larmor(setup: Design) -> Data:
-    """Return the table of precession beyond Larmor's rate by charge, by magnetisation and by both, and of disturbances.
+    """Return the table of precession beyond Larmor's rate, in Hz, by charge, by magnetisation and by both.
 
-    All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: the effect of
-    the charge is the rate by both less that by magnetisation alone.
+    A row for each radius in m has Larmor's frequency, these three, both less magnetism, the quotient of the
+    potentials, and two disturbances: an offset in m and a pressure in Pa. All motions have the same momentum in
+    Larmor's frame, that of the spin about the axis. Rates do not add: the effect of the charge is the rate by both
+    less that by magnetisation alone.
     """
     moment_along = demagnetization(setup.aspect)
     rows: list[tuple[str | Number, ...]] = []
@@ -253,7 +266,10 @@ def _three(value: float) -> str | Number:
 
 
 def fits() -> Data:
-    """Return the table of fits of simulated data: fractions found and within one standard error, median CPU time."""
+    """Return the table of recorded fits of simulated data, a row for each family and kind of measurement.
+
+    A row has the share of motions found and of parameters within one standard error in %, and the median CPU time in s.
+    """
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     return Data(
         heads("Family", "Measured", ("Found", "%"), ("Within one error", "%"), ("CPU time, median", "s")),

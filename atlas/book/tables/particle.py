@@ -14,7 +14,8 @@ from atlas.errors import AtlasError
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
     """Return the certified `ParticleMotion` (101) of a body's centre of mass.
 
-    Raises AtlasError for a field that is not given as B, and for a laboratory frame that is not along the body's axes.
+    `position` and `velocity` (3,) are those at t = 0 in the laboratory, in the units of the field's system. Raises
+    AtlasError for a field that is not given as B, and for a laboratory frame that is not along the body's axes.
     """
     from atlas.motions.particle.certified import ParticleMotion
 
@@ -27,7 +28,7 @@ def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
 
 
 class ParticleParameters(StrictStruct, frozen=True):
-    """Times in s, position and velocity at t = 0."""
+    """Parameters of the table `particle`: times in s, position and velocity (3,) at t = 0 in the field's units."""
 
     times: tuple[float, ...]
     position: Vector = (0.0, 0.0, 0.0)
@@ -35,7 +36,11 @@ class ParticleParameters(StrictStruct, frozen=True):
 
 
 def particle(request: Request, setup: ParticleParameters) -> Data:
-    """Return the table of positions, at the `times`, of a particle with `position`, `velocity` at t = 0, (93), (98)."""
+    """Return the table of positions, at the `times`, of a particle with `position`, `velocity` at t = 0, (93), (98).
+
+    A row has t in s and three components in the laboratory, in the field's unit of length; cyclotron frequency and
+    drift stand below. Raises AtlasError for a field that is not given as B.
+    """
     case = request.case
     motion = exact_particle(case, setup.position, setup.velocity)
     unit = speed = case.units.length_unit if case.units else ""
@@ -58,7 +63,7 @@ def particle(request: Request, setup: ParticleParameters) -> Data:
 
 
 class BallParameters(StrictStruct, frozen=True):
-    """Initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
+    """Parameters of the table `ball`: initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
 
     omega2: float
     omega3: float
@@ -66,7 +71,11 @@ class BallParameters(StrictStruct, frozen=True):
 
 
 def ball(request: Request, setup: BallParameters) -> Data:
-    """Return the table of alpha, gamma, k_hat of a ball that starts with (0, omega2, omega3) in a field along e3."""
+    """Return the table of alpha, gamma, k_hat of a ball that starts with (0, omega2, omega3) in a field along e3.
+
+    alpha is Larmor's frequency, gamma the rate of the turn about the unit vector k_hat = (0, k2, k3), both in 1/s,
+    (29). Raises AtlasError for alpha = 0.
+    """
     from atlas.motions.elementary.certified_ball import BallMotion
 
     if setup.larmor == 0:
@@ -89,7 +98,11 @@ def ball(request: Request, setup: BallParameters) -> Data:
 
 
 class FlightParameters(StrictStruct, frozen=True):
-    """The elementary motion by its omega2, times in s, the point at t = 0, the start of the centre of mass."""
+    """Parameters of the table `flight`: omega2 of the elementary motion in 1/s, times in s, and three vectors.
+
+    `point` is the point of the body at t = 0 from its centre of mass, `position` and `velocity` are those of the
+    centre, all in the laboratory, in the field's units.
+    """
 
     omega2: float
     times: tuple[float, ...]
@@ -99,7 +112,11 @@ class FlightParameters(StrictStruct, frozen=True):
 
 
 def flight(request: Request, setup: FlightParameters) -> Data:
-    """Return the table of positions y_0(t), y_N(t) = y_0(t) + R(t) x_N(0) at the `times`, in figure Lssc's frame."""
+    """Return the table of positions y_0(t), y_N(t) = y_0(t) + R(t) x_N(0) at the `times`, in figure Lssc's frame.
+
+    y_0 is the body's centre of mass and x_N(0) its `point`. A row has t in s and six components in the laboratory,
+    in the field's unit of length. Raises AtlasError for a field that is not given as B.
+    """
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.particle.certified import Flight
 

@@ -31,7 +31,8 @@ Row = tuple[str, str, str | Number, str, str, str]
 class Thing:
     """An object of a family: parameters as given, and arguments of its classes in floats and in exact numbers.
 
-    `units` maps the register's units to others, and `described` is true if the inputs stand in a table.
+    `given` holds numbers for the table by the parameter's name; `floats` and `exact` are the arguments in the family's
+    order. `units` maps the register's units to others, and `described` is true if the inputs stand in a table.
     """
 
     family: Family
@@ -43,7 +44,10 @@ class Thing:
 
     @classmethod
     def of(cls, request: Request) -> "Thing":
-        """Return the object of a request. Raises AtlasError for unknown or missing families and parameters."""
+        """Return the object of a request, whose parameters hold the family's name and its inputs, "time" or "units".
+
+        Raises AtlasError for unknown or missing families and parameters.
+        """
         surplus = dict(request.parameters)
         name, described = surplus.pop("family", None), surplus.pop("given", True)
         units = {"time": str(surplus.pop("time", "time"))} | _units(surplus.pop("units", None))
@@ -105,7 +109,10 @@ class Thing:
 
 
 def _units(name: Any) -> dict[str, str]:
-    """Return the units of a system by dimension, {} for None. Raises AtlasError for an unknown system."""
+    """Return the units of a system by the register's names of dimensions, such as {"time": "s"}; {} for None.
+
+    Raises AtlasError for an unknown system.
+    """
     if name is None:
         return {}
     from atlas.bodies.units import system
@@ -120,7 +127,8 @@ def _units(name: Any) -> dict[str, str]:
 def properties(request: Request, item: Thing) -> Data:
     """Return the table of parameters and quantities of one object of a `family`; `time` is its unit of time.
 
-    With ``given = false`` the inputs are left out. Why a quantity has no value stands below the table.
+    A row has six cells: meaning, name, value, unit, equation, and what is proven. With ``given = false`` the inputs are
+    left out. Why a quantity has no value stands below the table.
     """
     rows = [*_rows_given(item)] if item.described else []
     rows += [row for q in item.family.quantities for row in rows_of(item, q, request.digits)]
@@ -152,7 +160,10 @@ def _rows_given(item: Thing) -> Iterator[Row]:
 
 
 def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
-    """Yield the table rows of a quantity, one for each component; without a value, the reason."""
+    """Yield six cells for each component of a quantity: meaning, name, value, unit, equation, what is proven.
+
+    A quantity without a value has one row with a dash and the reason in the last cell.
+    """
     try:
         texts = _texts(item, q, digits)
     except DomainError as reason:
@@ -180,7 +191,7 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
 def _texts(item: Thing, q: Quantity, digits: int) -> Any:
     """Return the certified values of a quantity as texts, nested as the quantity is; None where it has none.
 
-    A quantity without certified digits is returned in doubles.
+    A quantity without certified digits is returned in doubles. Raises DomainError where it is not defined.
     """
     from atlas.arithmetic.certified_digits import certified
 
@@ -191,7 +202,7 @@ def _texts(item: Thing, q: Quantity, digits: int) -> Any:
 
 
 def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
-    """Return (name, further words, text) for each component of a quantity; one for a scalar."""
+    """Return (name, further words, text) for each component of a quantity from its `values`; one for a scalar."""
     if not isinstance(values, list | tuple):
         return [(q.name, "", values)]
     numbered = [f"{q.name}[{i}]" for i in range(len(values))]
@@ -231,7 +242,7 @@ def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int
 
 
 def lettered(words: str) -> str:
-    """Return plain words of the register with letters such as omega'_3, B2, beta as formulas."""
+    """Return plain words of the register in Markdown, letters such as omega'_3, B2, beta as formulas."""
     return re.sub(rf"\^({MINUS}?\d)", r"^\1^", _LETTERS.sub(_letter, words))
 
 
@@ -251,7 +262,10 @@ def cited(equations: str) -> str:
 
 
 def body_and_field(request: Request) -> Data:
-    """Return the table of a body: dimensions, mass, charge, fields; I, moments, mu and B' from these, (32), (33)."""
+    """Return the table of a body: dimensions, mass, charge, fields; I, moments, mu and B' from these, (32), (33).
+
+    A row has words, letter, value, unit, and "given" or "follows". Raises AtlasError without a body or without a field.
+    """
     case = request.case
     body, field = case.body_record, case.field_record
     if body is None or field is None:
@@ -289,14 +303,17 @@ def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
 
 
 def _unit_of(case: BodyAndField, unit: str) -> str:
-    """Return a unit of a body's dimension in SI, or the Gaussian one if its charge is in a Gaussian field."""
+    """Return a unit of a body's dimension, given in SI, or the Gaussian one of a charged body in a Gaussian field."""
     is_charged = case.body_record is not None and case.body_record.charge is not None
     is_gaussian = is_charged and case.units is not None and case.units.mu_unit == "statC/g"
     return GAUSSIAN_UNITS[unit] if is_gaussian else unit
 
 
 def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
-    """Yield (words, symbol, value, unit) of moments, their ratio, the charge-to-mass ratio and B'."""
+    """Yield (words, symbol, value, unit) of moments, their ratio, the charge-to-mass ratio and B'.
+
+    The moments, balls, only for a body given by its shape; the ratio mu only for a field given as B.
+    """
     from atlas.bodies.certified_body import ratio_of
 
     exact = case.exact

@@ -26,7 +26,7 @@ def heads(*columns: str | tuple[str, str]) -> tuple[Column, ...]:
 
 @dataclass(frozen=True)
 class Data:
-    """A table: columns, rows, default caption, and sentences below."""
+    """A table: columns, rows with a text in Markdown or a `Number` for each, default caption, and sentences below."""
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[str | Number, ...], ...]
@@ -36,7 +36,10 @@ class Data:
 
 @dataclass(frozen=True)
 class Request:
-    """Request of a table block: bodies in a field, further parameters, significant digits."""
+    """Request of a table block: bodies in a field, further parameters by name, and number of significant digits.
+
+    `cases` has at least one item, whose body and field may be None.
+    """
 
     cases: Sequence[BodyAndField]
     parameters: Mapping[str, Any]
@@ -53,12 +56,15 @@ Maker: TypeAlias = Callable[..., Data]
 
 
 def bits(digits: int) -> int:
-    """Return a binary precision far beyond `digits` decimal digits."""
+    """Return a binary precision, a number of bits, far beyond `digits` decimal digits."""
     return int(3.33 * digits) + 80
 
 
 def certified(make: Callable[[], Any], digits: int) -> Any:
-    """Return the result of `make` with radii far below `digits` digits; see `atlas.arithmetic.certified_digits`."""
+    """Return the result of `make`, balls in any nesting, with radii far below `digits` digits.
+
+    `make` is called with rising precision, see `atlas.arithmetic.certified_digits`.
+    """
     from atlas.arithmetic.certified_digits import enclosed
 
     return enclosed(make, bits(digits))
@@ -80,7 +86,7 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
     """Return (unit, columns of `Number`s); if the largest value is beyond 1e-3 to 1e5 a power of 1000 is taken out.
 
-    The power then precedes the unit, for all columns.
+    `columns` hold balls, rationals or floats. The power then precedes the unit in Markdown, for all columns.
     """
     from flint import fmpq
 

@@ -16,7 +16,11 @@ OPEN = 1e-9, 1e-5
 
 
 class Top(StrictStruct, frozen=True):
-    """A named top with the arguments of `TopMotion`, in units of I2 and of one time."""
+    """A named top with the arguments of `TopMotion`, in units of I2 and of one time.
+
+    `ratio` is I3/I2; (k2, k3) is the `coupling`, (n2, n3) the `direction` of the field in the body and `omega` (3,) the
+    angular velocity at t = 0; the potential is linear nu + quadratic nu^2/2, nu the cosine between axis and field.
+    """
 
     name: str
     ratio: float
@@ -28,13 +32,16 @@ class Top(StrictStruct, frozen=True):
 
 
 class TopsParameters(StrictStruct, frozen=True):
-    """The tops, a row each."""
+    """Parameters of the table `tops`: the tops, a row each."""
 
     tops: tuple[Top, ...]
 
 
 class Loop(StrictStruct, frozen=True):
-    """A loop at one M3 round the value p of the spin, or round the spins, of a top."""
+    """A loop at one M3, the momentum about the axis, round the value `p` of a top's unstable spin, or round both spins.
+
+    `ratio` is I3/I2; coupling, linear and quadratic are those of `TopMotion`, in units of I2 and of one time.
+    """
 
     name: str
     ratio: float
@@ -46,14 +53,17 @@ class Loop(StrictStruct, frozen=True):
 
 
 class MonodromyParameters(StrictStruct, frozen=True):
-    """The loops, a row each, and the number of points on each."""
+    """Parameters of the table `monodromy`: the loops, a row each, and the number of points on each."""
 
     loops: tuple[Loop, ...]
     points: int = 64
 
 
 def tops(request: Request, setup: TopsParameters) -> Data:
-    """Return the table of several tops: period of nutation, and the angles of precession and spin in one period."""
+    """Return the table of several tops, a row each: period of nutation, and angles of precession and spin in a period.
+
+    The period is in units of time, the angles are in rad and whole, not modulo 2 pi.
+    """
     from atlas.motions.nutation.certified_top import TopMotion
 
     motions = [
@@ -93,7 +103,11 @@ def _of_top(numbers: tuple[float, ...]) -> str:
 
 
 def monodromy(setup: MonodromyParameters) -> Data:
-    """Return the table of the monodromy matrices of loops round unstable spins, a row per loop, theorem-residue."""
+    """Return the table of the monodromy matrices of loops round unstable spins, a row per loop, theorem-residue.
+
+    A row has I, M3 and p, the least and the largest period, the integer matrix (3, 3), the largest step of an angle
+    over 2 pi between two points, and the largest radius of the balls.
+    """
     from atlas.maps.monodromy import around, on_loop
     from atlas.maps.wells import Wells
 
@@ -130,7 +144,11 @@ Triple = tuple[float, float, float]
 
 
 class Family(StrictStruct, frozen=True):
-    """A body in a field, in one unit of inertia and one of time, and points (z, branch) of elliptic motions."""
+    """Parameters of the table `elliptic`: a body in a field, and points (z, branch) of elliptic motions.
+
+    `inertia` (I1, I2, I3) and `field` B' in principal axes are in one unit of inertia and one of 1/time; branch is
+    1 or -1.
+    """
 
     inertia: Triple
     field: Triple
@@ -138,7 +156,7 @@ class Family(StrictStruct, frozen=True):
 
 
 class Motion(StrictStruct, frozen=True):
-    """A body in a field and its initial angular velocity."""
+    """A body in a field and its initial angular velocity: (I1, I2, I3), B' and omega in principal axes, in 1/time."""
 
     inertia: Triple
     field: Triple
@@ -146,13 +164,17 @@ class Motion(StrictStruct, frozen=True):
 
 
 class Samples(Motion, frozen=True):
-    """A body in a field, its initial angular velocity, and times."""
+    """A body in a field, its initial angular velocity, see `Motion`, and times."""
 
     times: tuple[float, ...]
 
 
 class Observed(StrictStruct, frozen=True):
-    """Bodies given by their moments, a field, an initial angular velocity, and z of each body's elliptic motion."""
+    """Parameters of `identified`: bodies by their moments, a field, an initial angular velocity, and z.
+
+    Each of the `bodies` is (I1, I2, I3); `field` and `omega` are in principal axes, in 1/time; z is the place of each
+    body's elliptic motion.
+    """
 
     bodies: tuple[Triple, ...]
     field: Triple
@@ -161,7 +183,10 @@ class Observed(StrictStruct, frozen=True):
 
 
 class Momenta(StrictStruct, frozen=True):
-    """A body in a field of strength b, and values p = (M, K)/b of the momentum along the field."""
+    """Parameters of `critical`: a body (I1, I2, I3) in a field of magnitude b, and values p of the momentum.
+
+    p = (M, K)/b with M = I Omega + K the momentum and K the field in the body: the momentum along the field.
+    """
 
     inertia: Triple
     b: float
@@ -169,7 +194,11 @@ class Momenta(StrictStruct, frozen=True):
 
 
 def critical(request: Request, setup: Momenta) -> Data:
-    """Return the table of critical values of H and F, a row per momentum and piece of curve, theorem-critical."""
+    """Return the table of critical values of H and F, a row per momentum and piece of curve, theorem-critical.
+
+    H is the energy integral and F the second integral. A row has p, the name of the piece, the values of z, or of
+    F, at its ends, and "stable", "saddle" or the kind of a spin; in doubles to four digits.
+    """
     from atlas.maps.bifurcation import Bifurcation
 
     del request  # doubles of four digits
@@ -201,9 +230,11 @@ def critical(request: Request, setup: Momenta) -> Data:
 
 
 def identified(request: Request, setup: Observed) -> Data:
-    """Return the table, a row per motion, of the number of combinations of moments and field that a motion leaves open.
+    """Return the table of the number of combinations of moments and field that a motion leaves open, a row per motion.
 
-    In the equations of theorem-identifiable and in the derivatives of a fit to its attitudes at the same times.
+    They are counted in the equations of theorem-identifiable and in the derivatives of a fit to its attitudes at
+    the same times; each with the least singular value that is not open, over the largest. Each body has two
+    motions: that from `omega` and that of its elliptic family.
     """
     del request  # doubles of two digits
     rows: list[tuple[str | Number, ...]] = []
@@ -262,7 +293,11 @@ def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
 
 
 def elliptic(request: Request, setup: Family) -> Data:
-    """Return the table of elliptic motions of one body in one field, one a row, theorem-elliptic."""
+    """Return the table of elliptic motions of one body in one field, one a row, theorem-elliptic.
+
+    A row has z, v, omega (3,), C/D^2 whose sign decides on stability, the period T of K, the field in the body, the
+    angle in rad by which the body turns about the field in T, and the stability in words.
+    """
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 
     motions = [EllipticMotion(setup.inertia, setup.field, z, branch) for z, branch in setup.places]
@@ -283,7 +318,11 @@ def elliptic(request: Request, setup: Family) -> Data:
 
 
 def periods(request: Request, setup: Motion) -> Data:
-    """Return the table of two pairs of times after which M and K return, with the angle about the field, certified."""
+    """Return the table of two pairs of times after which M and K return, with the angle about the field, certified.
+
+    M is the momentum and K the field, both in the body. A row has the times T_H and T_F of the flows of H and F/2,
+    in units of time, and the angle in rad in Larmor's frame.
+    """
     from flint import fmpq
 
     from atlas.book.tables.table import bits
@@ -306,7 +345,7 @@ def periods(request: Request, setup: Motion) -> Data:
 
 
 def asymmetric(request: Request, setup: Samples) -> Data:
-    """Return the table of the body's third axis and of Omega3 at several times."""
+    """Return the table of the body's third axis in the laboratory and of Omega3 in 1/time, a row for each time."""
     from atlas.motions.torus.certified import AsymmetricMotion
 
     motion = AsymmetricMotion(setup.inertia, setup.field, setup.omega)
@@ -323,5 +362,5 @@ def asymmetric(request: Request, setup: Samples) -> Data:
 
 
 def _row(numbers: Triple) -> str:
-    """Return given numbers as a row vector in TeX."""
+    """Return three given numbers as a row vector in TeX, "(1,2,3)", without dollars."""
     return "(" + ",".join(map(plain, numbers)) + ")"
