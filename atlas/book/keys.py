@@ -16,7 +16,7 @@ from atlas.book.tables.table import Data, heads
 
 
 def blocks() -> Data:
-    """Return the table, a `Data`, of the kinds of blocks with their keys."""
+    """Return the table of the kinds of blocks with their keys."""
     kinds = {f"`{name}`": kind.record for name, kind in KINDS.items()}
     says = (
         'The kinds of blocks, `kind = "NAME"`, with their keys; those in bold are needed, of others the value is what '
@@ -26,7 +26,7 @@ def blocks() -> Data:
 
 
 def report_keys() -> Data:
-    """Return the table, a `Data`, of the keys of a report file, of its pages, bodies and fields."""
+    """Return the table of the keys of a report file, of its pages, bodies and fields."""
     place = {
         "in the head": Report, "`{page}`, below its title": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
         "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
@@ -39,7 +39,7 @@ def report_keys() -> Data:
 
 
 def layers() -> Data:
-    """Return the table, a `Data`, of the classes of a scene, which a recipe returns, with their fields."""
+    """Return the table of the classes of a scene, which a recipe returns, with their fields."""
     from atlas.pictures import layers as made
 
     kinds = {f"`{kind.__name__}`": kind for kind in (made.Scene, made.Plane, made.Space, *get_args(made.Layer))}

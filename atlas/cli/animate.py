@@ -85,8 +85,8 @@ def command(
 def through(text: str) -> tuple[str, list[Any]]:
     """Return (key, list of values) from KEY=START:STOP:COUNT or KEY=a,b,c.
 
-    START and STOP are numbers, or lists of numbers of one length, and the values equal steps between them. Raises
-    click.UsageError for anything else.
+    START and STOP are numbers, or lists of numbers of one length, and the COUNT values, floats or tuples of floats,
+    have equal steps between them; a, b, c are floats. Raises click.UsageError for anything else.
     """
     import numpy as np
 

@@ -31,10 +31,13 @@ BESIDE = {"data": "report", "tex": "report"}
 
 
 class LazyCommand(click.Command):
-    """A command that is imported when it is called; until then only its name and one line of help are known."""
+    """A command whose module is imported when the command is called.
+
+    Until then only its name and a line of help are known.
+    """
 
     def loaded(self) -> click.Command:
-        """Return the click command, imported now."""
+        """Return the click command of this name: made from the register, or imported from its module in atlas.cli."""
         name = str(self.name)
         if name in SUMMARIES:
             from atlas.cli.family import command as of_families
@@ -45,7 +48,7 @@ class LazyCommand(click.Command):
         return command
 
     def make_context(self, *arguments: Any, **settings: Any) -> click.Context:
-        """Return click's context of the imported command, with its arguments parsed."""
+        """Return click's context of the imported command, with its arguments parsed; the parameters are click's."""
         return self.loaded().make_context(*arguments, **settings)
 
 
@@ -72,18 +75,19 @@ ELSEWHERE = {
 
 
 class Atlas(click.Group):
-    """The group of all commands."""
+    """The click group of all commands."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse the words before the command; a closed pipe ends the process quietly."""
+        """Parse the words before the command and return the remaining ones; a closed pipe ends the process quietly."""
         try:
             return super().parse_args(ctx, args)
         except BrokenPipeError as error:  # of a page of help, for which click would end the process with status 1
             raise click.exceptions.Exit(_reader_gone()) from error
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        """Return (name, command, arguments) as click does; `help NAME` is NAME --help, `help` alone prints the help.
+        """Return (name, command, remaining words) as click does.
 
+        `help NAME` is NAME --help, `help` alone prints the help. `args` are the words from the command's name on.
         Raises click.UsageError for an unknown command, and for a removed one with its new place.
         """
         if args[0] == "help":
@@ -99,7 +103,7 @@ class Atlas(click.Group):
         return super().resolve_command(ctx, args)
 
     def invoke(self, context: click.Context) -> Any:
-        """Run a command and return its result; a closed pipe ends the process quietly.
+        """Run the command of a context and return its result, its exit status; a closed pipe ends the process quietly.
 
         Raises click.ClickException for a library that is not installed.
         """
@@ -124,7 +128,7 @@ class Atlas(click.Group):
 )
 @click.version_option(__version__, prog_name="atlas")
 def atlas() -> None:
-    """Group the commands."""
+    """Do nothing: the function carries the group of the commands, and runs before each of them."""
 
 
 for name, says in {
@@ -148,7 +152,7 @@ for name, says in {
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and end the process.
+    """Run the command line with `arguments`, those of the process if None, and end the process.
 
     The exit status is 0 if all went well, 1 if something failed, 2 for a wrong input, and as a shell counts them for
     a process that a signal ended: 130 SIGINT, 129 SIGHUP, 143 SIGTERM, and 141 (SIGPIPE)
@@ -203,7 +207,10 @@ def _reader_gone() -> int:
 
 
 def show_warning(otherwise: Callable[..., None], message: Any, category: type[Warning], *place: Any) -> None:
-    """Print a warning of the atlas as one line on standard error; pass any other to the function `otherwise`."""
+    """Print a warning of the atlas as one line on standard error; pass any other to the function `otherwise`.
+
+    `message`, `category` and `place` are the arguments of `warnings.showwarning`, whose former value is `otherwise`.
+    """
     if issubclass(category, AtlasWarning):
         complain(str(message), 0)
     else:
@@ -211,7 +218,10 @@ def show_warning(otherwise: Callable[..., None], message: Any, category: type[Wa
 
 
 def complain(sentence: str, status: int) -> int:
-    """Print one line on standard error, long words cut, without control characters; return `status`."""
+    """Print "atlas: " and a sentence as one line on standard error, without control characters; return `status`.
+
+    Words of more than 400 characters (`LONG`) are cut in the middle.
+    """
     words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
     from atlas.trial.ledger.plain import printable
 
@@ -229,7 +239,8 @@ NEAR: Mapping[str, str] = {
 def write_plainly() -> None:
     """Set standard output and error to replace characters that their encoding lacks, and to write line by line.
 
-    Where the encoding is ASCII, click writes through a stream of its own, which would overtake lines that wait.
+    A stream that cannot be set so is left as it is. Where the encoding is ASCII, click writes through a stream of
+    its own, which would overtake lines that wait.
     """
     codecs.register_error(NAME, _replaced)
     for stream in (sys.stdout, sys.stderr):

@@ -15,8 +15,9 @@ OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
 def motion_in_given_axes(options: dict[str, Any]) -> Any:
     """Return the motion in the given axes where they differ from those of its class, else None.
 
-    They differ for a tensor that is not diagonal, for a start from an attitude, and for a symmetric body in a field of
-    three components. The motion is in doubles: a certified motion has principal axes, and R(0) = 1.
+    `options` are the command's, by name. The axes differ for a tensor that is not diagonal, for a start from an
+    attitude, and for a symmetric body in a field of three components. The motion is in doubles: a certified motion
+    has principal axes, and R(0) = 1.
     """
     tensor, attitude = body.given_tensor(options), body.given_attitude(options)
     J = body.chosen_moments(options) if tensor is None else tensor
@@ -28,9 +29,11 @@ def motion_in_given_axes(options: dict[str, Any]) -> Any:
 
 
 class Principal(NamedTuple):
-    """A motion along the axes of its class: family, options, values, and these axes in terms of the given ones.
+    """A motion along the axes of its class, as options of a command and as numbers.
 
-    `is_rounded` tells whether numbers along these axes are rounded to floats.
+    `family` is its family, `options` are words such as "--omega", "0.3rad/s", `values` the numbers of each
+    parameter by name, in a tuple, and `axes` the text of the axes in terms of the given ones. `is_rounded` tells
+    whether numbers along these axes are rounded to floats.
     """
 
     family: Family
@@ -49,10 +52,10 @@ class Principal(NamedTuple):
 
 
 def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
-    """Return a motion in given axes as a `Principal`, along the axes of its class, with rates in a unit.
+    """Return a motion in given axes as a `Principal`, along the axes of its class; `unit` is written behind its rates.
 
     Where floats do not hold the inputs of the class, or its field has three components, the family is that of any
-    three moments; not for a motion that was fitted, which is rounded.
+    three moments; not for a motion that was `fitted`, which is rounded.
     """
     from atlas.arithmetic.given import Given
 
@@ -68,7 +71,10 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
 
 
 def along_principal_axes(motion: Any, unit: str = "") -> Principal:
-    """Return a motion in given axes as a `Principal` of a body with three moments, with rates in a unit."""
+    """Return a motion in given axes as a `Principal` of a body with three moments.
+
+    `unit` is written behind its rates.
+    """
     from atlas.motions.start import start_of
 
     start = start_of(**motion.arguments)
@@ -104,5 +110,5 @@ def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) 
 
 
 def axes_text(axes: Any) -> str:
-    """Return axes, the rows of a matrix, as text."""
+    """Return axes, the rows of a matrix (3, 3), as text: "(1, 0, 0), (0, 1, 0), (0, 0, 1)", to ten digits."""
     return ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)

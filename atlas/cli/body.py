@@ -38,7 +38,7 @@ ROD_REASON = (
 
 
 def points_option(axes: str) -> Callable[[F], F]:
-    """Return the option for point masses; `axes` ends its help."""
+    """Return the decorator of the option --points; `axes` is put at the end of its help."""
     says = f"CSV file of point masses, with the columns x, y, z, mass and, for --magnetic, charge{axes}."
     return click.option("--points", type=FILE, metavar="FILE", help=says)
 
@@ -134,7 +134,10 @@ spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about 
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the given options of body and field by name; with --magnetic also the system of units."""
+    """Return the given ones of a command's options of body and field by name; with --magnetic also the system of units.
+
+    --points is a path as text.
+    """
     names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
     parameters = given(options, names)
     parameters |= {"points": str(options["points"])} if "points" in parameters else {}
@@ -142,7 +145,10 @@ def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def shapes() -> dict[str, list[str]]:
-    """Return the shapes that --shape takes, each with the options of its dimensions."""
+    """Return the names of the shapes that --shape takes, each with the options of its dimensions.
+
+    The options are lists of names without dashes.
+    """
     from atlas.bodies.formula_shapes import SHAPES
 
     named = {name.replace("_", "-"): names for name, (names, _) in SHAPES.items()}
@@ -152,9 +158,8 @@ def shapes() -> dict[str, list[str]]:
 def chosen_body(options: Mapping[str, Any]) -> Any:
     """Return the ratio I3/I2, a number, or the `SymmetricBody` that --inertia, --shape or --points describes.
 
-    One of the four options is needed.
-
-    Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
+    `options` are the command's, by name; exactly one of the four is needed. Raises click.UsageError when none or
+    several are given, or when a dimension is missing or out of place; DomainError for a ratio outside (0, 2].
     """
     one_of(options, "body", (*BODY, "tensor"))
     sizes = given(options, SIZES)
@@ -173,9 +178,9 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
 
 
 def _of_shape(shape: str, sizes: Mapping[str, Any], mass: Any) -> Any:
-    """Return the body of a shape from its dimensions; its mass is 1 without --mass and --density.
+    """Return the `SymmetricBody` of a shape from its dimensions by name; its mass is 1 if `mass` is None.
 
-    Raises click.UsageError for an unknown shape, for other dimensions, and for sizes beyond 1e150.
+    Raises click.UsageError for an unknown shape, for other dimensions, and for sizes beyond 1e150 or below 1e-150.
     """
     from atlas.bodies.body import from_shape
 
@@ -198,9 +203,10 @@ def _of_shape(shape: str, sizes: Mapping[str, Any], mass: Any) -> Any:
 
 
 def chosen_moments(options: Mapping[str, Any]) -> tuple[Any, ...]:
-    """Return the principal moments of --inertia I1 I2 I3, of --points, or of a symmetric body about e3.
+    """Return three principal moments, of --inertia I1 I2 I3, of --points, or (I2, I2, I3) of a symmetric body about e3.
 
-    Raises click.UsageError unless one of them is given, and for points whose axes x, y, z are not principal.
+    `options` are the command's, by name. Raises click.UsageError unless one of them is given, and for points whose axes
+    x, y, z are not principal.
     """
     option = one_of(options, "body", (*BODY, "tensor"))
     if option == "inertia":
@@ -213,7 +219,10 @@ def chosen_moments(options: Mapping[str, Any]) -> tuple[Any, ...]:
 
 
 def given_tensor(options: Mapping[str, Any]) -> Any:
-    """Return the inertia tensor (3, 3) of --tensor, or of --points whose axes are not principal; None for others."""
+    """Return the inertia tensor, three rows, of --tensor, or of --points whose axes are not principal; None for others.
+
+    `options` are the command's, by name. Raises click.UsageError for another body beside --tensor.
+    """
     if options.get("tensor") is not None:
         one_of(options, "body", (*BODY, "tensor"))
         a, b, c, d, e, f = options["tensor"]
@@ -222,7 +231,10 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
 
 
 def tensor_or_moments(options: Mapping[str, Any]) -> Any:
-    """Return six numbers I11 I22 I33 I12 I13 I23, of --tensor or of --points; of another body the three moments."""
+    """Return six numbers I11 I22 I33 I12 I13 I23, of --tensor or of --points; of another body the three moments.
+
+    `options` are the command's, by name. Raises click.UsageError unless the body is given once.
+    """
     if options["tensor"] is not None:
         one_of(options, "body", (*BODY, "tensor"))
         return options["tensor"]
@@ -230,7 +242,7 @@ def tensor_or_moments(options: Mapping[str, Any]) -> Any:
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
-    """Return R(0), (3, 3), from --attitude, or None. Raises AtlasError for a quaternion not of unit length."""
+    """Return R(0), (3, 3), from --attitude X Y Z W, or None. Raises AtlasError for a quaternion not of unit length."""
     if options.get("attitude") is None:
         return None
     from atlas.arithmetic.quaternions import rotation_of
@@ -239,7 +251,10 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
 
 
 def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> str:
-    """Return the single given option among `names`. Raises click.UsageError for none and for several."""
+    """Return the name of the single given option among `names`. Raises click.UsageError for none and for several.
+
+    `options` are the command's, by name; `subject` says what they give, as "body", in the message.
+    """
     names_given = list(given(options, names))
     if len(names_given) != 1:
         option_names = ", ".join(f"--{name}" for name in names if name in options)
@@ -265,9 +280,10 @@ def as_typed(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def mass_of(options: Mapping[str, Any]) -> Any:
-    """Return the mass of a shape, from --mass or from the density with pi in 512 digits; None without either.
+    """Return the mass of a shape, from --mass or from --density with pi in 512 bits; None without either.
 
-    Raises UsageError for a density besides a mass, or of a shape that is no solid; DomainError for a volume of zero.
+    The second is a Fraction. Raises UsageError for a density besides a mass, of a shape that is no solid, or of one
+    without all sizes; DomainError for a volume of zero.
     """
     if options.get("density") is None:
         return options.get("mass")
@@ -300,14 +316,17 @@ def system_of(options: Mapping[str, Any]) -> str:
 
 
 def speed_of_light(options: Mapping[str, Any]) -> float:
-    """Return the factor c of (32) and (93) in the system of units."""
+    """Return the factor c of (32) and (93): in cm/s in Gaussian units, 1 in the others."""
     from atlas.bodies.units import GAUSSIAN
 
     return GAUSSIAN.c if system_of(options) == "gaussian" else 1.0
 
 
 def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
-    """Return the numbers typed with a unit, (option, number). Raises click.UsageError with a system other than SI."""
+    """Return the pairs (option, number) of numbers typed with a unit; [] for none.
+
+    Raises click.UsageError for a unit beside a system other than SI.
+    """
     numbers_with_units = measured(options)
     if numbers_with_units and options["units"] not in {None, "si"}:
         raise click.UsageError(f"{numbers_with_units[0][1].text} is in SI: leave out --units {options['units']}.")
@@ -383,11 +402,9 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
 def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = None) -> None:
     """Warn of speeds above a tenth of that of light, of a charge or of a body's points at t = 0, if units are known.
 
-    Of a charge also at its times, since the part of E along B accelerates it for ever.
-
-    `start` is the angular velocity of the body where no option gives it.
-
-    Raises DomainError where the drift in crossed fields is not below the speed of light.
+    Of a charge also at its times, since the part of E along B accelerates it for ever. `options` are the command's, by
+    name; `start` (3,) is the angular velocity of the body, in rad/s, where no option gives it. Nothing is done where no
+    unit is known. Raises DomainError where the drift in crossed fields is not below the speed of light.
     """
     has_units = options.get("magnetic") is not None and system_of(options) != "natural"
     charge, shape = "electric" in options and has_units, options.get("shape")
@@ -425,7 +442,7 @@ def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
-    """Return the initial angular velocity, three numbers, from --omega or from --spin as (0, 0, W3).
+    """Return the initial angular velocity, three numbers in 1/time, from --omega, or from --spin as (0, 0, W3).
 
     None if neither is given and it is not `needed`; click.UsageError for both, and for none if `needed`.
     """

@@ -65,7 +65,10 @@ OWN = {"out", "digits", "title", "name", "jobs", "note", "only"}
 
 
 def report_options(out: str) -> Callable[[Any], Any]:
-    """Return the decorator of a report's options; `out` is the default folder."""
+    """Return the decorator that adds a report's options --out, --title, --name and --jobs.
+
+    `out` is the default folder.
+    """
     return stack(
         out_option(out),
         click.option("--title", callback=one_line, help="Title of the report."),
@@ -75,7 +78,7 @@ def report_options(out: str) -> Callable[[Any], Any]:
 
 
 def one_line(_context: click.Context, _param: click.Parameter, text: str | None) -> str:
-    """Return the text of an option, "" for none. Raises click.UsageError for line breaks and control characters."""
+    """Return the text of --title, "" for None. Raises click.UsageError for line breaks and control characters."""
     if not (text or "").isprintable():
         raise click.UsageError("--title is a text of one line: leave out its control characters.")
     return text or ""
@@ -94,16 +97,16 @@ def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str
 
 
 class OneObject(Command):
-    """The command of a family, which refuses all faulty options at once."""
+    """The command of a `family`, which refuses all faulty options at once, each in a line."""
 
     def __init__(self, *args: Any, family: Family, **settings: Any) -> None:
         super().__init__(*args, **settings)
         self.family = family
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse the words into `ctx.params` and return the remaining ones.
+        """Parse the words into `ctx.params` and return the remaining ones. Raises FaultsError for all faults at once.
 
-        They are read again without each option at fault, so that all faults are found; see `refuse`.
+        The words are read again without each option at fault, so that all faults are found; see `refuse`.
         """
         faults, dropped, left = list[tuple[str, Exception]](), set[str](), None
         while left is None:
@@ -130,7 +133,7 @@ class OneObject(Command):
 
 
 def command_of(family: Family) -> click.Command:
-    """Return the command of a family, which returns the pair (request, options by name)."""
+    """Return the click command of a report on an object of a family; it returns (`Asked`, options by name)."""
     more = [
         report_options("build/report"),
         click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
@@ -157,7 +160,10 @@ MOTIONS: list[str] = [name for name in COMMANDS if name == "motion" or name in G
 
 
 def _without(args: list[str], names: Collection[str]) -> list[str]:
-    """Return the words of a command without the options `names` and their values."""
+    """Return the words of a command without the options `names`, with their dashes, and their values.
+
+    Words that belong to no option come first.
+    """
     words = Words(args)
     kept = ((one.typed, *one.values[one.typed != one.name :]) for one in words.options if one.name not in names)
     return [*words.loose, *(word for option in kept for word in option)]
@@ -166,9 +172,10 @@ def _without(args: list[str], names: Collection[str]) -> list[str]:
 def faults_of(
     family: Family, options: Mapping[str, Any], dropped: Collection[str] = ()
 ) -> Iterator[tuple[str, Exception]]:
-    """Yield (option, error) for body, field and start, each taken by itself; parts with `dropped` options are left out.
+    """Yield (option, error) for body, field and start, each taken by itself, where reading it raises an error.
 
-    The option is the first that was given of those on which the part depends, "" for none.
+    `options` are the command's, by name; parts with an option in `dropped` are left out. The option, as "--field",
+    is the first that was given of those on which the part depends, "" for none.
     """
     for names, read in checks_of(family, {**options, "decimal": False}):
         if not {*names} & {*dropped}:
@@ -179,7 +186,10 @@ def faults_of(
 
 
 def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
-    """Yield, for each part of body, field and start, the names of its options and the function that reads them."""
+    """Yield (names of its options, function that reads them) for each part of body, field and start.
+
+    The functions take no argument and raise click.UsageError or AtlasError for a fault.
+    """
     if family.takes("coupling"):
         yield from checks_of_top(options)
     for p in family.parameters:
@@ -191,7 +201,10 @@ def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequenc
 
 
 def _checked_inertia(options: Mapping[str, Any]) -> Any:
-    """Return the inertia tensor of --tensor, --points or three moments. Raises DomainError for that of no body."""
+    """Return the inertia tensor (3, 3) of --tensor, --points or three moments.
+
+    Raises DomainError for that of no body, click.UsageError unless the body is given once.
+    """
     from atlas.bodies.inertia import inertia_tensor
 
     tensor = body.given_tensor(options)
@@ -239,7 +252,10 @@ def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
 
 
 def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
-    """Return (request, options); for uncertain options the request has deviations of the card's numbers in `sigma`."""
+    """Return (request, options); for uncertain options the request has deviations of the card's numbers in `sigma`.
+
+    `options` are the command's, by name, and are not changed.
+    """
     from atlas.book.card import numbers
 
     family, names = wanted.family, [p.name for p in wanted.family.parameters]
@@ -262,7 +278,11 @@ class ByOptions(click.Group):
         self.format_commands(ctx, formatter)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Insert the command before its options, of the family to which they belong."""
+        """Insert the command before its options, of the family to which they belong.
+
+        Parse, and return the remaining words. The words of a file --from are read before those beside it. Raises
+        click.UsageError for two files, for another file, and for --omega2 beside --omega or --spin.
+        """
         ctx.meta[EXPLAIN] = EXPLAIN in args
         args = [word for word in args if word not in {NAME, EXPLAIN}]
         if files := [one.values for one in Words(args).options if one.name == "--from"]:
@@ -314,9 +334,10 @@ def typed_in(option: str, file: str = "") -> tuple[str, list[str]]:
 
 
 def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
-    """Return the command and the arguments that give a motion along the principal axes; [] if no axes are given.
+    """Return the words, command first, that give a motion along the principal axes; [] if no other axes are given.
 
-    A note on the change is printed on standard error.
+    `args` are such words, `parent` is the group's context. A note on the change is printed on standard error;
+    deviations of uncertain options are put into `parent.meta`. Raises FaultsError for faulty options.
     """
     with COMMANDS[args[0]].make_context(args[0], args[1:], parent) as context:
         options = context.params
@@ -370,7 +391,10 @@ def best(words: Words) -> str:
 
 
 def asked(family: Family, options: dict[str, Any]) -> "Asked":
-    """Return the request, an `Asked`, of a report from the options of its command by name."""
+    """Return the request, an `Asked`, of a report from the options of its command by name.
+
+    Raises FaultsError for faulty options, each in a line, and for an object that cannot be.
+    """
     from atlas.book.parts import Asked
 
     body.check_speeds(options)
@@ -417,7 +441,10 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
 
 
 def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
-    """Return rows of four texts, quantity, symbol, value with deviation, unit, and a list of notes."""
+    """Return rows of four texts, quantity, symbol, value with deviation, unit, and a list of notes on them.
+
+    `options` are the command's, by name, with uncertain numbers among them.
+    """
     spread = spread_of(family, options)
     lines = lines_of_quantities(family, spread.texts(), options, family.command.named if family.command else "")
     rows = [
@@ -429,7 +456,10 @@ def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]
 
 
 def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
-    """Return the words typed for each option among `names`, by its name without dashes; others are left out."""
+    """Return the words typed for each option among `names`, a tuple by its name without dashes; defaults are left out.
+
+    `options` are the values by name; a field at an angle gives two options.
+    """
     context = click.get_current_context()
     words_by_option: dict[str, tuple[str, ...]] = {}
     for param in context.command.params:
@@ -467,7 +497,10 @@ def _exact(x: Any) -> float | str:
 
 
 def _body(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the body's record for a report file, a dict of its title and its typed inputs as plain numbers."""
+    """Return the body's record for a report file, a dict of its title and its typed inputs as plain numbers.
+
+    Points become two moments, a density a mass; a shape without a mass has 1.
+    """
     of_field = {"field", "magnetic", "mu", "units"}
     parameters = {
         name: _plain(value)
@@ -485,7 +518,10 @@ def _body(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _field(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the record of the field for a report file: as B in the plane of the report's axes, else as B'."""
+    """Return the record of the field for a report file, a dict: as B in T or G if given so in units, else as B'.
+
+    `options` are the command's, by name. B' also where its component across the axis is negative.
+    """
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
         return {

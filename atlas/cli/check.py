@@ -44,7 +44,10 @@ graded_options: Callable[[Any], Any] = stack(
 @body.spin_option
 @graded_options
 def three_moments(files: tuple[Path, ...], **options: Any) -> int:
-    """Grade files against the motion of a body with three moments of inertia; return 1 if a column fails, else 0."""
+    """Grade files against the motion of a body with three moments of inertia; return 1 if a column fails, else 0.
+
+    `options` are the command's, by name; the grades are printed.
+    """
     J = body.given_tensor(options)
     inertia = body.chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
     return _graded(files, options, {"inertia": inertia, "attitude": options["attitude"]})
@@ -102,9 +105,10 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
 
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
-    """Grade trajectories, print the grades, and return the status: 1 if a column fails, else 0.
+    """Grade trajectories, print the grades, and return the status: 1 if a column fails, else 0, and 0 with --order.
 
-    `parameters` are those of the motion, to which start and field of the options are added.
+    `options` are the command's, by name; `parameters` are those of the motion, by name, to which start and field of the
+    options are added in place.
     """
     from atlas.checking.check import check_file
     from atlas.checking.comparison import Comparison

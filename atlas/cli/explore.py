@@ -69,9 +69,10 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
 
 
 def started(args: list[str]) -> tuple[str, str]:
-    """Return the family for options of atlas motion, and the fragment of a URL with their values.
+    """Return (name of the family for options of atlas motion, fragment "#subject=...&..." with their values).
 
-    Raises click.UsageError for another word.
+    `args` are the words. A note on principal axes is printed on standard error. Raises click.UsageError for a first
+    word that is no option, and the errors of the motion.
     """
     from atlas.cli.axes import in_principal_axes, motion_in_given_axes
     from atlas.cli.family import command as made

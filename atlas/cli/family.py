@@ -80,7 +80,7 @@ charge_options = stack(
 
 
 def command(name: str) -> click.Command:
-    """Return the click command of this name, of one family or of several."""
+    """Return the click command of this name, of one family or, as "motion", of several."""
     commands_by_key = {
         key: _command_of(family, family.command)
         for key, family in FAMILIES.items()
@@ -90,7 +90,10 @@ def command(name: str) -> click.Command:
 
 
 def any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
-    """Return one command for several families, with all their options, that hands over to the family they belong to."""
+    """Return one command for several families, with all their options, that hands over to the family they belong to.
+
+    `commands` are those of the families by name; the first one's help is shown.
+    """
     params = dict[str, click.Parameter]()
     for param in (copy(param) for command in commands.values() for param in command.params):
         option = params.setdefault(str(param.name), param)
@@ -108,14 +111,17 @@ def any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Comman
 
 
 def _is_for_all(words: Words, params: Iterable[click.Parameter]) -> bool:
-    """Whether help is requested, or an option is unknown to all families: the common command answers."""
+    """Return whether the common command answers: help is requested, or an option is unknown to all families.
+
+    `params` are the options of all families.
+    """
     return not words.names - {"--"} <= {name for param in params for name in param.opts}
 
 
 def family_of(words: Words) -> str:
-    """Return the family of motions to which options belong, by the body, the field and the start.
+    """Return "elementary", "general" or "asymmetric": the family to which options belong, by body, field and start.
 
-    Raises click.UsageError where there is no start.
+    Raises click.UsageError where there is no start, or there are two.
     """
     names = words.names
     if not names & {"--omega2", "--omega3", "--omega", "--spin"}:
@@ -135,7 +141,7 @@ def family_of(words: Words) -> str:
 
 
 def _command_of(family: Family, described: Described) -> click.Command:
-    """Return the click command of a family."""
+    """Return the click command of a family, with its name, help and examples from `described`."""
     has_lines = any(s.matrix for s in family.sampled)
     decorators = [
         *object_options(family),
@@ -156,9 +162,9 @@ def _command_of(family: Family, described: Described) -> click.Command:
 
 
 class Best(dict[tuple[str, Any], Any]):
-    """Values certified at the highest precision reached so far, by (name of the function, time).
+    """Samples certified at the highest precision reached so far, in balls, by (name of the function of time, time).
 
-    `reason` says why no higher precision was reached.
+    `reason` says why no higher precision was reached, "" if it was.
     """
 
     reason = ""
@@ -166,7 +172,10 @@ class Best(dict[tuple[str, Any], Any]):
 
 @dataclass(frozen=True)
 class Question:
-    """Request to the command of a family: its `options`, which define an object, and the `times` of its samples."""
+    """Request to the command of a family: `options` by name, which define an object, and the `times` of its samples.
+
+    `described` holds the command's texts, `best` the best samples in balls so far.
+    """
 
     family: Family
     described: Described
@@ -181,11 +190,11 @@ class Question:
 
     @property
     def sampled(self) -> list[Sampled]:
-        """Functions of time that the command prints."""
+        """Functions of time of the family that the command prints."""
         return [s for s in self.family.sampled if s.printed]
 
     def floats(self) -> dict[str, Any]:
-        """Return the record of the object in doubles: quantities and samples by name."""
+        """Return the record of the object in doubles, a dict: quantities by name, "samples", spectrum, input error."""
         family, times = self.family, self.times
         motion = _kernel(family, self.options)
         lines = recorded(spectrum_of(motion, self.options))
@@ -193,7 +202,10 @@ class Question:
 
     @cached_property
     def near(self) -> list[Any]:
-        """List of quaternions in doubles at the times, for the signs of certified ones; None where no sign is known."""
+        """List of quaternions [x, y, z, w] in doubles at the times, for the signs of certified ones.
+
+        Each is None where the motion cannot be computed in doubles.
+        """
         try:
             motion = motion_in_given_axes(self.options) if self.family.in_given_axes else None
             return list(along((motion or _kernel(self.family, self.options)).quaternion, self.times))
@@ -217,7 +229,10 @@ class Question:
         return self.named | _quantities(quantities, motion, times, columns, exact=True)
 
     def show(self) -> None:
-        """Print the result as JSON, or as a table with later times in blocks, or in a form of `shown_otherwise`."""
+        """Print the result as JSON, or as a table with later times in blocks, or in a form of `shown_otherwise`.
+
+        Raises click.UsageError for options that do not go together, DomainError for an object that cannot be.
+        """
         family, options, times = self.family, self.options, self.times
         parameters = _parameters(family, options)
         if self.shown_otherwise(parameters):
@@ -231,7 +246,10 @@ class Question:
         self.finish(self.printout(texts, certificate(options), _in_hertz(family, texts, options)))
 
     def finish(self, printout: Printout, motion: Any = None) -> None:
-        """Print a printout with a note on rounded inputs, then the spectrum if one is asked for."""
+        """Print a printout with a note on rounded inputs, then the spectrum if one is asked for.
+
+        `motion` is the object in doubles, made from the options if None.
+        """
         family, options = self.family, self.options
         rounding = _of_rounding(family, options, self.times, motion)
         show(replace(printout, notes=chain(printout.notes, rounding)))
@@ -252,7 +270,8 @@ class Question:
     def shown_otherwise(self, parameters: dict[str, Any]) -> bool:
         """Show a file, a curve, uncertain results or a motion in given axes; return whether the options ask for one.
 
-        These are not in the list of quantities, or have no certified counterpart.
+        These are not in the list of quantities, or have no certified counterpart. `parameters` are the inputs by
+        name for JSON.
         """
         family, options = self.family, self.options
         if options.get("out") is not None:
@@ -274,6 +293,7 @@ class Question:
     def with_sigma(self, parameters: dict[str, Any]) -> None:
         """Print the results with standard deviations, as JSON or as a table.
 
+        `parameters` are the inputs by name for JSON.
         Raises click.UsageError for --digits, --decimal and --spectrum.
         """
         family, options = self.family, self.options
@@ -295,7 +315,10 @@ class Question:
         show(replace(printout, notes=chain(filter(None, printout.notes), answers.notes)))
 
     def in_doubles(self, motion: Any, parameters: dict[str, Any]) -> None:
-        """Print the quantities and samples of a motion in given axes, in doubles, as JSON or as a table."""
+        """Print the quantities and samples of a motion in given axes, in doubles, as JSON or as a table.
+
+        `parameters` are the inputs by name for JSON.
+        """
         from atlas.motions.start import body_of
 
         options, times, family = self.options, self.times, FAMILIES[motion.family]
@@ -328,7 +351,11 @@ class Question:
         question.finish(printout, motion)
 
     def printout(self, texts: dict[str, Any], worth: str, more_lines: Iterable[Line]) -> Printout:
-        """Return the certified texts as a `Printout`: lines of quantities, and three rows for each time."""
+        """Return the texts of quantities and samples as a `Printout`: lines of quantities, three rows for each time.
+
+        `texts` are by name, `worth` is the note on which digits are proven, `more_lines` follow the quantities.
+        Rows and notes are made while they are printed.
+        """
         from atlas.arithmetic.certified_digits import ZERO_WITHIN
 
         family, described, options = self.family, self.described, self.options
@@ -361,23 +388,24 @@ class Question:
 
 
 def later(times: Sequence[float], recorded_at: Callable[[Sequence[float]], Any]) -> Iterator[dict[str, Any]]:
-    """Yield the records of the times after the first `AT_ONCE`, one for each time.
+    """Yield the records of the times after the first `AT_ONCE` (200), one for each time.
 
-    `recorded_at` returns those of a block of times, so that a table prints while the next block is computed.
+    `recorded_at` returns the list of those of a block of times, so that a table prints while the next block is
+    computed.
     """
     for start in range(AT_ONCE, len(times), AT_ONCE):
         yield from recorded_at(times[start : start + AT_ONCE])
 
 
 def _rounded(record: Any) -> Any:
-    """Return a record with its numbers as texts of a table."""
+    """Return a record, nested dicts and lists, with its numbers as texts of ten digits."""
     return mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
 
 
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
-    """Write the samples at all times into the file --out, and print its path.
+    """Write the samples at all times, in doubles, into the file --out, and print its path.
 
-    Raises click.UsageError for --digits, --decimal, --json and uncertain numbers.
+    `options` are the command's, by name. Raises click.UsageError for --digits, --decimal, --json and uncertain numbers.
     """
     if options["digits"] is not None or options["decimal"] or options["as_json"] or uncertain(options):
         raise click.UsageError("--out writes doubles: leave out --digits, --decimal, --json and uncertainties.")
@@ -389,7 +417,8 @@ def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]
 def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, Any]) -> None:
     """Print the spectral curve of a motion on a torus, as JSON or as lines "name = value".
 
-    Raises click.UsageError for uncertain numbers, a tensor and an attitude.
+    `options` are the command's, `parameters` the inputs for JSON, both by name. Raises click.UsageError for uncertain
+    numbers, a tensor and an attitude.
     """
     from atlas.motions.torus.certified_spectral_curve import SpectralCurve
 
@@ -408,9 +437,10 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
 
 
 def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = (), named: str = "") -> UncertainAnswer:
-    """Return the quantities of an object of a family, and samples at times, with their standard deviations.
+    """Return the `UncertainAnswer` of a family's object: quantities and samples at times, with standard deviations.
 
-    `named` is the name of the command, whose record has the name of the family where several share it.
+    `options` are the command's, by name; `named` is the name of the command, whose record has the name of the
+    family where several share it.
     """
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options.get("as_json"))]
     middle = dict[str, Any]()
@@ -438,9 +468,10 @@ def _drawn(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:
-    """Return the printed lines of a family's quantities, whose values as text are in `texts` by name.
+    """Return the printed `Line`s of a family's quantities, whose values as text are in `texts` by name.
 
-    The quantity called `named` has no line: its text is the case, such as the kind of motion, that selects the lines.
+    `options` decide on the units. The quantity called `named` has no line: its text is the case, such as the kind of
+    motion, that selects the lines.
     """
     case = texts.get(named, "") if named else ""
     quantities = [q for q in family.quantities if q.name in texts and q.name != named]
@@ -448,7 +479,10 @@ def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
-    """Return the given options of a family's object by name, for the record in JSON."""
+    """Return the given options of a family's object by name, for the record in JSON.
+
+    A top also with its coefficients.
+    """
     if family.takes("coupling") and given_otherwise(options):
         return parameters_of_top([p.name for p in family.parameters], options)
     parameters = body.body_parameters(options) if in_field(family) else {}
@@ -459,15 +493,18 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
-    """Return the largest angle in rad by which rounded inputs turn the body at the times; {} below ROUNDING."""
+    """Return {"input_error": angle}, the largest angle in rad by which rounded inputs turn the body at the times.
+
+    {} without times, where the angle is not known, and below `ROUNDING`.
+    """
     error = _turn_by_rounding(family, motion, times)[0] if times else None
     return {"input_error": error} if error is not None and error > ROUNDING else {}
 
 
 def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> tuple[float | None, float]:
-    """Return the largest bound of the angle by which rounded inputs turn the body, and its time.
+    """Return (largest bound in rad of the angle by which rounded inputs turn the body, its time).
 
-    Where no derivatives are at hand the bound is None and the time the latest one.
+    Where no derivatives are at hand the bound is None and the time the one furthest from 0.
     """
     moments = [*map(float, times)]
     with suppress(AtlasError):
@@ -486,12 +523,16 @@ def _rates(options: dict[str, Any]) -> list[float]:
 
 
 def is_short(rates: Iterable[float], times: Iterable[float]) -> bool:
-    """Return whether |rate t| is below `SHORT` for all rates and times, so that rounded inputs do not matter."""
+    """Return whether |rate t| is below 6 (`SHORT`) for all rates and times, so that rounded inputs do not matter."""
     return max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
 
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
-    """Yield at most one sentence: the angle by which rounded inputs turn the body, if it may exceed `ROUNDING`."""
+    """Yield at most one sentence: the angle by which rounded inputs turn the body, if it may exceed `ROUNDING`.
+
+    Nothing with --digits or --decimal, and for short times. `motion` is the object in doubles, made from the options if
+    None.
+    """
     rounded = options["digits"] is None and not options["decimal"] and (family.is_sensitive or family.in_given_axes)
     if not rounded or not times or is_short(_rates(options), times):
         return
@@ -508,12 +549,12 @@ def of_rounding(family: Family, motion: Any, times: Sequence[float]) -> Iterator
 
 
 def _kernel(family: Family, options: dict[str, Any]) -> Any:
-    """Return the family's object in doubles, made from the options."""
+    """Return the family's object in doubles, made from the command's options by name."""
     return family.kernels()(*values_of(family, options))
 
 
 def _balls(family: Family, options: dict[str, Any]) -> Any:
-    """Return the certified object of a family that the options describe.
+    """Return the certified object of a family that the command's options describe.
 
     Where a tensor or an attitude is given and the family takes them, it is the `PlacedMotion` along the given axes.
     """
@@ -528,9 +569,9 @@ def _balls(family: Family, options: dict[str, Any]) -> Any:
 
 
 def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:
-    """Return the quantities of a motion in doubles, and its samples at the times, by name.
+    """Return the quantities of a motion in doubles by name, and under "samples" a record for each of the times.
 
-    In given axes m is that of the body, not over I2 as in tables.
+    `sampled` are the functions of time. In given axes m is that of the body, not over I2 as in tables.
     """
     columns = {s.name: along(s.method_of(motion), times) for s in sampled}
     placed = getattr(motion, "is_placed", False)
@@ -540,7 +581,7 @@ def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Seque
 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:
-    """Return the decorators of all options that define an object of a family."""
+    """Return the decorators of click that add all options which define an object of a family."""
     return [
         *([body.body_options] if family.takes("ratio") else []),
         *([body.field_options] if in_plane(family) else []),
@@ -558,22 +599,22 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
 
 
 def in_plane(family: Family) -> bool:
-    """Whether a family's field is (0, B2, B3), with the options for B and the charge-to-mass ratio."""
+    """Return whether a family's field is (0, B2, B3), with the options for B and the charge-to-mass ratio."""
     return any(p.name == "field" and not p.option for p in family.parameters)
 
 
 def of_any_body(family: Family) -> bool:
-    """Whether a family takes three moments of inertia, and a field of three components."""
+    """Return whether a family takes three moments of inertia, and a field of three components."""
     return any(p.name == "inertia" and len(p.names) == len("123") for p in family.parameters)
 
 
 def in_field(family: Family) -> bool:
-    """Whether a family's field may be given as B with a charge-to-mass ratio."""
+    """Return whether a family's field may be given as B with a charge-to-mass ratio."""
     return of_any_body(family) or family.takes("ratio")
 
 
 def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
-    """Return the decorator of a parameter's option."""
+    """Return the decorator of a parameter's option, which is required if `needed`, else has the register's default."""
     settings: dict[str, Any] = {"required": True} if needed else {}
     if not needed and p.omitted is not None:
         default, count = f"{p.omitted:g}", len(p.names)
@@ -584,7 +625,10 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
 
 
 def values_of(family: Family, options: dict[str, Any]) -> Iterator[Any]:
-    """Yield the arguments of a family's classes in their order: doubles, with --decimal fractions."""
+    """Yield the arguments of a family's classes in their order, from the command's options by name.
+
+    They are doubles as typed, with --decimal fractions. Raises click.UsageError and DomainError for faulty options.
+    """
     if family.takes("coupling"):
         if given_otherwise(options):
             top = chosen_top(options)
@@ -595,7 +639,10 @@ def values_of(family: Family, options: dict[str, Any]) -> Iterator[Any]:
 
 
 def value_of(family: Family, p: Parameter, options: dict[str, Any]) -> Any:
-    """Return the argument of a family's class for one of its parameters, from typed options."""
+    """Return the argument of a family's class for its parameter `p`, from the command's options by name.
+
+    Numbers are doubles as typed, with --decimal fractions; None for an option that may be missing.
+    """
     typed = body.as_typed(options)
     if p.name in OF_BODY and (not p.option or of_any_body(family)):
         return OF_BODY[p.name](typed)
@@ -610,7 +657,7 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
     """Return a matrix or a vector at time t in balls; if the current precision fails, the best one so far from `best`.
 
     Without any, its entries are the text `NOT_CERTIFIED`. So a time out of reach does not keep the others from
-    printing.
+    printing. `best` is updated in place.
     """
     try:
         best[s.name, t] = s.method_of(motion)(t)
@@ -624,9 +671,9 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
 
 
 def _quaternion(motion: Any, t: Any, R: Any, quaternion_near: Any) -> Any:
-    """Return the quaternion [x, y, z, w] of R at time t in balls, with the sign of `quaternion_near`, its floats.
+    """Return the quaternion [x, y, z, w] of R (3, 3) at time t in balls, with the sign of `quaternion_near`.
 
-    Four times "not certified" if the entries of R are, or if `quaternion_near` is None.
+    `quaternion_near` is the same in floats. Four times "not certified" if the entries of R are, or if it is None.
     """
     from flint import fmpq
 
@@ -651,7 +698,9 @@ def _quantities(
 ) -> dict[str, Any]:
     """Return quantities by name, and under "samples" a list of records for the times, from arrays by name.
 
-    A quantity that may be missing is left out where it has no value; of others the reason stands under "missing".
+    `columns` has a value for each time of each function; values of quantities are exact or in balls if `exact`. A
+    quantity that may be missing is left out where it has no value, others are None; the reason stands under
+    "missing".
     """
     values, reasons = dict[str, Any](), dict[str, str]()
     for q in family.quantities:
@@ -694,7 +743,10 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
 
 
 def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
-    """Yield lines of the rates in hertz and of Larmor's frequency, rounded to six digits, if units are known."""
+    """Yield lines of the rates in hertz and of Larmor's frequency, rounded to six digits, if units are known.
+
+    `texts` are the quantities by name; those that are no number are left out.
+    """
     if not _units(family, options):
         return
     texts_of_rates = {q.name: texts[q.name] for q in family.quantities if q.unit == RATE and q.name in texts}
@@ -708,7 +760,7 @@ def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) ->
 
 
 def _is_number(text: Any) -> bool:
-    """Whether a text is one number."""
+    """Return whether `text` is a text of one finite number."""
     try:
         return isinstance(text, str) and isfinite(float(text))
     except ValueError:

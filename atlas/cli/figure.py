@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 
 
 def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
-    """Return the title and the rows (parameter, meaning) of the help on the parameters of a recipe."""
+    """Return (title, rows) of the help on a recipe's parameters; a row is ("name=default", meaning and what it takes).
+
+    Raises AtlasError for an unknown recipe.
+    """
     from atlas.pictures import recipes
     from atlas.pictures.parameters import MEANINGS, described, typed
 
@@ -144,7 +147,10 @@ def command(
 
 
 def _gallery(names: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> int:
-    """Build the gallery of the recipes and print its path; return the exit status."""
+    """Build the gallery of the recipes, all if none is named, and print its path; return 1 if a figure failed, else 0.
+
+    The parameters are options of the command.
+    """
     from atlas.book.building.gallery import build_gallery
 
     with bar("gallery") as tell:
@@ -165,7 +171,11 @@ def _check(names: tuple[str, ...], target: str | None) -> None:
 
 
 def warned(figures: "list[Files]", renderer: str) -> int:
-    """Print the figures that were not drawn as requested, with the reasons; return the exit status."""
+    """Print on standard error the figures that were not drawn as requested, with the reasons.
+
+    Return 1 if any failed, else 0.
+    `renderer` is the requested one.
+    """
     for note in dict.fromkeys(figure.note for figure in figures if figure.note):
         click.echo(f"atlas: {note}", err=True)
     for figure in (figure for figure in figures if figure.left_out):
@@ -180,7 +190,7 @@ def warned(figures: "list[Files]", renderer: str) -> int:
 
 
 def setting(text: str) -> tuple[str, Any]:
-    """Read KEY=VALUE: a number such as 1.5, 3/2 or 1e-3, a list of numbers a,b,c, true or false, or a word.
+    """Return (key, value) of KEY=VALUE: a number such as 1.5, 3/2 or 1e-3, a tuple of a,b,c, true or false, or a word.
 
     Raises click.UsageError when there is no "=", or several.
     """

@@ -82,14 +82,20 @@ def command(file: Path, **options: Any) -> int:
 
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
-    """Return the `Fit` of a file with these options of the command."""
+    """Return the `Fit` of a file with the command's options by name.
+
+    Raises AtlasError for a file or data that cannot be fitted, click.UsageError for a parameter given twice.
+    """
     from atlas.fitting import fit_file
 
     return fit_file(file, **arguments(options))
 
 
 def arguments(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the keyword arguments of `fit_file` from the options. Raises click.UsageError for a name given twice."""
+    """Return the keyword arguments of `fit_file` from the command's options by name.
+
+    Raises click.UsageError for a parameter that is given twice, and for a text that is not NAME=VALUE.
+    """
     given_values: dict[str, dict[str, float]] = {"fix": {}, "start": {}}
     for option, values in given_values.items():
         for name, value in map(_pair, options[option]):
@@ -103,7 +109,10 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """Return (dict for JSON, lines of text): the predictions at the times --predict, and the horizon."""
+    """Return (dict for JSON, lines of text): the predictions of a fit at the times --predict, and its horizon.
+
+    A horizon that is no finite time is None, with words under "missing"; both are empty without these options.
+    """
     record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):
         value, error = result.predict(time)
@@ -120,7 +129,7 @@ def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[st
 
 
 def _pair(text: str) -> tuple[str, float]:
-    """Return name and value of NAME=VALUE. Raises click.UsageError for another text."""
+    """Return (name, value as a float) of NAME=VALUE. Raises click.UsageError for another text."""
     name, equals, value = text.partition("=")
     try:
         return name.strip(), float(value if equals else "")

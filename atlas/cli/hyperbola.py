@@ -69,16 +69,16 @@ def command(**options: Any) -> None:
 
 
 def curve_of(options: dict[str, Any]) -> Any:
-    """Return the `Hyperbola` of the options, in doubles."""
+    """Return the `Hyperbola` of the command's options by name, in doubles."""
     from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 
     return Hyperbola(chosen_body(options), chosen_field(options))
 
 
 def sampled(curve: Any, count: int) -> list[float]:
-    """Return values of omega2 in 1/time on the curve (67), without the pole: for B3 = 0 on the line omega3 = 0.
+    """Return values of omega2 in 1/time on the curve (67), a `Hyperbola` in doubles, without the pole.
 
-    Otherwise they are on both branches. They are `count` or more.
+    They are on both branches, for B3 = 0 on the line omega3 = 0; there are `count` or more.
     """
     if curve.B3:
         return [float(x) for x in curve.sample(count)[0]]
@@ -86,13 +86,20 @@ def sampled(curve: Any, count: int) -> list[float]:
 
 
 def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
-    """Return a dict with "pole", "unstable_band" and "points", a list of dicts with the keys of COLUMNS."""
+    """Return a dict with "pole", "unstable_band" and "points", a list of dicts with the keys of COLUMNS.
+
+    `points` are the values of omega2, `columns` the other quantities, each with a value for each point; all in
+    1/time, or 1/time^2.
+    """
     rows = [dict(zip(COLUMNS, row, strict=True)) for row in zip(points, *columns, strict=True)]
     return {"pole": curve.pole, "unstable_band": curve.unstable_band, "points": rows}
 
 
 def printout(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> Printout:
-    """Return the `Printout` of certified texts, with a row for each point."""
+    """Return the `Printout` of certified texts by name, with a row for each point; `notes` stand below it.
+
+    `options` decide on the units.
+    """
     band, rate = texts["unstable_band"], units_of(options).get("1/time", "1/time")
     lines = [
         Line("-B2", "pole of omega3(omega2)", texts["pole"], rate, "(71)"),

@@ -63,7 +63,10 @@ def command(which: str | None, as_json: bool) -> int:
 
 
 def lay_out(rows: list[Row]) -> None:
-    """Print rows as two columns: name and sentence, below that the further words; a line under the first row."""
+    """Print rows as two columns: name and sentence, below that the further words; a line under the first row.
+
+    There must be at least one row, the heads.
+    """
     width = 2 + max(len(name) for name, _, _ in rows)
     for place, (name, *texts) in enumerate(rows):
         wrapped = [textwrap.wrap(text, WIDTH, break_on_hyphens=False, break_long_words=False) for text in texts]
@@ -119,7 +122,7 @@ def _shapes(_: list[str]) -> Listing:
 
 
 def _tables(_: list[str]) -> Listing:
-    """Return the computed tables of reports, each with the keys that its block takes."""
+    """Return the computed tables of reports as a `Listing`, each with the keys that its block takes."""
     from inspect import get_annotations
 
     import atlas.book.keys  # noqa: F401  its tables join the others
@@ -137,7 +140,7 @@ def _tables(_: list[str]) -> Listing:
 
 
 def _keys_of(kinds: Iterable[type]) -> Iterator[tuple[str, dict[str, bool]]]:
-    """Yield (kind's keys, whether each is required) for the argument types of a table."""
+    """Yield (key, {"needed": whether it is required}) for the argument types of a table."""
     from msgspec.structs import fields
 
     from atlas.book.schema import StrictStruct
@@ -151,7 +154,7 @@ def _keys_of(kinds: Iterable[type]) -> Iterator[tuple[str, dict[str, bool]]]:
 
 
 def _families(_: list[str]) -> Listing:
-    """Return the families of the register with their parameters and commands."""
+    """Return the families of the register as a `Listing`, with their parameters and commands."""
     from atlas.motions.register import FAMILIES
 
     record: dict[str, Any] = {
@@ -167,7 +170,10 @@ def _families(_: list[str]) -> Listing:
 
 
 def _quantities(_: list[str]) -> Listing:
-    """Return the quantities and functions of time of all families, by name, as `atlas sweep --quantity` takes them."""
+    """Return the quantities and functions of time of all families as a `Listing`, by name.
+
+    The names are those that `atlas sweep --quantity` takes; the words are those of the families.
+    """
     from atlas.motions.register import FAMILIES
 
     record: dict[str, dict[str, dict[str, str]]] = {}
@@ -208,17 +214,17 @@ LISTS: dict[str, Callable[[list[str]], Listing]] = {
 
 
 def sentence(subject: object) -> str:
-    """Return the first sentence of a docstring, without its full stop."""
+    """Return the first sentence of a subject's docstring, without its full stop and backticks."""
     return " ".join(str(subject.__doc__).split("\n\n")[0].split()).split(". ")[0].removesuffix(".").replace("`", "")
 
 
 def _marked(keys: dict[str, dict[str, Any]]) -> str:
-    """Return the names of keys, a star behind those that are needed."""
+    """Return the names of keys as one text, a star behind those that are needed."""
     return "  ".join(f"{name}*" if key["needed"] else name for name, key in keys.items())
 
 
 def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
-    """Return the default and, if there is one, the range of each parameter of a recipe, by name."""
+    """Return {"default": value} of each parameter of a recipe, by name, with "range": (low, high) where it has one."""
     return {
         name: {"default": default} | ({"range": recipe.ranges[name]} if name in recipe.ranges else {})
         for name, default in recipe.parameters.items()
@@ -238,7 +244,7 @@ def _parameter_word(name: str, record: dict[str, Any]) -> str:
 
 
 def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
-    """Read the item of a name, or note the reason of the failure in `broken`."""
+    """Return read(name), or None after an AtlasError, whose message is appended to `broken`."""
     try:
         return read(name)
     except AtlasError as error:
@@ -247,7 +253,7 @@ def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
 
 
 def report_title(name: str) -> str:
-    """Return the title of a report in reports/."""
+    """Return the title of a report in reports/, "" if it has none. Raises AtlasError for a head that is no TOML."""
     from atlas.book import files
 
     return str(files.head(files.find(name)).get("title", ""))

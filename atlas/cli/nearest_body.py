@@ -23,8 +23,9 @@ LENGTH, ROUNDED = 1e-3, 1e-6
 def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:
     """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio, moved to those of a plane body if they exceed these.
 
-    They are moved only if each moves by less than the unit of its last digit, in proportion to it, and a line on
-    standard error says so; otherwise they are returned unchanged, and refused later. None is returned as it is.
+    A callback of click's option `param`. They are moved only if each moves by less than the unit of its last digit,
+    in proportion to it, and a line on standard error says so; otherwise they are returned unchanged, and refused
+    later. None is returned as it is.
     """
     if value is None:
         return None
@@ -59,9 +60,9 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
 def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
     """Return a typed tensor I11 I22 I33 I12 I13 I23, moved to that of a plane body if just beyond it.
 
-    It is moved only if each number changes by less than the unit of its last digit; None and other tensors are returned
-    unchanged. Raises click.UsageError for a tensor of no body that another order or sign of the numbers makes that of a
-    body.
+    A callback of click's option `param`. It is moved only if each number changes by less than the unit of its last
+    digit; None and other tensors are returned unchanged. Raises click.UsageError for a tensor of no body that
+    another order or sign of the numbers makes that of a body.
     """
     if value is None:
         return None
@@ -118,7 +119,11 @@ def _signed(text: str, sign: int) -> str:
 
 
 def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed quaternion; normalised, with a line on standard error, if its length is 1 up to typed digits."""
+    """Return a typed quaternion X Y Z W; normalised, with a line on standard error, if its length is 1 up to 1e-3.
+
+    A callback of click's option `param`. Unchanged are None, a length within 1e-6 of 1, and any other length, which is
+    refused later.
+    """
     if value is None or not ROUNDED < abs((length := math.hypot(*value)) - 1) < LENGTH:
         return value
     new = tuple(_with_value(x, float(x) / length, None) for x in value)
@@ -132,7 +137,10 @@ def _exact(x: Typed) -> Fraction:
 
 
 def _unit(x: Typed) -> Fraction:
-    """Return the unit of the last digit that was typed, in SI; 0 for a fraction or a hexadecimal number."""
+    """Return the unit of the last digit that was typed, in SI.
+
+    0 for a fraction, a hexadecimal number, a zero, and a number with a standard deviation.
+    """
     text = (split(x.text) or (x.text, ""))[0].lower()
     digits, _, exponent = text.partition("e")
     if x.sigma or not digits.lstrip("+-").replace(".", "", 1).isdecimal() or not float(digits):

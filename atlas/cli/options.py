@@ -20,7 +20,10 @@ class Place(click.Path):
     """Path for output, in a folder that exists or can be made."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path. Raises click.UsageError, before any work is done, for a path that cannot be written."""
+        """Return the path, a `Path`.
+
+        Raises click.UsageError, before any work is done, for a path that cannot be written.
+        """
         place = Path(os.fsdecode(super().convert(value, param, ctx)))
         folder_present = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
         if not folder_present.is_dir():
@@ -35,9 +38,9 @@ class Place(click.Path):
 
 
 def pair(text: str, takes: str) -> tuple[str, str]:
-    """Return (key, value) of KEY=VALUE; `takes` names this form in the message.
+    """Return (key, value) of KEY=VALUE, both texts; `takes` names this form in the message.
 
-    Raises click.UsageError for another text, and for several in one word.
+    Raises click.UsageError for another text, for an empty key or value, and for several in one word.
     """
     key, equals, value = text.partition("=")
     if not (key and equals and value):
@@ -48,7 +51,7 @@ def pair(text: str, takes: str) -> tuple[str, str]:
 
 
 def examples(*commands: str) -> str:
-    """Return the end of a help text: commands to copy, one a line."""
+    """Return the end of a help text: "Examples:" and commands to copy, one a line."""
     return "\n".join(["\b", "Examples:", *(f"  {command}" for command in commands)])
 
 
@@ -64,24 +67,33 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
 
 
 def numbers(name: str, says: str, metavar: str = "", **settings: Any) -> Callable[[F], F]:
-    """Return the decorator of an option with one number, or with one for each word of `metavar`."""
+    """Return the decorator of an option --`name` with one number, or with one for each word of `metavar`.
+
+    `says` is its help, `settings` are click's. Values are `Typed`, None where the option is not given.
+    """
     vector_settings: dict[str, Any] = {"nargs": len(metavar.split()), "metavar": metavar} if metavar else {}
     return click.option(f"--{name}", type=REAL, help=says, **vector_settings, **settings)
 
 
 def several(name: str, metavar: str, says: str, variable: str = "", **settings: Any) -> Callable[[F], F]:
-    """Return the decorator of an option with one value or more, kept under the name `variable`, by default `name`."""
+    """Return the decorator of an option with one value or more, kept under the name `variable`, by default `name`.
+
+    `metavar` and `says` are for its help, `settings` are click's. The values are a tuple, empty if it is not given.
+    """
     return click.option(f"--{name}", variable or name, multiple=True, metavar=metavar, help=says, **settings)
 
 
 def choice(name: str, choices: Sequence[str], default: str, says: str, variable: str = "") -> Callable[[F], F]:
-    """Return the decorator of an option with one of several words, kept under `variable`, by default `name`."""
+    """Return the decorator of an option with one of several words, kept under `variable`, by default `name`.
+
+    `says` is its help, `default` the word that holds if it is not given.
+    """
     kind = click.Choice(choices)
     return click.option(f"--{name}", variable or name, type=kind, default=default, show_default=True, help=says)
 
 
 def figure_option(says: str) -> Callable[[F], F]:
-    """Return the option for the file of a plot."""
+    """Return the decorator of the option --figure for the file of a plot; `says` is its help."""
     return click.option("--figure", type=Place(dir_okay=False, path_type=Path), help=says)
 
 
@@ -113,13 +125,13 @@ TABLE = click.Path(exists=True, path_type=Path)
 
 
 def out_option(standard: str) -> Callable[[F], F]:
-    """Return the option for the folder that files go to."""
+    """Return the decorator of the option --out for the folder that files go to, by default `standard`."""
     kind = Place(file_okay=False, path_type=Path)
     return click.option("--out", type=kind, default=standard, show_default=True, help="Folder for the files.")
 
 
 def jobs_option_of(workers: str) -> Callable[[F], F]:
-    """Return the option for the number of processes; `workers` names them in the help."""
+    """Return the decorator of the option --jobs for the number of processes; `workers` names them in the help."""
     return click.option(
         "--jobs", "-j", type=click.IntRange(min=1), help=f"Number of {workers}; one per core by default."
     )
@@ -148,14 +160,15 @@ times_options: Callable[[F], F] = stack(
 
 
 def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
-    """Return the given options among `names`, by name."""
+    """Return the options among `names` that are not None, by name; `options` are the command's."""
     return {name: options[name] for name in names if options.get(name) is not None}
 
 
 def chosen_times(options: dict[str, Any]) -> Sequence[float]:
-    """Return the times of --times or --grid, exact values attached; none if neither is given.
+    """Return the times of --times or --grid, `Typed` numbers with exact values; empty if neither is given.
 
-    Raises click.UsageError when both are given or the count is not a natural number.
+    `options` are the command's, by name. Raises click.UsageError when both are given or the count is not a natural
+    number.
     """
     if options["grid"] is None:
         return options["times"] or ()

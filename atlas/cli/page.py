@@ -35,7 +35,10 @@ FORMATS = ("single", "pdf")
 @fit_options
 @report_options("build/pages")
 def of_fit(file: Path, **options: Any) -> int:
-    """Fit a file, and make the page of the motion found; return the exit status of `atlas fit`."""
+    """Fit a file, and make the page of the motion found; return 1 if a figure failed or the fit warns, else 0.
+
+    `options` are the command's, by name. Paths of page and PDF are printed, warnings on standard error.
+    """
     from atlas.book.fit_report import Fitted
     from atlas.fitting import fit_file
 
@@ -97,7 +100,10 @@ def command() -> None:
 
 @command.result_callback()
 def make(request: "int | tuple[Asked, dict[str, Any]]") -> int:
-    """Write the page of a request and print where it is; return the exit status, that of a fit if it was one."""
+    """Write the page of a request, (`Asked`, options), and print where it is; return the exit status.
+
+    An int is the exit status of a page of a fit, which is already made.
+    """
     if isinstance(request, int):
         return request
     return told(*request, FORMATS)

@@ -71,7 +71,7 @@ def command(table: Path, x: str, y: tuple[str, ...], out: Path | None, target: s
 
 
 def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure":
-    """Return the picture of the columns y over the column x of a table.
+    """Return the Matplotlib picture, `width_mm` wide, of the columns y over the column x of a table.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure
 
 
 def columns_of(table: Path) -> tuple[dict[str, "Column"], dict[str, str]]:
-    """Return the columns of a table by name, cells as text or numbers, and the unit of each.
+    """Return (columns, units) of a table by name: arrays of texts or numbers, and the unit of each, "" for none.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def columns_of(table: Path) -> tuple[dict[str, "Column"], dict[str, str]]:
 
 
 def numbers_of(columns: Mapping[str, "Column"], name: str, table: Path) -> "NDArray[np.float64]":
-    """Return a column as floats, shape (rows,), NaN for an empty cell.
+    """Return the column `name` as floats, shape (rows,), NaN for an empty cell; `table` is named in the message.
 
     Raises
     ------

@@ -25,7 +25,8 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 class Masses(NamedTuple):
     """Point masses (N,), positions (N, 3) from the centre of mass, mass matrix (3, 3), charges (N,) or None.
 
-    `exact` is the mass matrix as nested lists of rational numbers.
+    The mass matrix is sum m x x^T. `exact` is the same as nested lists of rational numbers. Units are kg, m and C
+    where the file has units, else those of the file.
     """
 
     masses: Any
@@ -45,7 +46,7 @@ class Masses(NamedTuple):
 def point_masses(path: Path) -> Masses:
     """Return the `Masses` of a CSV file with the columns x, y, z, mass and optionally charge.
 
-    Raises click.UsageError for a missing or any other column.
+    Raises click.UsageError for a missing or any other column, and for a cell that is no number.
     """
     import numpy as np
 
@@ -65,7 +66,11 @@ def point_masses(path: Path) -> Masses:
 
 
 def points(path: Path) -> Any:
-    """Return the symmetric body of point masses, axis z. Raises click.UsageError if they are not symmetric about z."""
+    """Return the `SymmetricBody` of a file of point masses, axis z.
+
+    Up to 1e-9 of the largest moment is allowed, with a warning. Raises click.UsageError if they are not symmetric
+    about z, or if their charges are not in proportion to their masses.
+    """
     import numpy as np
 
     from atlas.arithmetic.given import exact_number
@@ -94,7 +99,10 @@ def points(path: Path) -> Any:
 
 
 def oblique_tensor(path: Path) -> Any:
-    """Return the inertia tensor (3, 3) of point masses; None where x, y, z are principal axes."""
+    """Return the inertia tensor (3, 3) of a file of point masses about their centre.
+
+    None where x, y, z are principal axes.
+    """
     import numpy as np
 
     inertia = point_masses(path).inertia
@@ -108,7 +116,10 @@ def exact_inertia(path: Path) -> list[Any]:
 
 
 def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
-    """Return the moments of point masses. Raises click.UsageError unless x, y, z are principal axes."""
+    """Return the moments (I1, I2, I3) of a file of point masses about their centre, as floats or fractions.
+
+    Raises click.UsageError unless x, y, z are principal axes.
+    """
     import numpy as np
 
     from atlas.arithmetic.given import as_float_or_fraction
@@ -129,7 +140,10 @@ def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
 
 
 def ratio_of_points(path: Path) -> Fraction:
-    """Return the charge-to-mass ratio of points. Raises click.UsageError without charges, or with several ratios."""
+    """Return the charge-to-mass ratio of a file of points, exactly, as a Fraction.
+
+    Raises click.UsageError without charges, or with several ratios.
+    """
     read = point_masses(path)
     if read.charges is None:
         raise click.UsageError(f"--magnetic needs the charges of the points: {path} has no column charge.")
@@ -137,7 +151,10 @@ def ratio_of_points(path: Path) -> Fraction:
 
 
 def _one_ratio(path: Path, masses: Any, charges: Any) -> Fraction:
-    """Return charge over mass of all points, exactly. Raises click.UsageError where points have different ratios."""
+    """Return the sum of the charges over that of the masses, exactly.
+
+    Raises click.UsageError where the ratios of the points differ by more than 1e-9 of the largest.
+    """
     ratios = charges / masses
     if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():
         raise click.UsageError(
@@ -171,10 +188,11 @@ def cells_of(path: Path) -> tuple[dict[str, str], list[tuple[int, list[str]]]]:
 def measured_columns(
     path: Path, options: Mapping[str, str], plain: Mapping[str, tuple[str, ...]]
 ) -> tuple[dict[str, list[float]], set[str]]:
-    """Return the columns of a CSV file, named by its first line after those with #, and the units there.
+    """Return the columns of a CSV file as lists of floats by name, and the set of the units in its heading.
 
-    A number with a unit is converted to that of its option in `options`, but for the units in `plain`, which are
-    taken as they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
+    The heading is its first line after those with #. `options` gives the option that has the units of a name. A
+    number with a unit is converted to that of its option, but for the units in `plain`, by name, which are taken as
+    they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
     """
     units, lines = cells_of(path)
     meant = [

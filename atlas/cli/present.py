@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Line:
-    """One printed quantity: symbol, meaning, value as text, unit, and the label of its equation."""
+    """One printed quantity: symbol, meaning, value as text, unit, and the label of its equation, such as "(72)".
+
+    Unit and label are "" where there is none.
+    """
 
     symbol: str
     says: str
@@ -31,9 +34,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Printout:
-    """Output of a command: single quantities, then one table with a unit in each heading, then notes.
+    """Output of a command: a title, single quantities, then one table with a unit in each heading, then notes.
 
-    Rows are printed while they come, and notes asked for after the last row.
+    Each row has a text for each head. Rows are printed while they come, and notes asked for after the last row.
     """
 
     title: str
@@ -50,7 +53,7 @@ def explained(reasons: Sequence[Sequence[str]]) -> Printout:
 
 
 def explain_build(built: Any) -> None:
-    """Show why each part of a report was made or taken from the cache, and the costs of the figures."""
+    """Print why each part of a `Built` report was made or taken from the cache, and the figures' costs if known."""
     show(explained(built.reasons))
     if built.costs is not None:
         from atlas.book.building.figures import HEADING, rows_of_costs
@@ -60,7 +63,10 @@ def explain_build(built: Any) -> None:
 
 
 def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
-    """Draw the result into `file` and print its path unless `silent`; nothing if `file` is None."""
+    """Draw the `scene` of a result into `file` and print its path unless `silent`; nothing if `file` is None.
+
+    A file that the user edited stays, and the new one is written beside it.
+    """
     if file is None:
         return
     from atlas.pictures.drawing.files import save
@@ -81,7 +87,7 @@ def show(printout: Printout) -> None:
 
 
 def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the texts of the title and of the table of single quantities, each only if there is one."""
+    """Yield the text of the title and that of the table of single quantities, each only if there is one."""
     from rich.table import Table
     from rich.text import Text
 
@@ -124,14 +130,17 @@ def _notes(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _text(console: "Console", count: Any, **how: Any) -> str:
-    """Return the text that a console prints for ``count``, a renderable of Rich, with options ``how`` of its print."""
+    """Return the text that a console prints for ``count``, a text or table of Rich, with options ``how`` of print."""
     with console.capture() as printed:
         console.print(count, **how)
     return printed.get()
 
 
 def _uncut_table(console: "Console", table: "Table") -> str:
-    """Return a table as text, wider than the terminal where its numbers would be cut."""
+    """Return a table as text, wider than the terminal where its numbers would be cut.
+
+    The console's width is then changed.
+    """
     from rich.measure import Measurement
 
     measurement = Measurement.get(console, console.options.update_width(1_000_000), table)
@@ -141,7 +150,7 @@ def _uncut_table(console: "Console", table: "Table") -> str:
 
 
 def dump(record: dict[str, Any]) -> None:
-    """Print a record as JSON: floats with the shortest digits that read back the same.
+    """Print a record on standard output as one line of JSON: floats with the shortest digits that read back the same.
 
     JSON has no infinity and no NaN: such a float becomes null, and the reason stands under its place in "missing".
     """
@@ -152,7 +161,11 @@ def dump(record: dict[str, Any]) -> None:
 
 
 def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
-    """Return the value as plain JSON types; a float that is not finite becomes None, with its reason in `reasons`."""
+    """Return the value as plain JSON types; a float that is not finite becomes None, with its reason in `reasons`.
+
+    `place` is the value's place in the record, such as "samples[0].R", "" for the whole; `reasons`, by place, is
+    changed. Raises TypeError for a value that JSON cannot hold.
+    """
     if isinstance(value, float):
         if math.isfinite(value):
             return float(value)
@@ -189,10 +202,12 @@ def answer(
     balls: Callable[[], dict[str, Any]],
     spare: int = 1 << 16,
 ) -> dict[str, Any] | None:
-    """Print the requested JSON and return None, or return the quantities as certified texts for a table.
+    """Print the requested JSON and return None, or return the quantities by name as certified texts for a table.
 
-    ``floats`` computes the quantities with the kernels, ``balls`` with proven radii; both have the same keys.
-    ``spare`` is passed to `certified`.
+    ``options`` are the command's and ``parameters`` the inputs for JSON, by name. ``floats`` computes the
+    quantities with the kernels, ``balls`` with proven radii; both have the same keys. ``spare`` is the number of
+    bits beyond those needed in which a proof is sought. Raises click.UsageError for --decimal without --digits in
+    JSON.
     """
     if options["as_json"] and options["digits"] is None:
         if options["decimal"]:
@@ -229,14 +244,14 @@ NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 
 def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
-    """Return the result of a motion's `method` for all times in one call, an array whose first axis is the time."""
+    """Return the result of a motion's `method` for all times in one call, an array of the shape (times, ...)."""
     import numpy as np
 
     return method(np.array([float(t) for t in times]))
 
 
 def samples(times: Sequence[float], **columns: Any) -> list[dict[str, Any]]:
-    """Return one record for each time: ``t`` and the value of each quantity by name."""
+    """Return one record for each time, a dict: ``t`` and the value of each quantity by name; `columns` are as long."""
     return [dict(zip(("t", *columns), row, strict=True)) for row in zip(times, *columns.values(), strict=True)]
 
 
@@ -307,7 +322,7 @@ def _lines(title: str, every: float) -> Progress:
 
 
 def status_of(built: Any) -> int:
-    """Print a report's notes and failed figures on standard error; return 0 if all was built, else 1."""
+    """Print the notes and failed figures of a `Built` report on standard error; return 0 if all was drawn, else 1."""
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:

@@ -19,7 +19,10 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|F
 
 
 def inputs_of(name: str) -> tuple[str, list[tuple[str, str]]]:
-    """Return the title and the rows (input, meaning) of the help on the inputs of a report."""
+    """Return (title, rows) of the help on the inputs of a report; a row is ("name=default", what it takes and means).
+
+    Raises AtlasError for an unknown report.
+    """
     from atlas.book.files import find
     from atlas.book.inputs import declared
 
@@ -34,7 +37,10 @@ SEVERAL = {"--each": "each", "--against": "against"}
 
 
 def _of_your_body(words: Words) -> click.Command | None:
-    """Return the command of the report your_body, or of several bodies, if that is the name; else None."""
+    """Return the command of the report your_body, or of several bodies, if that is the name in `words`; else None.
+
+    None also with --inputs. Raises click.UsageError for --each beside --against.
+    """
     if "your_body" not in words.loose or "--inputs" in words.names:
         return None
     if {*SEVERAL} <= words.names:
@@ -123,7 +129,7 @@ def command(
 
 
 def _listed(name: str) -> Iterator[dict[str, Any]]:
-    """Return the inputs of a report, a dict each, with name, kind, unit, range, choices, default and help."""
+    """Return the inputs of a report, a dict each, with name, kind, unit, range, choices, count, default and help."""
     from atlas.book.files import find
     from atlas.book.inputs import records
     from atlas.cli import your_body

@@ -27,8 +27,8 @@ class Report:
     files : tuple of Path
         First page and PDF; of a body also card and inputs.
     card : mapping
-        Of each number of the card `value`, `sigma`, `unit`, `digits`, `equation` and `reason`, by key; empty where the
-        report is not that of a body.
+        Of each number of the card `value`, `sigma`, `unit`, `digits`, `equation` and `reason`, by key, such as "turn";
+        empty where the report is not that of a body.
     failures : tuple of str
         Figures that could not be drawn, with the reason.
     """
@@ -117,7 +117,10 @@ def report(
 
 
 def words_of_body(body: Any) -> list[str]:
-    """Return the option of a body. Raises AtlasError for an array that is none."""
+    """Return the words of the option of a body: --ratio, --inertia or --tensor, with its numbers.
+
+    Raises AtlasError for an array that is no ratio, moments (2,) or (3,), or tensor (3, 3).
+    """
     if hasattr(body, "I2"):
         return words_of("inertia", (body.I2, body.I3))
     shape = getattr(body, "shape", None) if not hasattr(body, "__len__") else real(body, "body").shape

@@ -65,9 +65,11 @@ def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> in
 
 
 def _built(line: int, words: list[str], columns: Collection[str], out: Path, jobs: int | None) -> "tuple[Row, bool]":
-    """Build the report of one row; return its `Row`, with the fault if it failed, and whether all was drawn.
+    """Build the report of one row from its option words.
 
-    `columns` are options whose values stand in the table.
+    Return (`Row`, with the fault if it failed; whether all was drawn). `line` is that of the row in the file,
+    `columns` are options whose values stand in the table, `out` is the folder and `jobs` the number of processes,
+    None for one a core.
     """
     from atlas.book.several_bodies import Row, row_of
 
@@ -80,15 +82,15 @@ def _built(line: int, words: list[str], columns: Collection[str], out: Path, job
 
 
 def _in_column(sentence: str, columns: Collection[str]) -> str:
-    """Return a sentence on an option among `columns` behind the name of its column, any other as it is."""
+    """Return "column NAME: " and the sentence if it is on an option among `columns`, else the sentence as it is."""
     option = next((name for name in re.findall(r"--[\w-]+", sentence) if name in columns), "")
     return f"column {option.removeprefix('--')}: {sentence}" if option else sentence
 
 
 def rows_of(table: Path) -> Iterator[tuple[int, list[str]]]:
-    """Yield the line of each row of a table and the words of its options.
+    """Yield (line, words of its options) for each row of a table; empty cells have no words.
 
-    Raises FaultsError for columns that are no options.
+    Raises FaultsError for columns that are no options, click.UsageError for a file that is no table.
     """
     units, lines = cells_of(table)
     faults = dict[str, AtlasError]()

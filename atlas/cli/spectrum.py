@@ -28,14 +28,14 @@ def check_spectrum(options: dict[str, Any]) -> None:
 
 
 def spectrum_of(motion: Any, options: dict[str, Any]) -> Any:
-    """Return the requested `Spectrum` of a motion, or None."""
+    """Return the `Spectrum` of a motion that the command's options ask for, or None."""
     if not options.get("spectrum"):
         return None
     return motion.spectrum(options["spectrum"], least=options["least"])
 
 
 def recorded(lines: Any) -> dict[str, Any]:
-    """Return {"spectrum": ...} of lines for JSON, an amplitude as real and imaginary part; {} for None."""
+    """Return {"spectrum": ...} of a `Spectrum` for JSON, an amplitude as real and imaginary part; {} for None."""
     if lines is None:
         return {}
     line = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
@@ -49,7 +49,8 @@ def recorded(lines: Any) -> dict[str, Any]:
 def show_lines(lines: Any, unit: str) -> None:
     """Print the rates, then a row for each spectral line with a frequency >= 0: integers, frequency, amplitude.
 
-    `unit` is that of the frequencies.
+    `lines` is the `Spectrum`; `unit` is that of its frequencies and rates. The amplitude is the norm of the complex
+    ones of all components.
     """
     rows = [
         [*map(str, c), f"{f:.10g}", f"{size:.6g}"]

@@ -41,7 +41,7 @@ OUT.new.csv, and the exit status is 2.
 
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
-    """Destination of a table: a file; a folder, if the name ends in /; or an address."""
+    """Destination of a table as click's type: a file; a folder, if the name ends in /; or an address with "://"."""
 
     name = "path"
 
@@ -62,7 +62,7 @@ OUT = Out()
 
 
 def options_of(*of_body: Any) -> Callable[[Any], Any]:
-    """Return the decorator of a sweep's options, including those of body, field and start."""
+    """Return the decorator of a sweep's argument and options; `of_body` are the decorators of body, field and start."""
     return stack(
         click.argument("family", required=False),
         several(
@@ -98,8 +98,8 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
 def requested(options: dict[str, Any]) -> tuple[str, dict[str, Any], str]:
     """Return (family, values of its parameters by name, the principal axes of a tensor in terms of the given ones).
 
-    Values are numbers, or texts as typed; the axes are "" where they are equal. Raises click.UsageError for parameters
-    that do not fit the family.
+    `options` are the command's, by name. Values are numbers, or texts as typed; the axes are "" where they are equal.
+    Raises click.UsageError for parameters that do not fit the family.
     """
     if options["family"] is None:
         raise click.UsageError(f"FAMILY is missing: name the family to sweep, {NAMES}.")
@@ -126,7 +126,11 @@ def _check_moments(family: str, fixed: Mapping[str, Any], options: Mapping[str, 
 
 
 def swept(**options: Any) -> None:
-    """Compute quantities of a family over parameters, and write the table."""
+    """Compute quantities of a family over parameters, write the table, and print its path.
+
+    `options` are the command's, by name. Raises click.UsageError for options that do not fit, AtlasError for a row
+    outside the domain.
+    """
     from atlas.sweeps.plan import Plan
     from atlas.sweeps.run import write_plan
 
@@ -169,7 +173,10 @@ def swept(**options: Any) -> None:
 
 
 def _tell_rounding(plan: Any) -> None:
-    """Print on standard error the effect of rounded inputs on the first of the latest rows, if it may be felt."""
+    """Print on standard error the effect of rounded inputs on the first of a `Plan`'s latest rows, if it is felt.
+
+    Nothing is printed for a plan with certified digits, or without times.
+    """
     from atlas.sweeps.families import FAMILIES as SWEPT
     from atlas.sweeps.plan import LAUNCH
 
@@ -213,12 +220,15 @@ def of_three_moments() -> click.Command:
     numbers("omega2", "Second component of the angular velocity, of an elementary motion."),
 )
 def command(**options: Any) -> None:
-    """Sweep over symmetric bodies."""
+    """Sweep over symmetric bodies, with the command's options by name; see `swept`."""
     swept(**options)
 
 
 def _meant(family: str, names: set[str]) -> str:
-    """Return the family to sweep: `family` itself, or for "motion" the one that has the parameters `names`."""
+    """Return the family to sweep: `family` itself, or for "motion" the one that has the parameters `names`.
+
+    I1 is that of asymmetric, else omega1 that of general; without both the family is elementary.
+    """
     if family != "motion":
         return family
     if "I1" in names:
@@ -227,7 +237,7 @@ def _meant(family: str, names: set[str]) -> str:
 
 
 def _parameter_values(values: Any) -> Any:
-    """Return the values of a parameter as a list or an array; a single value in a list of one."""
+    """Return the values of a parameter as they are, a list or an array; a single number in a list."""
     return [values] if isinstance(values, float | int | Fraction) or is_uncertain(values) else values
 
 
@@ -237,9 +247,9 @@ def _plain(x: float | Fraction) -> float | Fraction:
 
 
 def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the numbers of `_body` with standard deviations, correlated by the inputs of the options.
+    """Return the numbers of `_body` by name with standard deviations, correlated by the inputs of the options.
 
-    Raises click.UsageError for a tensor.
+    They are numbers of the package uncertainties. Raises click.UsageError for a tensor.
     """
     if "tensor" in options and body.given_tensor(options) is not None:
         raise click.UsageError("a sweep takes no uncertainties of a tensor, whose axes change with its elements: give "
@@ -255,7 +265,7 @@ def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
-    """Return (body, field and start of the options by the names of a table's columns, axes as text).
+    """Return (body, field and start of the options, numbers by the names of a table's columns; axes as text).
 
     Those of a tensor are along its principal axes; the text describes these, "" where they are the axes given.
     """
@@ -283,7 +293,10 @@ def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
 
 
 def _once(names: Sequence[str], source: str) -> None:
-    """Raise click.UsageError for a parameter that is given twice."""
+    """Raise click.UsageError for a parameter that stands twice in `names`.
+
+    `source` says in words where they are given.
+    """
     for name, count in Counter(names).items():
         if count > 1:
             raise click.UsageError(f"{name} is given {count} times, by {source}: give it once.")
@@ -296,7 +309,10 @@ def _options(family: str) -> dict[str, tuple[str, str]]:
 
 
 def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
-    """Return the columns of a CSV list by name, in SI where the heading has units, and the set of those units."""
+    """Return (columns, units) of a CSV list: floats by name, in SI where the heading has units, and these units.
+
+    The units are a set without the register's own. Raises click.UsageError, with the line, for other cells.
+    """
     options = _options(family)
     plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in options.items()}
     columns, units = measured_columns(path, {name: option for name, (option, _) in options.items()}, plain)
@@ -304,9 +320,10 @@ def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
 
 
 def _numbers(name: str, option_name: str, text: str) -> tuple[Typed, ...]:
-    """Return the numbers in the values of a parameter, of a range its two ends, in the units of an option.
+    """Return the numbers in the text of a parameter's values, of a range its two ends, in the units of an option.
 
-    Raises click.UsageError for another text, and for a number without a unit beside one with a unit.
+    `name` is the parameter's. Raises click.UsageError for another text, and for a number without a unit beside one
+    with a unit.
     """
     option = click.Option([f"--{option_name}"])  # which says the unit
     option.opts = [name]
@@ -318,9 +335,10 @@ def _numbers(name: str, option_name: str, text: str) -> tuple[Typed, ...]:
 
 
 def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
-    """Return the values of a parameter: a number, a list of numbers, or an array of START:STOP:COUNT[:log].
+    """Return the values of the parameter `name`: a list of floats, an array of START:STOP:COUNT[:log], or a number.
 
-    `numbers` are those in the text. Raises click.UsageError for a range whose ends have no logarithm.
+    `numbers` are those in the text; the number is one with an uncertainty. Raises click.UsageError for a range
+    whose ends have no logarithm, and for several values with an uncertainty.
     """
     from atlas.sweeps.plan import Range
 

@@ -19,7 +19,8 @@ out_option: Callable[[Any], Any] = click.option(
 def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[str, str]) -> None:
     """Write a table of one motion, its conventions and parameters above the rows, which `atlas check` reads.
 
-    `units` are other names of units. Raises click.UsageError without times, AtlasError for another ending.
+    A row has the motion at one of the times, in doubles. `units` are other names of the register's units. Raises
+    click.UsageError without times, AtlasError for an ending other than .csv, .npz and .parquet.
     """
     from atlas.files import write
     from atlas.notebook.frames import columns_at
@@ -43,7 +44,10 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
 
 
 def parameters_of(motion: Any) -> dict[str, list[str]]:
-    """Return the inputs of a motion by name for a trajectory's head, as lists of shortest decimal texts."""
+    """Return the inputs of a motion by name for a trajectory's head, as lists of shortest decimal texts.
+
+    Of a motion in given axes they are inertia (six numbers of the tensor), field, omega and attitude.
+    """
     if getattr(motion, "is_placed", False):
         J, field, _, omega = motion.given
         moments = [J[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]

@@ -47,7 +47,7 @@ top_options: Callable[[F], F] = stack(
 
 
 def given_otherwise(options: Mapping[str, Any]) -> bool:
-    """Whether the top is given by --heavy, --magnetic or another option that replaces its coefficients."""
+    """Return whether the top is given by --heavy or --magnetic, which replace its coefficients."""
     return bool(given(options, WAYS))
 
 
@@ -67,7 +67,10 @@ def needs_no_way(options: Mapping[str, Any]) -> None:
 
 
 def checks_of_top(options: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
-    """Yield, for each part of a top, the names of its options and the function that reads them, which may raise."""
+    """Yield (names of its options, function that reads them) for each part of a top.
+
+    The functions take no argument, and raise click.UsageError or AtlasError for a fault.
+    """
     yield ("omega", "spin"), lambda: start_of(options)
     if options["direction"] is not None:
         yield ("direction",), lambda: check_direction(*options["direction"])
@@ -82,7 +85,7 @@ def checks_of_top(options: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], C
 
 
 def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the given options of the body and its forces, by name."""
+    """Return the given options of a top's body and its forces, by name; --points as text."""
     names = (*WAYS, *BODY, *SIZES, *OF_HEAVY, *OF_CHARGED)
     return given(options, dict.fromkeys(names)) | ({"points": str(options["points"])} if options["points"] else {})
 
@@ -95,7 +98,10 @@ def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[
 
 
 def chosen_top(options: Mapping[str, Any]) -> Any:
-    """Return the top that --heavy or --magnetic describes. Raises click.UsageError for contradicting options."""
+    """Return the `TopMotion` that --heavy or --magnetic describes, from the command's options by name.
+
+    Raises click.UsageError for contradicting or missing options.
+    """
     if options.get("decimal"):
         raise click.UsageError("--decimal goes with --inertia, --coupling and --direction, not with --heavy or "
                                "--magnetic, from which these are computed.")  # fmt: skip
@@ -111,7 +117,11 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 
 
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
-    """Return the `TopMotion` of a heavy top; `direction` (n2, n3) points upwards, omega has three components."""
+    """Return the `TopMotion` of a heavy top.
+
+    `direction` (n2, n3) points upwards, `omega` has three components in rad/s.
+    Raises click.UsageError without a mass, of --mass or of the points.
+    """
     from atlas.motions.nutation.kernel_top import TopMotion
 
     if options["points"] is None:
@@ -122,7 +132,10 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
 
 
 def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
-    """Return the `TopMotion` of a charged top; with --heavy it is held at a point, with its weight along the field."""
+    """Return the `TopMotion` of a charged top; with --heavy it is held at a point, with its weight along the field.
+
+    `omega` (3,) is the initial angular velocity in rad/s. Raises click.UsageError for --direction without --heavy.
+    """
     from atlas.bodies.body import SymmetricBody
     from atlas.motions.nutation.kernel_top import TopMotion
 
@@ -159,7 +172,11 @@ def _body(options: Mapping[str, Any]) -> Any:
 
 
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
-    """Return the charge moments from --charged, --coat or --points; `length` is the distance of the fixed point."""
+    """Return the `ChargeMoments` from --charged, --coat or --points.
+
+    `length` is the distance of the fixed point from the centre of mass, None for a free body. Raises click.UsageError
+    unless one of them is given.
+    """
     from atlas.bodies.charge import ChargeMoments
 
     one_of(options, "charge", CHARGES)
@@ -176,7 +193,7 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
 
 
 def _points(path: Path) -> Masses:
-    """Return the point masses of a file with charges. Raises click.UsageError for other columns."""
+    """Return the `Masses` of a file of points with charges. Raises click.UsageError without charges."""
     read = point_masses(path)
     if read.charges is None:
         raise click.UsageError(f"{path} must have the columns x, y, z, mass, charge; it has x, y, z, mass.")

@@ -57,7 +57,8 @@ class Typed(float):
     def __new__(cls, text: str, option: str | None = None, place: int = 0) -> Self:
         """Return the number in a text: a decimal, a fraction 2/3, a hexadecimal float 0x1.8p0; or one with a unit.
 
-        Raises ValueError for other text, AtlasError for a unit that does not fit number `place` of the option.
+        A unit is allowed only with an `option`, whose unit the number at `place` has. Raises ValueError for other text,
+        AtlasError for a unit that does not fit, ZeroDivisionError and OverflowError for a number that is none.
         """
         form = NUMBER.fullmatch(text) if len(text) <= LONGEST else None
         unit, exact = "", None
@@ -124,7 +125,7 @@ class TypedRange(NamedTuple):
 
 @dataclass(frozen=True)
 class Steps(Sequence[Typed]):
-    """Numbers of a range, each computed by `number` from its index in `places` when it is read."""
+    """Numbers of a range, each computed by `number` from its index in `places` when it is read; a sequence."""
 
     places: range
     number: Callable[[int], Typed]
@@ -148,7 +149,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         self.place = place
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the typed number, or several for an option of any length. Raises click.UsageError for other text."""
+        """Return the `Typed` number, or several for an option of any length: a tuple, or `Steps` of a range.
+
+        Raises click.UsageError for other text.
+        """
         if param and param.multiple:
             return joined([self._listed(word, param, ctx) for word in re.split(r"[,\s]+", value)])
         return self._single(value, param, ctx)
@@ -283,7 +287,11 @@ def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 
 def exactly(value: Any, options: dict[str, Any]) -> Any:
-    """Return typed numbers for certified classes: doubles, or with --decimal exact fractions."""
+    """Return typed numbers for certified classes: as they are, doubles, or with --decimal exact fractions.
+
+    `value` is a number, or a sequence of numbers, of which a list is returned; `options` are the command's, by
+    name. Raises click.UsageError for a number with pi in its unit.
+    """
     if isinstance(value, tuple | list | Steps):
         return [exactly(item, options) for item in value]
     return value.exactly() if options["decimal"] and isinstance(value, Typed) else value

@@ -14,7 +14,7 @@ FIRST_ORDER = "In brackets one standard deviation, in the last digits; of first 
 
 @dataclass(frozen=True)
 class UncertainAnswer:
-    """Answer of a command, with the standard deviations of its numbers."""
+    """Answer of a command, a nested dict of numbers and texts, and the standard deviations of its numbers."""
 
     answer: dict[str, Any]
     spread: Spread
@@ -36,7 +36,7 @@ class UncertainAnswer:
         return [FIRST_ORDER, *self.spread.notes]
 
     def texts(self) -> Any:
-        """Return the answer with its numbers as texts, 12.57(3): in brackets the uncertainty of the last digits."""
+        """Return the answer, nested as it is, with its numbers as texts, 12.57(3): the error of the last digits."""
         sigma, error = self.spread.sigma, self.spread.error
         return mapped(self.answer, lambda x, place: concise(x, sigma.get(place, 0.0), error.get(place, 0.0)))
 
@@ -60,7 +60,10 @@ class UncertainAnswer:
 
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
-    """Return (option, index in the option, number) for each number with an uncertainty."""
+    """Return (option, index in the option, number) for each number of the options with an uncertainty.
+
+    [] if none has.
+    """
     values = ((name, _typed_numbers(value)) for name, value in options.items())
     return [(name, i, x) for name, numbers in values for i, x in enumerate(numbers) if getattr(x, "sigma", 0.0)]
 
@@ -78,7 +81,10 @@ def _typed_numbers(value: Any) -> tuple[Any, ...]:
 
 
 def _moved_options(options: dict[str, Any], inputs: list[tuple[str, int, Typed]], steps: Any) -> dict[str, Any]:
-    """Return the options with uncertain numbers changed by `steps` standard deviations."""
+    """Return a copy of the options with uncertain numbers changed by `steps` standard deviations.
+
+    There is a step for each of `inputs`, which are those of `uncertain`.
+    """
     new_options = dict(options)
     for (name, i, x), step in zip(inputs, steps, strict=True):
         new, numbers = x.moved(x + step * x.sigma), _typed_numbers(before := new_options[name])

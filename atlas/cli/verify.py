@@ -81,9 +81,10 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
 
 
 def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int:
-    """Print verdicts, as JSON or a table, and on standard error each difference from the record.
+    """Print `Verdict`s, as JSON or a table, and on standard error each difference from the record.
 
-    With `named` the parts of each verdict follow. Returns 1 for a difference, unless they are recorded, else 0.
+    With `named` the parts of each verdict follow. Returns 1 for a difference, unless `record` says that they are
+    recorded, else 0.
     """
     from atlas.trial.proofs.recorded import differs
 
@@ -105,7 +106,10 @@ def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int
 
 
 def _script(verdict: Any) -> int:
-    """Print the script of one entry; return 1 if its verdict differs from the recorded one, else 0."""
+    """Print the SymPy script of one `Verdict`; return 1 if it differs from the recorded one, else 0.
+
+    Raises AtlasError where the entry has no script.
+    """
     from atlas.errors import AtlasError
     from atlas.trial import proofs as proof
 
@@ -117,7 +121,7 @@ def _script(verdict: Any) -> int:
 
 
 def _table(verdicts: Any) -> None:
-    """Print the verdicts as a table with one line each."""
+    """Print `Verdict`s as a table with one line each, the time of a proof in s."""
     heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
     rows = [
         [
@@ -134,7 +138,7 @@ def _table(verdicts: Any) -> None:
 
 
 def _details(verdict: Any, *, named: bool) -> str:
-    """Return the text of a verdict, a line for each part; `named` adds the parts shown for one entry alone."""
+    """Return the text of a `Verdict`, a line for each part; `named` adds the parts shown for one entry alone."""
     from atlas.trial.ledger import EQUATIONS
 
     says = {"says": EQUATIONS[verdict.name].says, "tried from": verdict.follows} if named else {}
@@ -149,13 +153,13 @@ def _details(verdict: Any, *, named: bool) -> str:
 
 
 def _reading(phrase: str, line: str) -> str:
-    """Return a sentence on a phrase of the formula: as which equation it was tried, or that it was supposed."""
+    """Return a sentence on a phrase of a formula, in TeX: as which `line` it was tried, or, for "", supposed."""
     sentence = " ".join(plain(f"${phrase}$").split())
     return f"{sentence}: {f'tried as {line}' if line else 'supposed, or tried in a further line'}"
 
 
 def _proof(verdict: Any) -> list[str]:
-    """Return the sides of a proved form, each on a line, and the command that prints its script."""
+    """Return the lines of both sides of a proved form, none if they are not known, and the command for its script."""
     from atlas.trial import proofs as proof
 
     lines = [f"    {line}" for line in proof.sides_of(verdict.name)]
@@ -166,7 +170,7 @@ def _proof(verdict: Any) -> list[str]:
 
 
 def _totals(verdicts: Any) -> None:
-    """Print the count of each verdict, the time of all trials, and the count of each kind of slip."""
+    """Print the count of each verdict, the time of all trials in s, and the count of each kind of slip."""
     from atlas.trial.proofs.verdict import slips
 
     totals = Counter(verdict.verdict for verdict in verdicts)

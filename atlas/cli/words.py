@@ -73,7 +73,7 @@ def apart(word: str) -> list[str]:
 
 
 def is_number(word: str, *, is_wanted: bool = True) -> bool:
-    """Whether a word is a number and no existing file; a plain number counts even as a file if `is_wanted`."""
+    """Return whether a word is a number and no existing file; a plain number counts even as a file if `is_wanted`."""
     return bool(
         LIKE_A_NUMBER.fullmatch(word) and ((is_wanted and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK))
     )
@@ -82,8 +82,8 @@ def is_number(word: str, *, is_wanted: bool = True) -> bool:
 def check_bare_numbers(options: Mapping[str, Any], settings: Iterable[tuple[str, str, Any]] = ()) -> None:
     """Raise click.UsageError for a length or rate without a unit beside one with a unit, and an angle beside any unit.
 
-    A number 0 needs no unit. `settings` are further numbers: tuples of a name as typed, the name of the option with the
-    same units, and the numbers.
+    `options` are the command's, by name. A number 0 needs no unit. `settings` are further numbers: tuples of a name as
+    typed, the name of the option with the same units, and the numbers.
     """
     typed = ((f"--{name}", name, value) for name, value in options.items())
     numbers = [
@@ -101,7 +101,10 @@ def check_bare_numbers(options: Mapping[str, Any], settings: Iterable[tuple[str,
 
 
 class Words:
-    """Words of a command line: `loose` precede all options, `options` are in the order of typing."""
+    """Words of a command line: the list `loose` precedes all options, `options` are in the order of typing.
+
+    Each of `options` is an `Option` with the words that follow it.
+    """
 
     def __init__(self, words: Sequence[str]) -> None:
         self.loose, self.options = list[str](), list[Option]()
@@ -117,7 +120,7 @@ class Words:
 
     @property
     def names(self) -> set[str]:
-        """Names of the typed options."""
+        """Set of the names of the typed options, with their dashes."""
         return {option.name for option in self.options}
 
     def is_three(self, name: str) -> bool:
@@ -179,13 +182,14 @@ class Command(click.Command):
                     formatter.write_dl(sections[title])
 
     def make_parser(self, ctx: click.Context) -> Any:
-        """Return the parser of this command's words."""
+        """Return the `Reader` that parses this command's words."""
         return Reader(ctx, self.get_params(ctx))
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the words into `ctx.params` and return the remaining ones; with --help nothing else is parsed.
 
-        A field at an angle becomes components, and a free body gets a field of zeros.
+        A field at an angle becomes components, and a free body gets a field of zeros. Raises click.UsageError for
+        words that do not fit, and for numbers with and without a unit beside each other.
         """
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
@@ -210,7 +214,7 @@ class Command(click.Command):
 def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return {"magnetic" or "field": components across and along the axis, "angle": None} from strength and --angle.
 
-    Raises click.UsageError without a strength.
+    `options` are the command's, by name. Raises click.UsageError without a strength.
     """
     name = next((name for name in ("magnetic", "field") if options[name] is not None), "")
     if not name:
@@ -220,13 +224,16 @@ def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def zero_field(options: Mapping[str, Any], size: int) -> dict[str, Any]:
-    """Return {"field": zeros} where a start is given without a field, a free body; else {}."""
+    """Return {"field": `size` zeros} where the options give a start without a field, a free body; else {}."""
     is_free = given(options, START) and not given(options, OF_FIELD)
     return {"field": (Typed("0"),) * size} if is_free else {}
 
 
 class Reader:
-    """Parser of the words of a command, in the place of click's: an option takes the words that follow it."""
+    """Parser of the words of a command, in the place of click's: an option takes the words that follow it.
+
+    It is made from the command's context and its parameters.
+    """
 
     _opt_prefixes = frozenset({"-", "--"})
 
@@ -272,8 +279,8 @@ class Reader:
     def _taken(self, option: Option, param: click.Option, words: Words) -> tuple[Any, list[str]]:
         """Return (value of an option as click's types convert it, words after the value).
 
-        Numbers of any count stay in one text. Raises click.UsageError for an option without a value, and for a flag
-        with one.
+        `words` are all that were typed. Numbers of any count stay in one text. Raises click.UsageError for an
+        option without a value, and for a flag with one.
         """
         if param.is_flag:
             if option.typed != option.name:
@@ -293,7 +300,10 @@ class Reader:
         return list(chain.from_iterable(parts)), []
 
     def _unknown(self, name: str) -> click.UsageError:
-        """Return the error for an option that the command does not have."""
+        """Return the error for an option that the command does not have; it says where the option's work is done.
+
+        `name` has its dashes.
+        """
         bare = name.lstrip("-")
         if bare in ELSEWHERE:
             return click.UsageError(f"there is no option {name}: {ELSEWHERE[bare]}.")
@@ -305,9 +315,11 @@ class Reader:
         return click.NoSuchOption(name, possibilities=get_close_matches(name, shown))
 
     def _vector(self, option: Option, param: click.Option, words_typed: Words) -> tuple[list[str], list[str]]:
-        """Return (components of the option's vector, words after it); only commands with arguments have such words.
+        """Return (texts of the components of the option's vector, words after it).
 
-        Raises click.UsageError for another count of numbers.
+        Only commands with arguments have such words. `words_typed` are all words. A symmetric body's two moments
+        become three, and a strength with --angle counts twice. Raises click.UsageError for another count of
+        numbers.
         """
         components, words = list[str](), list(option.values)
         while words and (

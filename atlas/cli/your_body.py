@@ -31,7 +31,11 @@ FIGURE = "```{figure}"
 def built(
     wanted: "Asked", out: Path, jobs: int | None, formats: Sequence[str] = FORMATS
 ) -> "tuple[Built, dict[str, Any]]":
-    """Write the report of a request, its card and its inputs into a folder; return the build and the card."""
+    """Write the report of a request, its card and its inputs into the folder `out`; return (`Built`, card).
+
+    The card holds a record for each number by key. `jobs` is the number of processes, None for one a core. Raises
+    AtlasError for an object that cannot be, and where a source was edited by the user.
+    """
     from atlas.book.card import ENTRIES
     from atlas.book.your_body import files_of, name_of
 
@@ -41,7 +45,11 @@ def built(
 
 
 def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, formats: Sequence[str]) -> "Built":
-    """Write the sources of a report and build it. Raises AtlasError where a source was edited by the user."""
+    """Write the `sources` of a report, texts by file name, into the folder `out`, build it, and return the `Built`.
+
+    `name` is the report's; `jobs` is the number of processes, None for one a core; `formats` are those of
+    `build_report`. Raises AtlasError where a source was edited by the user.
+    """
     from atlas import processes
 
     file = out / f"{name}.md"
@@ -63,17 +71,20 @@ def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, fo
 
 
 def places_of(built: "Built") -> list[Path]:
-    """Return the places of the files of a report: its page, its PDF, its card and its inputs."""
+    """Return the paths of the files of a report: its page, its PDF, its card and its inputs."""
     return [built.index, built.pdf, *(built.pdf.with_name(built.name + end) for end in (".card.json", ENDING))]
 
 
 class YourBody(ByOptions):
-    """The group of this report, with its name."""
+    """The group of the report your_body, named "atlas report your_body" in messages."""
 
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """Return click's context of "atlas report your_body", the name that messages have."""
+        """Return click's context of "atlas report your_body", the name that messages have.
+
+        The parameters are click's.
+        """
         return super().make_context(f"{info_name} {NAME}", args, parent, **extra)
 
     def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -100,6 +111,8 @@ OPTIONS["from"] = click.Option(["--from"])
 def words_of(name: str, value: Any, unit: str = "") -> list[str]:
     """Return ["--name", word, ...] of a value: a text, a number or several; `unit` is put to numbers without one.
 
+    The `name` may have _ for - and lack its dashes.
+
     Raises
     ------
     AtlasError
@@ -116,7 +129,10 @@ def words_of(name: str, value: Any, unit: str = "") -> list[str]:
 
 
 def inputs() -> Iterator[dict[str, Any]]:
-    """Yield a dict for each option of a body or its report, with the keys of an input that a report declares."""
+    """Yield a dict for each option of a body: name, kind, help, unit, range, choices, count and default.
+
+    They are those of the inputs of a report, see `atlas.book.inputs.Input`.
+    """
     kinds = {click.types.Choice: "choice", click.types.IntRange: "integer", click.types.BoolParamType: "truth"}
     for param in PARAMS:
         if not isinstance(param, click.Option) or param.hidden:
@@ -198,7 +214,10 @@ def make(request: "tuple[Asked, dict[str, Any]]") -> int:
 
 
 def told(wanted: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
-    """Write the report of a request in these formats, print its files' paths; return 1 if a figure failed, else 0."""
+    """Write the report of a request in these formats, print its files' paths; return 1 if a figure failed, else 0.
+
+    `options` are the command's, by name, of which folder, processes and --explain are used.
+    """
     report, _ = built(wanted, options["out"], options["jobs"], formats)
     places = places_of(report)
     for place in [report.single, *places[1:]] if "single" in formats else places:

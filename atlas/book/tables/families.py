@@ -12,7 +12,7 @@ Row = tuple[str, str, str, str, str]
 
 
 def quantities() -> Data:
-    """Return the table, a `Data`, of parameters and quantities of all families: unit, equation, promised error."""
+    """Return the table of parameters and quantities of all families: unit, equation, promised error."""
     rows = []
     for family in FAMILIES.values():
         for place, row in enumerate(_rows(family)):
@@ -54,7 +54,7 @@ def _promise(family: Family, checked: str) -> str:
 
 
 def targets() -> Data:
-    """Return the table, a `Data`, of the targets of figures: sizes in mm, type and lines in pt, resolution in dpi.
+    """Return the table of the targets of figures: sizes in mm, type and lines in pt, resolution in dpi.
 
     Notes below it have the publishers' rules.
     """
@@ -79,7 +79,7 @@ def _sizes(target: Target) -> tuple[str, ...]:
 
 
 def roles() -> Data:
-    """Return the table, a `Data`, of the roles of layers: colour, width, dashes and marker in pt.
+    """Return the table of the roles of layers: colour, width, dashes and marker in pt.
 
     Roles of equal look share a row. A setting of Matplotlib stands in the place of a value that a style sheet sets.
     """

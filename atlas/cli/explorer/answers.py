@@ -28,7 +28,10 @@ FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
 
 
 def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
-    """Return the values of all sliders by name, by default their starts. Raises AtlasError for other text."""
+    """Return the values of all sliders by name: `typed` texts by name as floats, else the sliders' starts.
+
+    Raises AtlasError for a name that has no slider, and for a text that is no finite number.
+    """
     known = {slider.name: slider for slider in subject.sliders}
     values = {name: slider.start for name, slider in known.items()}
     for name, text in typed.items():
@@ -46,8 +49,9 @@ def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
 def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dict[str, Any]:
     """Return the answer to the page as a dict: "scene", "size", "alt", "numbers" and "command".
 
-    "scene" is None for a picture that is not in space; "numbers" is empty for recipes. The numbers are certified if
-    `proven`, else doubles.
+    `values` are those of the sliders by name. "scene" is None for a picture that is not in space; "size" is in
+    millimetres; "numbers" is a list of dicts of texts, empty for recipes. The numbers are certified if `proven`, else
+    doubles.
     """
     with DRAWING:
         from atlas.pictures.drawing import viewer
@@ -60,7 +64,10 @@ def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dic
 
 
 def turning(scene: Scene) -> Scene:
-    """Return a scene with only its panels in space, without titles; the height is that of the remaining rows."""
+    """Return a scene with only its panels in space, without titles; the height is that of the remaining rows.
+
+    The scene must have such a panel.
+    """
     panels = tuple(replace(panel, title="") for panel in scene.panels if isinstance(panel, Space))
     columns, rows = min(scene.columns, len(panels)), -(-len(scene.panels) // scene.columns)
     width, height = scene.size
@@ -69,7 +76,7 @@ def turning(scene: Scene) -> Scene:
 
 
 def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
-    """Return the picture as the bytes of a file of this kind, such as "svg"."""
+    """Return the picture of a subject, at the sliders' `values` by name, as bytes of a file "svg", "pdf" or "png"."""
     from atlas.pictures.drawing import save
 
     with DRAWING, TemporaryDirectory() as folder:
@@ -81,7 +88,8 @@ def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
 def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
     """Yield for each quantity a dict of texts: name, says, value, sure (its certainty) and unit.
 
-    Values come from balls where `proven` and available, else from doubles; "none", with the reason, for DomainError.
+    Values come from balls where `proven` and available, else from doubles; a slow one is "" in doubles. The value is
+    "none", with the reason in "sure", where the quantity is not defined.
     """
     family, kernels = subject.family, subject.kernels(values)
     case = family.case(kernels)
@@ -128,7 +136,7 @@ def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
 
 
 def _joined(q: Quantity, value: Any) -> str:
-    """Return the values of a quantity as one text, "none" for None; lines are separated by semicolons."""
+    """Return the values of a quantity, texts, as one text, "none" for None; lines are separated by semicolons."""
     if value is None:
         return "none"
     return "; ".join(map(str, map(q.text, value))) if q.lines else str(q.text(value))

@@ -88,7 +88,7 @@ class Explorer(ThreadingHTTPServer):
         return bool(used)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Report an error of a request as the standard library does; ignore a closed connection."""
+        """Print an error of a request as the standard library does; ignore a closed connection."""
         import sys
 
         if not isinstance(sys.exception(), ConnectionError):
@@ -96,7 +96,10 @@ class Explorer(ThreadingHTTPServer):
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Handler of one request: refused unless it comes from this page on this machine."""
+    """Handler of one request to the `Explorer`: refused unless it comes from this page on this machine.
+
+    `timeout` is in seconds.
+    """
 
     protocol_version, disable_nagle_algorithm = "HTTP/1.1", True
     timeout = 20  # seconds for which a connection may say nothing, half a request as well
@@ -146,7 +149,10 @@ class Handler(BaseHTTPRequestHandler):
         return "" if self.server.admits(folder) else CLOSED
 
     def _content(self, place: str, query: dict[str, str]) -> Content | None:
-        """Return (content, type) at a path, None for an unknown path. Raises AtlasError for values with no picture."""
+        """Return (content as bytes, media type) at a path, None for an unknown path.
+
+        `query` holds the texts after "?" by name. Raises AtlasError for values with no picture.
+        """
         if place in PAGES:
             name, kind = PAGES[place]
             return _page(name), kind
@@ -172,13 +178,19 @@ def _same(one: str, other: str) -> bool:
 
 
 def _requested_subject(server: Explorer, query: dict[str, str]) -> Subject:
-    """Return the subject named in a query: the explorer's start, which may be a file, or a listed family or figure."""
+    """Return the subject named in a query: the explorer's start, which may be a file, or a listed family or figure.
+
+    The name is taken out of `query`. Raises AtlasError for an unknown name.
+    """
     name = query.pop("subject", "")
     return subject_or_file(name) if name == server.start else subject(name)
 
 
 def _page(name: str) -> bytes:
-    """Return the bytes of a file of the page; the style sheet is that of the reports, without fonts."""
+    """Return the bytes of a file of the page, `name` in templates/html.
+
+    The style sheet is the reports', without fonts.
+    """
     from atlas.book.templates import templates
     from atlas.pictures.style import STYLES
 

@@ -30,7 +30,7 @@ class OfFamily:
 
     @property
     def title(self) -> str:
-        """Title of the subject."""
+        """Description of the family in words."""
         return self.family.says
 
     @property
@@ -44,7 +44,10 @@ class OfFamily:
         return sliders_of(self.family)
 
     def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
-        """Return the arguments of the class by name, vectors as tuples."""
+        """Return the arguments of the family's class by name, vectors as tuples, from the sliders' `values` by name.
+
+        A parameter without a slider has the value that stands for it when left out.
+        """
         known: dict[str, Any] = {}
         for p in self.family.parameters:
             components = tuple(values[name] if p.default else p.omitted for name in p.names)
@@ -52,11 +55,14 @@ class OfFamily:
         return known
 
     def kernels(self, values: Mapping[str, float]) -> Any:
-        """Return the motion or surface in doubles at the sliders' values, cached for the next request."""
+        """Return the motion or surface in doubles at the sliders' values by name; the last one is cached."""
         return _instance(self.family.kernels(), tuple(self.arguments(values).values()))
 
     def scene(self, values: Mapping[str, float]) -> Scene:
-        """Return the `Scene`: the body at the time t with its trace for families with R(t), else the first figure."""
+        """Return the `Scene`: the body at the time t with its trace for families with R(t), else the first figure.
+
+        `values` are those of the sliders by name; the trace covers the last period before t, from 0 on.
+        """
         arguments = self.arguments(values)
         if self.moves:
             from atlas.pictures import any_motion
@@ -67,7 +73,10 @@ class OfFamily:
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
 
     def command(self, values: Mapping[str, float]) -> str:
-        """Return the command line of the same numbers, as text; --times is added only if the family has R."""
+        """Return the command line of the same numbers, as text; --times is added only if the family has R.
+
+        `values` are those of the sliders by name.
+        """
         arguments, words = self.arguments(values), ["atlas", *self.family.words]
         for p in self.family.parameters:
             value = arguments[p.name]
@@ -126,11 +135,11 @@ class OfRecipe:
         return parameters
 
     def scene(self, values: Mapping[str, float]) -> Scene:
-        """Return the scene of the figure."""
+        """Return the `Scene` of the figure at the sliders' values by name."""
         return self.recipe.scene(**self.parameters(values))
 
     def command(self, values: Mapping[str, float]) -> str:
-        """Return the command line that draws the same figure, as text."""
+        """Return the command line "atlas figure ..." that draws the same figure, as text, from the sliders' values."""
         from atlas.pictures.parameters import typed
 
         settings = [f"{key}={typed(value)}" for key, value in self.parameters(values).items()]
@@ -151,9 +160,10 @@ def _instance(kernels: Any, arguments: tuple[Any, ...]) -> Any:
 
 
 def subject(name: str) -> Subject:
-    """Return the family or the recipe of a name; figure:NAME is the recipe where a family has the same name.
+    """Return the family or the recipe of a name, an `OfFamily` or `OfRecipe`.
 
-    A name is never a path. Raises AtlasError for an unknown name.
+    figure:NAME is the recipe where a family has the same name. A name is never a path. Raises AtlasError for an unknown
+    name.
     """
     if name in FAMILIES:
         return OfFamily(FAMILIES[name])
@@ -168,7 +178,7 @@ def subject(name: str) -> Subject:
 
 
 def subject_or_file(name: str) -> Subject:
-    """Return the subject of a name, or of a user's recipe file NAME.py."""
+    """Return the subject of a name, or of a user's recipe file NAME.py. Raises AtlasError if there is none."""
     return OfRecipe(recipes.load(name)) if name.endswith(".py") else subject(name)
 
 
