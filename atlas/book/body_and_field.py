@@ -144,7 +144,8 @@ class BodyAndField:
 def body(record: Body) -> SymmetricBody:
     """Return the `SymmetricBody` of a record, from its ratio, its moments, or its shape and dimensions.
 
-    Raises AtlasError unless exactly one of these is given, and for dimensions that the shape lacks or does not have.
+    Raises AtlasError unless exactly one of ratio, inertia and shape is given, for an unknown shape, for dimensions
+    without a shape, and for dimensions that the shape lacks or does not have.
     """
     keys = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
     if len(keys) != 1:

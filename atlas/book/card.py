@@ -58,7 +58,7 @@ def has_card(family: Family) -> bool:
 def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
     """Return the numbers of the card that this motion has, in doubles, by key; `arguments` are the family's inputs.
 
-    Frequencies are in rad/time, angles in rad. A number that the motion does not have is left out.
+    Rates are in rad/time, times in time, angles in rad. A number that the motion does not have is left out.
     """
     motion = family.kernels()(*arguments.values())
     found = {one.key: _in_doubles(one.key, family, motion, arguments)[0] for one in ENTRIES}
@@ -232,17 +232,17 @@ class Balls:
 
     @staticmethod
     def ball(x: Any) -> Any:
-        """Return an int, a Fraction or a ball as a ball."""
+        """Return an int, a Fraction or a ball as a ball, at the current precision."""
         from flint import arb, fmpq
 
         return arb(fmpq(x.numerator, x.denominator)) if isinstance(x, Fraction | int) else arb(x)
 
     def sqrt(self, x: Any) -> Any:
-        """Return the square root of a ball or an exact fraction."""
+        """Return the square root of a ball or an exact fraction as a ball, without digits for a negative number."""
         return self.ball(x).sqrt()
 
     def atan2(self, y: Any, x: Any) -> Any:
-        """Return the angle of the point (x, y) in rad, as a ball."""
+        """Return the angle of the point (x, y) in (-pi, pi] rad, as a ball."""
         return self.ball(y).atan2(self.ball(y), self.ball(x))
 
 
@@ -289,7 +289,10 @@ def significant(text: str) -> int:
 
 
 def _unit(unit: str, time: str) -> str:
-    """Return a unit of the register, such as "1/time", with "time" replaced by the inputs' unit of time."""
+    """Return a unit of the register, such as "1/time", with "time" replaced by the inputs' unit of time, `time`.
+
+    A unit of rates, "1/s", counts as s.
+    """
     return unit.replace("time", "s" if time in {"s", "1/s"} else time)
 
 

@@ -83,7 +83,7 @@ def compose(
 def _pages_of(report: Report) -> dict[str, str]:
     """Return the slug of the page with the ledger entry, by the entry's name, for all ledger blocks of the report.
 
-    Raises AtlasError for a ledger block of an unknown section.
+    {} without such blocks. Raises AtlasError for a ledger block of an unknown section.
     """
     pages: dict[str, str] = {}
     for page in report.pages:
@@ -97,7 +97,10 @@ def _pages_of(report: Report) -> dict[str, str]:
 
 
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
-    """Yield the view of each block of a page, or its shorter view if `outline`. An AtlasError names the block."""
+    """Yield the view of each block of a page; if `outline`, that of its kind's `outline`, None, where it has one.
+
+    An AtlasError of a block is raised again with the block's place in the file.
+    """
     for place, block in enumerate(page.blocks):
         composer.place, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
         try:

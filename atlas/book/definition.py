@@ -43,7 +43,7 @@ class Page(StrictStruct, frozen=True):
 
 
 class Symbol(StrictStruct, frozen=True):
-    """A symbol of the index: its TeX, and the equations, figures, tables or pages where it is explained."""
+    """A symbol of the index: its TeX, and names of the equations, figures, tables or pages where it is explained."""
 
     tex: str
     at: tuple[str, ...]

@@ -124,7 +124,7 @@ class Document:
             self.written = dict(zip(targets, texts, strict=True))
 
     def cite(self, target: Target) -> Callable[[str, str], Link]:
-        """Return the function (name, place) -> `Link` that resolves citations for a target.
+        """Return the function (name, place) -> `Link` that resolves citations for a target, "html", "typst" or "latex".
 
         Names are looked up in this report, in the related ones, in the ledger and in the bibliography. The function
         raises AtlasError, which begins with `place`, for an unknown name.
@@ -150,7 +150,10 @@ class Document:
         return link
 
     def from_beside(self, name: str) -> Link | None:
-        """Return the `Link` with which another report cites a name of this one; None if the name is not here."""
+        """Return the `Link` with which another report cites a name of this one; None if the name is not here.
+
+        "report:NAME" leads to this report's first page, "page:gallery" to its gallery.
+        """
         folder, title = f"../{self.report.name}", self.report.title
         if name == f"report:{self.report.name}":
             return Link(title, f"{folder}/index.html", "page-index")

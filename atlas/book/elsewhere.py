@@ -48,7 +48,10 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
 
 
 def opposite(B: float, omega: float) -> float:
-    """Return -2 B - omega, computed from the shortest decimals of both and rounded to 15 digits."""
+    """Return -2 B - omega, the component of the paired motion's angular velocity, in the unit of both.
+
+    It is computed from the shortest decimals of both and rounded to 15 digits.
+    """
     return float(f"{-2 * Decimal(repr(float(B))) - Decimal(repr(float(omega))):.15g}")
 
 

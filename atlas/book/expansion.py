@@ -134,7 +134,10 @@ def line_of(error: BaseException) -> int:
 
 
 def sandbox() -> Any:
-    """Return the Jinja environment of templates, which marks each line by its number."""
+    """Return the Jinja environment of templates, with the tags <$ $>, <% %> and <# #>.
+
+    It marks each line of text by a private character for its number, and refuses unsafe attributes and unknown names.
+    """
     from jinja2 import StrictUndefined
     from jinja2.ext import Extension
     from jinja2.lexer import Token, TokenStream
@@ -160,7 +163,10 @@ def sandbox() -> Any:
 
 
 def main() -> None:
-    """Read a request for `fill`, JSON on standard input, and write the answer, within limits of time and memory."""
+    """Read a request for `fill`, JSON on standard input, and write the answer as JSON on standard output.
+
+    The process is ended beyond the limits of time and memory.
+    """
     resource.setrlimit(resource.RLIMIT_CPU, (MAX_SECONDS, MAX_SECONDS))
     resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
     sys.stdout.write(json.dumps(fill(**json.loads(sys.stdin.read()))))

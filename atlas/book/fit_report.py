@@ -85,7 +85,7 @@ class Fitted:
 
     @property
     def _file(self) -> str:
-        """Name of the data file, without characters of Markdown."""
+        """Name of the data file, without folders; characters that Markdown would read are replaced by _."""
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
     def sources(self) -> dict[str, str]:
@@ -171,7 +171,7 @@ class Fitted:
         ]
 
     def _recipe(self) -> str:
-        """Return the source of a recipe that fits the data again and draws data, curve and residuals."""
+        """Return the Python source of a recipe that fits the data again and draws data, curve and residuals."""
         return "\n".join(
             [
                 f'"""Data, fitted motion and residuals, of data with the digest {self.digest}."""', "",

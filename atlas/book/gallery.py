@@ -35,7 +35,7 @@ class Plate:
 
     @property
     def python(self) -> str:
-        """Source of the call of `atlas.figure` that draws the figure, with its parameters."""
+        """Python source of the call of `atlas.figure` that draws the figure; parameters that are None are left out."""
         settings = (f", {key}={value!r}" for key, value in self.picture.parameters.items() if value is not None)
         return f'atlas.figure("{self.picture.called}"{"".join(settings)})'
 
@@ -54,7 +54,7 @@ class GalleryView:
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
-        """Pictures of all plates; the page loads their scripts."""
+        """Pictures of all plates, in order; the page loads their scripts."""
         return tuple(plate.picture for plate in self.plates)
 
 

@@ -87,7 +87,10 @@ def whole(text: str) -> str:
 
 
 def anchored(page: str) -> str:
-    """Return a page's HTML in which each heading h2 and h3 has an anchor made of its words, and a link to it."""
+    """Return a page's HTML in which each heading h2 and h3 has an anchor made of its words, and a link to it.
+
+    An anchor that the page has already gets a number.
+    """
     counts: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
 
     def heading(match: re.Match[str]) -> str:
@@ -136,7 +139,10 @@ def cards(document: Document) -> list[Card]:
 
 
 def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
-    """Return a detail of a PNG, on white, as the bytes of a WebP of `CARD` pixels: `cut` has its centre and zoom."""
+    """Return a detail of a PNG, on white, as the bytes of a WebP of 400 by 250 pixels.
+
+    `cut` has its centre and zoom.
+    """
     from PIL import Image
 
     with Image.open(BytesIO(png)) as picture:
@@ -224,7 +230,7 @@ def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
 
 
 def _words(html: str) -> str:
-    """Return the plain words of HTML, formulas as one line of text."""
+    """Return the plain words of a piece of HTML as one line of text, formulas as `linear` writes them."""
     html = re.sub(r'<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
     html = re.sub(r"<math.*?</math>", lambda matched: escaped(linear(matched[0])), html, flags=re.DOTALL)
     return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))

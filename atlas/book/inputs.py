@@ -150,7 +150,7 @@ def number(declaration: Input, text: str) -> float:
 
 
 def text_of(value: Any) -> str:
-    """Return a default as the text that would be typed for it."""
+    """Return an input's value or default as the text that would be typed for it: "1,2" for a list, "true" for True."""
     if isinstance(value, list):
         return ",".join(map(text_of, value))
     return str(value).lower() if isinstance(value, bool) else str(value)
@@ -170,7 +170,10 @@ def digest(values: Mapping[str, Any]) -> str:
 
 
 def name_of(path: Path, values: Mapping[str, Any]) -> str:
-    """Return the report's name: that of its file, with "-" and the digest of the values unless all are defaults."""
+    """Return the report's name: that of its file, with "-" and the digest of the values unless all are defaults.
+
+    `values` are those of all inputs, by name.
+    """
     inputs = declared(path)
     defaults = {name: read(one, text_of(one.default)) for name, one in inputs.items() if one.default is not None}
     return path.stem if dict(values) == defaults else f"{path.stem}-{digest(values)}"

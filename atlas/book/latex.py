@@ -203,7 +203,7 @@ def _block(name: str, block: Any, texts: Sequence[str]) -> str:
 
 
 def _in_lines(tex: str) -> str:
-    """Return a formula for a column, broken at its wide spaces; unchanged without any."""
+    r"""Return a formula in TeX for a column, broken at each \qquad; unchanged without any, and with a \begin."""
     if r"\begin" in tex or r"\qquad" not in tex:
         return tex
     return r"\begin{gathered}" + r" \\ ".join(tex.split(r"\qquad")) + r"\end{gathered}"
@@ -311,7 +311,7 @@ def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
 def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
     """Yield for each column its fraction of the page's width if it has long words and the table is too wide; else 0.
 
-    `letters` are the widths of the columns in letters.
+    `formats` are the column types, "l" for words; `letters` are the widths of the columns in letters.
     """
     long = [place for place, count in enumerate(letters) if count > MAX_CELL_LETTERS and formats[place] == "l"]
     remaining = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)

@@ -60,7 +60,7 @@ class Piece:
 
 
 def split(text: str) -> tuple[Piece, Iterator[Piece]]:
-    """Return the head of a report, and an iterator over the pieces below it.
+    """Return (head of a report in Markdown, iterator over the pieces below), all of them `Piece`s.
 
     Raises LineError for a head or block that does not end.
     """
@@ -109,7 +109,7 @@ def _end(lines: list[str], opening: int, fence: str) -> int:
 
 
 def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
-    """Return (values of a Markdown report in the form of TOML, its pieces).
+    """Return (values of a Markdown report, a dict as that of a report in TOML; its pieces).
 
     Keys of the pieces are () for the head, (page,) and (page, block), from 0. Raises LineError for a mistake.
     """

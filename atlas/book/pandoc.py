@@ -96,7 +96,7 @@ def api() -> list[int]:
 
 
 def run(arguments: Sequence[str], source: str) -> str:
-    """Return pandoc's standard output for `source`.
+    """Return pandoc's standard output for the text `source`; `arguments` are options of its command.
 
     Raises FormulaError for an unreadable formula, and AtlasError for any other warning and for too much time or memory.
     """
@@ -130,7 +130,10 @@ def _program() -> str:
 
 
 def _reason(message: str) -> str:
-    """Return the reason why pandoc refused a formula: it breaks off, or the unexpected token, as a clause."""
+    """Return the reason why pandoc refused a formula, a clause: "it breaks off", "unexpected ...
+
+    At ...", "it is no TeX".
+    """
     matched = re.search(r"^(.*)\n( *)\^\nunexpected (.+)$", message, re.MULTILINE)
     if matched is None:
         return "it is no TeX"
@@ -179,7 +182,10 @@ _FACTORS = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 
 
 def mend_all(html: str) -> str:
-    """Return HTML with corrected formulas, each kept on one line with adjacent commas, brackets and units."""
+    """Return HTML whose formulas are corrected by `mend`.
+
+    An inline one stays on one line with adjacent commas or units.
+    """
 
     def together(match: re.Match[str]) -> str:
         before, formula, sign = match[1], mend(match[2]), match[3]
@@ -254,7 +260,10 @@ def _space_functions(parent: ET.Element) -> None:
 
 
 def _is_function(element: ET.Element) -> bool:
-    """Whether an element is a function's name; pandoc marks it, except inside growing brackets."""
+    """Return whether an element is a function's name, also with an index or power.
+
+    pandoc marks such names, except inside growing brackets.
+    """
     while element.tag in {"msup", "msub"} or (
         element.tag == "mrow" and len(element) == 2 and element[1].text == _APPLY
     ):

@@ -77,7 +77,7 @@ class Asked:
 
     @property
     def exact_values(self) -> dict[str, Any]:
-        """Parameters by name, with fractions in the place of floats that would be rounded."""
+        """Parameters by name, with fractions as text in the place of floats that would be rounded."""
         return {**self.values, **self.exact}
 
     @property
@@ -88,7 +88,10 @@ class Asked:
         return shlex.join(["atlas", "report", "your_body", *self.words])
 
     def changed(self, family: str, **options: Any) -> "Asked":
-        """Return the request for a neighbouring object; an option with value None is removed."""
+        """Return the request of a family for a neighbouring object, without title and file name.
+
+        `options` are values of options by name, numbers or tuples; one with the value None is removed.
+        """
         new = {name: _texts(value) for name, value in options.items() if value is not None}
         kept_options = {
             name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
@@ -150,13 +153,13 @@ def edited(file: str) -> bool:
 
 
 def setting_of(request: Asked) -> Iterator[dict[str, Any]]:
-    """Yield a table block of the body and the field B, if the request has a field given by B; otherwise nothing."""
+    """Yield a table block, a dict, of the body and the field B, if the request has a field given by B; else nothing."""
     if request.field and "B" in request.field:
         yield {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 
 
 def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
-    """Yield a listing block of standard deviations, if inputs have uncertainties; otherwise nothing."""
+    """Yield a listing block, a dict, of standard deviations, if inputs have uncertainties; otherwise nothing."""
     if request.deviations:
         yield {
             "kind": "listing", "id": "deviations",
@@ -206,7 +209,7 @@ def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any])
 def too_slow(motion: Any, time: str) -> Iterator[str]:
     """Yield at most one sentence, on a precession or nutation too small to be seen in a figure of some periods.
 
-    `time` is the unit of time of the request.
+    `time` is the unit of time of the request. Nothing for a motion without a period.
     """
     from atlas.pictures.any_motion import slow_turn
     from atlas.pictures.captions import lasting
@@ -277,7 +280,7 @@ def case_of(request: Asked) -> Any:
 def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the table block of the nearest closed motions; if they can't be computed add the reason to ``left_out``.
 
-    Nothing is yielded for a family without phi or precession per period.
+    Nothing is yielded for a family that has neither phi nor a precession per period.
     """
     if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
         block = table_of(request, "closed", request.family.name, request.exact_values)

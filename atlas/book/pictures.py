@@ -38,7 +38,7 @@ def pictures(report: Report) -> dict[str, Picture]:
 
 
 def keys(block: Figure, report: Report) -> list[str]:
-    """Return the keys of a figure block's pictures; equal recipe, parameters and renderer give equal keys."""
+    """Return the keys of a figure block's pictures, texts; equal recipe, parameters and renderer give equal keys."""
     return [name for name, _ in _pictures_of_block(block, report)]
 
 
@@ -54,9 +54,9 @@ def on_cards(report: Report) -> set[str]:
 
 
 def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
-    """Yield (key, `Picture`) of a figure block: two with the renderer "both", else one.
+    """Yield (key, `Picture`) of a figure block: two with the renderer "both", else one; their `stem` is still "".
 
-    Raises AtlasError for a parameter that the recipe lacks.
+    Raises AtlasError for an unknown recipe, and for a parameter that the recipe lacks.
     """
     recipe, failure = _recipe(block.recipe)
     parameters = _parameters(block, recipe, report)

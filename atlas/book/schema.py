@@ -157,7 +157,10 @@ def _faults_of_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, k
 
 
 def _fits(raw: Any, kind: inspect.Type) -> bool:
-    """Return whether a number, boolean or text has the type and lies within the limits or pattern of `kind`."""
+    """Return whether a number, boolean or text has the type and lies within the limits or pattern of `kind`.
+
+    False for any other type.
+    """
     match kind:
         case inspect.FloatType():
             number = isinstance(raw, int | float) and not isinstance(raw, bool) and math.isfinite(raw)

@@ -155,7 +155,8 @@ def _rows(first: Card, second: Card) -> Iterator[list[str]]:
 def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
     """Return the second card's number less the first's, without its unit, as Markdown, to the digits that both have.
 
-    A dash stands where the units differ or a number is missing.
+    `a` and `b` are records of the cards. Standard deviations are added in squares. An en dash stands where the units
+    differ or a number is missing, "0" where the digits are equal.
     """
     if a["value"] is None or b["value"] is None or a["unit"] != b["unit"]:
         return "\N{EN DASH}"

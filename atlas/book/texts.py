@@ -41,9 +41,10 @@ _FORMULA = re.compile(r"((?<!\\)\$(?=\S)[^$]+(?<=\S)\$(?!\d))")
 
 
 class Link(NamedTuple):
-    """Words of a citation, the page (none in the PDF) and anchor that they lead to, and a summary of the target.
+    """A citation resolved: words to show, the page ("" in the PDF) and the anchor that they lead to.
 
-    `says` is that summary; `bracketed` are the words in brackets if a work is cited, else "".
+    `says` is a summary of the target, shown on hovering, or ""; `bracketed` are the words in brackets if a work is
+    cited, else "".
     """
 
     words: str
@@ -178,7 +179,10 @@ def citations(markdown: str) -> list[str]:
 
 
 def _braced(markdown: str) -> str:
-    """Return Markdown with ``@(72)`` as pandoc reads citations: braces about a name that is no word."""
+    """Return Markdown in which ``@(72)`` is written as pandoc reads citations, ``@{(72)}``.
+
+    Other names stay as they are.
+    """
     return _CITED.sub(
         lambda matched: f"@{{{matched[1]}}}" if (matched[1] or "").startswith("(") else matched[0], markdown
     )

@@ -30,7 +30,10 @@ def stands(ratio: float) -> str:
 
 
 def verdict(item: Thing) -> str:
-    """Return words on the kind of an object's motion and, where known, its stability against small nutations."""
+    """Return words on the kind of an object's motion and, where known, its stability against small nutations.
+
+    For an object without a start they say that all motions are shown.
+    """
     family, motion = item.family, item.kernels()
     if not family.sampled:
         return "no start was given, so that all motions are shown and none is followed"
@@ -58,7 +61,10 @@ def has_mean_rates(item: Thing) -> bool:
 
 
 def is_stable(item: Thing) -> bool | None:
-    """Return whether a motion whose axis keeps its angle is stable against small nutations; None where undecided."""
+    """Return whether a motion whose axis keeps its angle is stable against small nutations.
+
+    None where this is undecided, and for a motion whose axis nods.
+    """
     family, motion = item.family, item.kernels()
     if family.takes("coupling"):
         return getattr(motion, "stable", None)

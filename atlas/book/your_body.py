@@ -115,7 +115,7 @@ def shape_of(request: Asked) -> dict[str, Any] | None:
 def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
     """Return the parameters of the figures on all motions of the body, by recipe; {} without a body or field.
 
-    Each value is a dict of the recipe's parameters by name.
+    Each value is a dict of the recipe's parameters by name, empty where the report's body and field suffice.
     """
     if not request.body:
         return {}

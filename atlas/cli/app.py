@@ -187,7 +187,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def explained(error: click.ClickException) -> str:
-    """Return the message of an error as one line.
+    """Return the message of an error of click as one line.
 
     To an error of click's own parser the help of a missing option and "see `COMMAND --help`" are added.
     """

@@ -266,7 +266,7 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> st
 
 
 def as_typed(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the options; with --decimal the typed numbers of the body, the field and the start are fractions.
+    """Return the options by name; with --decimal the typed numbers of the body, the field and the start are fractions.
 
     Raises click.UsageError for --decimal with numbers that are computed from others in doubles.
     """
@@ -340,9 +340,10 @@ def units_of(options: Mapping[str, Any]) -> dict[str, str]:
 
 
 def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> Fraction:
-    """Return mu, not rounded, from --mu, --mass and --charge, or --points; `needs` names the option that requires it.
+    """Return mu, not rounded, from --mu, --mass and --charge, or --points.
 
-    Raises click.UsageError where none of them or several are given.
+    `options` are the command's, by name; `needs` names the option that requires mu, for the message. Raises
+    click.UsageError where none of them or several are given.
     """
     from atlas.arithmetic.inputs import finite
     from atlas.bodies.units import charge_to_mass
@@ -430,7 +431,11 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
 
 
 def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
-    """Return (largest speed of a charge, its time), at t = 0 and its times, without gyration, in the typed units."""
+    """Return (largest speed of a charge, its time) among t = 0 and the times of --times, in the typed units.
+
+    Gyration is left out: the speed is that of the initial velocity and of the acceleration by E along B, or by E
+    without B.
+    """
     velocity, E, B = ([*map(float, options[name] or (0, 0, 0))] for name in ("velocity", "electric", "magnetic"))
     square = hypot(*B) ** 2
     pull = sum(x * y for x, y in zip(E, B, strict=True)) / square if square else 0.0

@@ -85,9 +85,9 @@ def one_line(_context: click.Context, _param: click.Parameter, text: str | None)
 
 
 def in_order(_context: click.Context, _param: click.Parameter, text: str) -> str:
-    """Return the names of parts, separated by commas, in the report's order; "" if all are named or none.
+    """Return the names of parts in `text`, separated by commas, in the report's order; "" if all are named or none.
 
-    Raises click.UsageError for an unknown name.
+    A callback of click's option --only. Raises click.UsageError for an unknown name.
     """
     chosen = text.split(",") if text else []
     for name in chosen:
@@ -270,10 +270,16 @@ def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict
 
 
 class ByOptions(click.Group):
-    """A group that finds the command by the options, where none is named; they may come from a file of inputs."""
+    """A group that finds the command by the options, where none is named.
+
+    The options may come from a file of inputs.
+    """
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the options of all motions, under a title each, and the commands of other objects."""
+        """Write the options of all motions, under a title each, and the commands of other objects, for the help.
+
+        `formatter` is click's.
+        """
         any_motion("motion", {name: COMMANDS[name] for name in MOTIONS}).format_options(ctx, formatter)
         self.format_commands(ctx, formatter)
 
@@ -307,7 +313,7 @@ class ByOptions(click.Group):
 
 
 def typed_in(option: str, file: str = "") -> tuple[str, list[str]]:
-    """Return the text of a file of inputs and the words of a command in it; `file` is a path or a name in the gallery.
+    """Return (text of a file of inputs, words of the command in it); `file` is a path or a name in the gallery.
 
     Raises
     ------
@@ -473,7 +479,10 @@ def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[st
 
 
 def file_name(options: dict[str, Any]) -> str:
-    """Return the files' name from --name, or "". Raises click.UsageError for other characters."""
+    """Return the files' name from --name of the command's options, "" for none.
+
+    Raises click.UsageError for characters other than letters, digits and . + - _.
+    """
     if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
         raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
     return called

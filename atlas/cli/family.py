@@ -260,7 +260,8 @@ class Question:
     def digits(self, spare: int, times: Sequence[float]) -> Any:
         """Return the samples at some times as a list of dicts by name, with certified digits as texts.
 
-        Beyond `spare` bits of further precision a number is called undecided.
+        Beyond `spare` bits of further precision a number is called undecided. The number of digits is that of
+        --digits, else ten.
         """
         from atlas.arithmetic.certified_digits import certified
 
@@ -461,7 +462,10 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
 
 
 def _drawn(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
-    """Yield the quantities at moved inputs, each by its `drawn` if it has one; `middle` has the unmoved values."""
+    """Yield the quantities at moved inputs, each read by its `drawn` if it has one; slow ones are left out.
+
+    `middle` holds the values at the unmoved inputs, by name.
+    """
     for q in family.quantities:
         if q.tabled or not q.slow:
             yield replace(q, get=partial(q.drawn, near=middle[q.name]) if q.drawn and q.name in middle else q.get)
@@ -541,7 +545,10 @@ def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float]
 
 
 def of_rounding(family: Family, motion: Any, times: Sequence[float]) -> Iterator[str]:
-    """Yield at most one clause: the angle by which rounded inputs turn a motion, if it may exceed `ROUNDING`."""
+    """Yield at most one clause: the angle in rad by which rounded inputs turn a motion, if it may exceed `ROUNDING`.
+
+    The angle is the largest at the times; a clause says so where it is not known.
+    """
     error, t = _turn_by_rounding(family, motion, times)
     if error is None or error > ROUNDING:
         turn = "an angle that is not known" if error is None else f"up to {error:.1g} rad"

@@ -83,7 +83,7 @@ Listing = tuple[dict[str, Any], list[Row]]
 
 
 def _figures(broken: list[str]) -> Listing:
-    """Return titles, parameters and widths of the recipes as a `Listing`, read from their sources.
+    """Return titles, parameters and widths in mm of the recipes as a `Listing`, read from their sources.
 
     Recipes that cannot be read are left out, and the reasons are appended to ``broken``.
     """

@@ -85,7 +85,10 @@ def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
 
 
 def _principal_spread(numbers: Sequence[float]) -> tuple[Any, Any]:
-    """Return principal values (3,), ascending, and axes (3, 3) of the mass matrix (8) of I11 I22 I33 I12 I13 I23."""
+    """Return principal values (3,), ascending, and axes (3, 3), in columns, of the mass matrix sum m x x^T, (8).
+
+    `numbers` are those of the inertia tensor, I11 I22 I33 I12 I13 I23.
+    """
     import numpy as np
 
     a, b, c, d, e, f = map(float, numbers)
@@ -94,7 +97,10 @@ def _principal_spread(numbers: Sequence[float]) -> tuple[Any, Any]:
 
 
 def _ask_for_order(param: click.Parameter, value: Sequence[Typed]) -> None:
-    """Raise click.UsageError if a tensor of no body is that of a body in URDF's order or with products reversed."""
+    """Raise click.UsageError if a tensor of no body is that of a body in URDF's order or with products reversed.
+
+    `value` are six typed numbers of the option `param`. The message has the words to type.
+    """
     a, b, c, d, e, f = value
     urdf, solidworks = "the order of URDF, ixx ixy ixz iyy iyz izz", "products +sum m x y, as SolidWorks has"
     readings = (
@@ -150,15 +156,18 @@ def _unit(x: Typed) -> Fraction:
 
 
 def _with_value(x: Typed, value: float, exact: Fraction | None) -> Typed:
-    """Return a typed number with another value, without unit; its text is the fraction `exact`, or of the float."""
+    """Return a typed number with the value `value` and no unit.
+
+    Its text is the fraction `exact`, or of the float if None.
+    """
     exact = Fraction(value) if exact is None else exact
     return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
 
 
 def _tell(param: click.Parameter, numbers: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
-    """Print on standard error that the body of the numbers `new` replaces the typed one, of ``numbers``.
+    """Print on standard error that the numbers `new` are used in the place of the typed ``numbers`` of an option.
 
-    ``fault`` says what that has, ``remedy`` what is taken instead, both as clauses.
+    ``fault`` says why the typed ones are none, ``remedy`` what is taken instead, both as clauses.
     """
     was, text = " ".join(x.text for x in numbers), " ".join(f"{float(x):.10g}" for x in new)
     click.echo(f"atlas: --{param.name} {was}: {fault}, by the last digits; used instead is {remedy}, {text}", err=True)

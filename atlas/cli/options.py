@@ -17,7 +17,7 @@ ENDINGS = (".svg", ".pdf", ".png", ".pgf", ".csv", ".gif", ".mp4", ".apng", ".ht
 
 
 class Place(click.Path):
-    """Path for output, in a folder that exists or can be made."""
+    """Path for output, in a folder that exists or can be made; a type of click's options."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path, a `Path`.

@@ -61,7 +61,7 @@ def of_fit(file: Path, **options: Any) -> int:
 
 
 def motion_of(made: Any) -> Any:
-    """Return the request, an `Asked`, of a report on a motion ``made`` in Python, along its principal axes."""
+    """Return the request, an `Asked`, of a report on a motion object of Python, along its principal axes."""
     own = in_principal_axes(made, fitted=True)
     with COMMANDS[own.family.page].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)

@@ -37,7 +37,7 @@ class Masses(NamedTuple):
 
     @property
     def inertia(self) -> Any:
-        """The inertia tensor (3, 3)."""
+        """Inertia tensor (3, 3) about the centre of mass, in units of mass times length squared."""
         from atlas.bodies.inertia import inertia_from_mass_matrix
 
         return inertia_from_mass_matrix(self.matrix)
@@ -110,7 +110,7 @@ def oblique_tensor(path: Path) -> Any:
 
 
 def exact_inertia(path: Path) -> list[Any]:
-    """Return the inertia tensor of points about their centre of mass, six rationals I11 I22 I33 I12 I13 I23."""
+    """Return the inertia tensor of a file of points about their centre: six rationals I11 I22 I33 I12 I13 I23."""
     (a, d, e), (_, b, f), (*_, c) = point_masses(path).exact
     return [b + c, a + c, a + b, -d, -e, -f]
 
@@ -166,7 +166,7 @@ def _one_ratio(path: Path, masses: Any, charges: Any) -> Fraction:
 
 
 def cells_of(path: Path) -> tuple[dict[str, str], list[tuple[int, list[str]]]]:
-    """Return the units of a text table's columns by name, and for each row the number of its line and its cells.
+    """Return (units of a text table's columns by name, rows as pairs of the number of the line and the cells as texts).
 
     Raises click.UsageError for a file that cannot be read, names that are not different, and no row; AtlasError for
     another fault of the file.

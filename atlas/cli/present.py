@@ -105,7 +105,7 @@ def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _tables(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the text of the table of rows, `PIECE` rows at a time, with columns that never become narrower."""
+    """Yield the text of the table of rows, 600 rows (`PIECE`) at a time, with columns that never become narrower."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -124,7 +124,7 @@ def _tables(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _notes(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the notes, a line each."""
+    """Yield the text of each note, a line each."""
     for note in printout.notes:
         yield _text(console, note, style="dim", markup=False)
 
@@ -306,7 +306,10 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
 
 
 def _lines(title: str, every: float) -> Progress:
-    """Return the function (done, total, _) that prints progress, at most one line in `every` seconds."""
+    """Return the function (done, total, _) that prints progress on standard error, a line in `every` s at most.
+
+    Each line begins with `title`.
+    """
     start = last_time = monotonic()
 
     def tell(done: int, total: int, _: str) -> None:

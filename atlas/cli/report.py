@@ -138,7 +138,10 @@ def _listed(name: str) -> Iterator[dict[str, Any]]:
 
 
 def _inputs(settings: tuple[str, ...]) -> dict[str, str]:
-    """Return the texts of --set by name. Raises click.UsageError for another word and for a name given twice."""
+    """Return the texts of --set NAME=VALUE by name.
+
+    Raises click.UsageError for another word and for a name given twice.
+    """
     pairs = [pair(text, "NAME=VALUE") for text in settings]
     if twice := [key for place, (key, _) in enumerate(pairs) if key in dict(pairs[:place])]:
         raise click.UsageError(f"--set {twice[0]}=... stands twice; give it once.")

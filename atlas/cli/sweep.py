@@ -46,7 +46,10 @@ class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since c
     name = "path"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the destination as typed. Fails for a place that cannot be written, and for memory://."""
+        """Return the destination as typed.
+
+        Raises click.UsageError for one that cannot be written, and for memory://.
+        """
         from atlas.sweeps.store import MEMORY
 
         text = str(value)
@@ -113,7 +116,10 @@ def requested(options: dict[str, Any]) -> tuple[str, dict[str, Any], str]:
 
 
 def _check_moments(family: str, fixed: Mapping[str, Any], options: Mapping[str, Any]) -> None:
-    """Raise click.UsageError for three moments of inertia in a family that has two."""
+    """Raise click.UsageError for three moments of inertia, I1 in `fixed`, in a family that has two.
+
+    `fixed` are numbers by name; `options`, the command's, give the option named in the message.
+    """
     parameter_names = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
     if "I1" in fixed and "I1" not in parameter_names:
         components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
@@ -189,7 +195,7 @@ def _tell_rounding(plan: Any) -> None:
 
 
 def of_three_moments() -> click.Command:
-    """Return the command of sweeps over bodies with three moments of inertia."""
+    """Return the click command of sweeps over bodies with three moments of inertia."""
     options = options_of(body.any_body_options, body.tensor_option, body.start_option, body.spin_option)
     command: click.Command = click.command("sweep", cls=Command, carries=True, help=HELP)(options(swept))
     return command

@@ -154,7 +154,10 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
 
 
 def _body(options: Mapping[str, Any]) -> Any:
-    """Return the `SymmetricBody` of --inertia, --shape or --points. Raises click.UsageError for options of another."""
+    """Return the `SymmetricBody` of --inertia, --shape or --points.
+
+    Raises click.UsageError unless one of them is given, for options of another, and for a shape without --mass.
+    """
     from atlas.bodies.body import SymmetricBody, from_shape
 
     one_of(options, "body", BODY)
@@ -206,7 +209,7 @@ def _needs(options: Mapping[str, Any], name: str, option: str) -> None:
 
 
 def _goes_with(options: Mapping[str, Any], names: Sequence[str], other_options: Sequence[str]) -> None:
-    """Raise click.UsageError for options that have no meaning without one of `other_options`."""
+    """Raise click.UsageError for a given option of `names` where none of `other_options`, which it needs, is given."""
     if not given(options, other_options):
         for name in given(options, names):
             raise click.UsageError(f"--{name} goes with {' or '.join(f'--{option}' for option in other_options)}.")

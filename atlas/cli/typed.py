@@ -45,8 +45,8 @@ UNCERTAIN = re.compile(
 class Typed(float):
     """A double with the text that was typed for it, in SI if the text has a unit.
 
-    `sigma` is its standard deviation, 0 for none; `exact` the value in SI as a fraction, None for a number without unit
-    and for a unit with pi in it.
+    `sigma` is its standard deviation, 0 for none; `unit` the typed unit, "" for none; `exact` the value in SI as a
+    fraction, None for a number without unit and for a unit with pi in it.
     """
 
     text: str
@@ -88,7 +88,7 @@ class Typed(float):
 
 
 class TypedRange(NamedTuple):
-    """A range as typed, START:STOP:COUNT, with the texts of its two ends, which belong to it, and its length.
+    """A range as typed, START:STOP:COUNT: the texts of its two ends, which belong to it, and its length COUNT.
 
     `is_log` says whether its steps are even in the logarithm.
     """
@@ -116,7 +116,7 @@ class TypedRange(NamedTuple):
         return cls(start, stop, int(count), log is not None)
 
     def check(self, start: float, stop: float) -> None:
-        """Raise click.UsageError for steps of the logarithm between these ends, if that has no value on the way."""
+        """Raise click.UsageError for steps of the logarithm between ends that are zero or of different signs."""
         if self.is_log and not start * stop > 0:
             raise click.UsageError(
                 f"even steps of the logarithm need ends of one sign that are not zero, not {self.start}:{self.stop}."
@@ -131,7 +131,7 @@ class Steps(Sequence[Typed]):
     number: Callable[[int], Typed]
 
     def __len__(self) -> int:
-        """Return the count."""
+        """Return the number of numbers."""
         return len(self.places)
 
     def __getitem__(self, index: Any) -> Any:
@@ -141,7 +141,7 @@ class Steps(Sequence[Typed]):
 
 
 class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
-    """Parameter type of a finite real number; `place` is its index in an option whose numbers have different units."""
+    """Click's type of a finite real number; `place` is its index in an option whose numbers have different units."""
 
     name = "number"
 
@@ -209,7 +209,8 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
     ) -> Typed:
         """Return the number of a text such as 1.20(5), with its standard deviation in `sigma`.
 
-        Fails for a command or an option that carries no uncertainties.
+        `match` is that of `UNCERTAIN`. Raises click.UsageError for a command or an option that carries no
+        uncertainties.
         """
         is_carried = getattr(ctx.command if ctx else None, "carries", False)
         if not is_carried or (param and param.name in {"times", "grid", "least"}):
@@ -232,14 +233,17 @@ REAL = Real()
 
 
 class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
-    """Components of a field across and along the axis, each rounded once; `parts` are (strength, angle) as typed."""
+    """Components (across, along) of a field at an angle to the axis, each rounded once; a tuple.
+
+    `parts` are (strength, angle in rad) as typed.
+    """
 
     parts: tuple[Typed, Typed]
 
     def __new__(cls, strength_and_angle: tuple[Typed, Typed], unit: str = "") -> Self:
-        """Return (strength sin(angle), strength cos(angle)), each rounded once; an angle in degrees is exact before.
+        """Return (strength sin(angle), strength cos(angle)), each rounded once; an angle in degrees is taken exactly.
 
-        `unit` is the unit of the components.
+        `unit` is put to the components' texts.
         """
         from flint import arb, fmpq
 
@@ -272,7 +276,10 @@ def parts_of(value: Any) -> tuple[Any, ...]:
 
 
 def check_units(option: str, value: Any) -> None:
-    """Raise click.UsageError where some numbers of an option have units and other nonzero ones have none."""
+    """Raise click.UsageError where some numbers of an option have units and other nonzero ones have none.
+
+    `value` is that of the option: a number, a tuple or a range.
+    """
     numbers = [x for x in parts_of(value) if isinstance(x, Typed) and x]
     bare, units = [x for x in numbers if not x.unit], [x for x in numbers if x.unit]
     if bare and units:

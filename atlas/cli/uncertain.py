@@ -23,7 +23,7 @@ class UncertainAnswer:
     def of(cls, answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> "UncertainAnswer":
         """Return the answer to these options with the standard deviations that their independent uncertainties cause.
 
-        `answer` maps options to the answer, and is called again with moved options.
+        `answer` maps options, by name, to the answer, a nested dict, and is called again with moved options.
         """
         inputs, middle = uncertain(options), answer(options)
         with bar("draws", every=10) as tell:
@@ -53,7 +53,10 @@ class UncertainAnswer:
         }
 
     def record(self) -> dict[str, Any]:
-        """Return the answer, with a copy under "sigma" in which standard deviations replace the numbers."""
+        """Return the answer for JSON, with "notes" and a copy under "sigma" that holds standard deviations.
+
+        A deviation that is not known, or infinite, is None.
+        """
         deviations = {place: x for place, x in self.spread.sigma.items() if x < math.inf}
         sigma = mapped(self.answer, lambda _, place: deviations.get(place))
         return self.answer | {"sigma": sigma, "notes": self.notes}
@@ -69,7 +72,7 @@ def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
 
 
 def certain(value: Any) -> Any:
-    """Return the value of an option with all standard deviations set to 0."""
+    """Return the value of an option, a number or a tuple, with all standard deviations set to 0."""
     if isinstance(value, tuple):
         return type(value)(map(certain, value))
     return value.moved(float(value), sigma=0.0) if getattr(value, "sigma", 0.0) else value

@@ -124,13 +124,16 @@ class Words:
         return {option.name for option in self.options}
 
     def is_three(self, name: str) -> bool:
-        """Return whether three numbers follow an option."""
+        """Return whether three numbers or more follow the option `name`, with its dashes."""
         heads = (option.components[:3] for option in self.options if option.name == name)
         return any(len(head) == 3 and all(map(is_number, head)) for head in heads)
 
     @property
     def are_of_any_body(self) -> bool:
-        """Whether there are a tensor, an attitude, or three numbers for the moments of inertia or the field."""
+        """Whether there are a tensor, an attitude, or three numbers for the moments of inertia or the field.
+
+        These are the words for a body with three moments.
+        """
         three = any(map(self.is_three, ("--inertia", "--field", "--magnetic")))
         return three or not self.names.isdisjoint({"--tensor", "--attitude"})
 
@@ -162,12 +165,18 @@ class Command(click.Command):
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """Return click's context for the words, of the command that `other` returns for them, else of this one."""
+        """Return click's context for the words, of the command that `other` returns for them, else of this one.
+
+        The parameters are click's.
+        """
         command = self.other(Words(args))
         return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the inputs of each name, then the options, those of body, field and start under a title each."""
+        """Write into click's `formatter` the inputs of each name, then the options.
+
+        Those of body, field and start stand under a title each.
+        """
         for title, rows in map(self.inputs_of, ctx.obj or ()) if self.inputs_of else ():
             with formatter.section(title):
                 formatter.write_dl(rows or [("none", "")])

@@ -88,11 +88,14 @@ class YourBody(ByOptions):
         return super().make_context(f"{info_name} {NAME}", args, parent, **extra)
 
     def format_usage(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the line of usage, with "atlas report your_body" as the name of the command."""
+        """Write the line of usage for the help, with "atlas report your_body" as the command.
+
+        `formatter` is click's.
+        """
         formatter.write_usage(f"atlas report {NAME}", "[motion|top|classify] OPTIONS")
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse the arguments. Raises click.UsageError where no option is among them."""
+        """Parse the words and return the remaining ones. Raises click.UsageError where no option is among them."""
         if not Words(args).names:
             raise click.UsageError(
                 f"{NAME} takes a body, a field and a start, as atlas motion does: --ratio 0.7 --field 1 2 --omega2 0.7."
@@ -150,7 +153,10 @@ def inputs() -> Iterator[dict[str, Any]]:
 
 
 def text_of(number: Any) -> str:
-    """Return a number as it is typed: "VALUE±SIGMA" if it has a standard deviation, else its shortest digits."""
+    """Return a number as it is typed: "VALUE±SIGMA" with a standard deviation, else its shortest digits.
+
+    A text is returned as it is.
+    """
     if isinstance(number, str | int | Fraction):
         return str(number)
     if sigma := getattr(number, "std_dev", 0.0):

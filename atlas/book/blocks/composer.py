@@ -55,10 +55,10 @@ class Composer:
         return int(self.document.texts.add(markdown, self.place, inline=inline))
 
     def paragraphs(self, markdown: str) -> int:
-        """Add paragraphs in Markdown and return their index among the texts.
+        """Add paragraphs in Markdown to the document and return their index among its texts.
 
-        The first citation of an equation on a page becomes an anchor and counts as a use, unless the page holds its
-        entry.
+        The first citation of an equation on a page becomes an anchor and counts as a use, unless the page holds the
+        equation's entry of the ledger.
         """
         anchors = {}
         for name in citations(markdown):
@@ -105,7 +105,7 @@ class Composer:
     def target(self, name: str, anchor: str, words: str) -> bool:
         """Make an anchor of this page, in `words` such as "Figure 3", the target of citations of a name; return True.
 
-        Return False, and change nothing, if the name has a target already.
+        Return False, and change nothing, if another place is the target of the name already.
         """
         is_first = name not in self.document.targets
         if is_first:

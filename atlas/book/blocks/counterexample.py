@@ -105,7 +105,10 @@ class _Letters:
     def tex(  # noqa: PLR0911  one return for each kind of formula
         self, node: ast.expr
     ) -> str:
-        """Return the TeX of a syntax tree. Raises TypeError for one that is no formula of the trial."""
+        """Return the TeX, without dollar signs, of the syntax tree of a relation or an expression in plain letters.
+
+        Raises TypeError for a tree that is no formula of the trial.
+        """
         match node:
             case ast.Compare():
                 signs = [_SIGNS[type(sign)] for sign in node.ops]
@@ -155,6 +158,6 @@ class _Letters:
         return f"{self.letter(name, bold=False)}_{{{' '.join([example, *alternatives])}}}"
 
     def factor(self, node: ast.expr) -> str:
-        """Return the TeX of a factor: a sum or difference in brackets, any other formula as it is."""
+        """Return the TeX of a factor's syntax tree: a sum or difference in brackets, any other formula as it is."""
         tex = self.tex(node)
         return f"({tex})" if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub) else tex

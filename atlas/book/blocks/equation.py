@@ -39,7 +39,7 @@ class EquationView:
 
     @property
     def slug(self) -> str:
-        """Name of the equation as it stands in links."""
+        """Name of the equation as it stands in links and anchors, without brackets."""
         return slug(self.name)
 
 

@@ -77,7 +77,7 @@ class ExplorerView:
 
     @property
     def described(self) -> str:
-        """JSON list of the sliders, one object each, for the script."""
+        """JSON text for the script: a list of the sliders, an object of the fields of `Slider` for each."""
         return json.dumps([asdict(slider) for slider in self.sliders], ensure_ascii=False)
 
     @property

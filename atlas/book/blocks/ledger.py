@@ -101,7 +101,7 @@ def _reading(phrase: str, line: str) -> str:
 def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
     """Return the entries, all of which must have a slip, in order of gravity, the gravest first.
 
-    Entries that share a slip are adjacent, the entry under which it is counted first.
+    Entries that share a slip are adjacent, the entry under which the slip is counted first; else the order is kept.
     """
     place = {entry.name: number for number, entry in enumerate(entries)}
 
@@ -144,7 +144,10 @@ class ErrataView:
 
 
 def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
-    """Return the `LedgerView` of the entries of one section; its theorems get numbers."""
+    """Return the `LedgerView` of the entries of one section; its theorems get their numbers, such as "(T1)".
+
+    A section that the ledger lacks gives no entry.
+    """
     for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
             composer.document.numbered(name)

@@ -49,7 +49,7 @@ class ProseView:
 
 
 def view_prose(block: Prose, composer: Composer) -> ProseView:
-    """Return the `ProseView` of paragraphs, without a title."""
+    """Return the `ProseView` of a block's paragraphs, which are added to the texts; it has no title."""
     return ProseView(composer.paragraphs(block.text))
 
 

@@ -85,7 +85,10 @@ def outline(_block: Reference, _composer: Composer) -> None:
 
 
 def markdown_of_sections(docstring: str) -> str:
-    """Return a numpydoc docstring as Markdown: parameters, attributes, results and errors each in a table."""
+    """Return a numpydoc docstring as Markdown: parameters, attributes, results, errors and warnings each in a table.
+
+    Other sections keep their text below a bold heading.
+    """
     summary, *sections = _SECTION.split(docstring)
     pieces = [markdown(summary.strip())]
     for title, body in zip(sections[::2], sections[1::2], strict=True):

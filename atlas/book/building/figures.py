@@ -117,9 +117,10 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
 
 
 def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str | None) -> None:
-    """Set each figure's keys, and its contents from the cache; set the cause where it must be drawn.
+    """Set each figure's `parts`, `keys` and, from the cache, `contents`; set `why` where the figure must be drawn.
 
-    `gl` names the library that draws shaded pictures, None where there is none.
+    `gl` names the library that draws shaded pictures, None where there is none. The parts are saved in the cache
+    for the next comparison.
     """
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
@@ -249,10 +250,12 @@ def build_figures(
 
     With a target, see `atlas.targets`, each is laid out anew for it and written to out/NAME-TARGET.FORMAT.
 
-    A name with the ending .py is the path of a recipe's file. `style` is a style sheet of Matplotlib, a file or a name,
-    applied on top of the package's own. `jobs` figures are drawn at once, by default one a core. Figures in the cache
-    are not drawn again. The format csv is the data of the figure, see `atlas.pictures.data`. A figure that fails does
-    not stop the others. Raises AtlasError for a shaded figure in a format other than PNG or CSV.
+    A name with the ending .py is the path of a recipe's file. `renderer` is "vector" or "shaded"; `parameters`, by
+    name, are those of all recipes. `style` is a style sheet of Matplotlib, a file or a name, applied on top of the
+    package's own. `jobs` figures are drawn at once, by default one a core; `progress` is called with (figures done,
+    their number, name). Figures in the cache are not drawn again. The format csv is the data of the figure, see
+    `atlas.pictures.data`. A figure that fails does not stop the others. Raises AtlasError for a shaded figure in a
+    format other than PNG or CSV.
     """
     vector_kinds = [kind for kind in formats if kind not in {"png", "csv"}]
     if renderer == "shaded" and vector_kinds:

@@ -158,7 +158,7 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
 
 
 def _inline(script: str) -> str:
-    """Return a script with the sequences escaped that would end its HTML element."""
+    """Return a script in which "</script" and "<!--", which would end its HTML element, have a backslash."""
     return script.replace("</script", r"<\/script").replace("<!--", r"<\!--")
 
 
@@ -212,7 +212,10 @@ def _pdf_key(source: str, folder: Path, faces: Sequence[Path], sources: Sources)
 
 
 def _typst_source(document: "Document", figures: "dict[FigureBuild, Picture]", folder: Path) -> str:
-    """Return the Typst source of a report, and write the figures and the bibliography that it names into `folder`."""
+    """Return the Typst source of a report, and write the figures and the bibliography that it names into `folder`.
+
+    `figures` are the drawn figures with their pictures; those that failed are left out.
+    """
     from atlas.book import bibliography, pdf
 
     (folder / "figures").mkdir()

@@ -119,7 +119,10 @@ def _write(contents: Mapping[str, bytes], folder: Path) -> None:
 
 
 def _place(work: Path, out: Path, names: Iterable[str]) -> None:
-    """Move the named files from `work` to `out`, one by one; existing ones are replaced."""
+    """Move the files `names`, paths in the folder `work`, to the folder `out`, one by one.
+
+    Existing ones are replaced.
+    """
     for path in names:
         (out / path).parent.mkdir(parents=True, exist_ok=True)
         (work / path).replace(out / path)

@@ -228,7 +228,7 @@ def _three(value: float | None) -> str | Number:
 
 
 def _words(text: str) -> str:
-    """Return a text of the terminal as Markdown: "(us" becomes "(µs", powers of ten become TeX."""
+    """Return a text of the terminal as Markdown: "(us" becomes "(µs", a power "1e+05" becomes $10^{5}$."""
     text = re.sub(r"\(us\b", "(µs", text)
     return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)
 

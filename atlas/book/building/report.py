@@ -82,13 +82,13 @@ def build_report(
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
     `progress` is called with steps done, their number, name of the next step; `formats` may leave out the pages or
-    the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all its files; `style`
-    is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
-    them, one a core when it is not given; `inputs` are texts by name, and where they differ from the defaults NAME ends
-    with a digest of their values. A figure that fails leaves a framed note in its place and an entry in
-    `failures`. The pages are in their place before the PDF is set. Raises AtlasError, in one sentence, for anything
-    wrong with the file, and OSError when something can't be written; then the files of the last report stay that
-    were not yet replaced.
+    the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all its files; `style` is a
+    style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw them,
+    one a core when it is not given; `inputs` are texts by name, and where they differ from the defaults NAME ends
+    with a digest of their values. A report that is unchanged is not built again. A figure that fails leaves a
+    framed note in its place and an entry in `failures`. The pages are in their place before the PDF is set. Raises
+    AtlasError, in one sentence, for anything wrong with the file, and OSError when something can't be written; then
+    the files of the last report stay that were not yet replaced.
     """
     file, formats = find(str(name)), [form for form in LANGUAGES if form in formats]
     cache = Cache(cache_folder(out))
@@ -274,7 +274,7 @@ def _places(out: Path, name: str) -> tuple[Path, Path]:
 
 
 def _check(name: str, file: Path) -> None:
-    """Raise AtlasError for a name that is not that of the file, or that begins with a dot."""
+    """Raise AtlasError for a report's name that is not that of its file, without suffix, or that begins with a dot."""
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     if name != file.stem:

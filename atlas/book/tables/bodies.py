@@ -171,7 +171,7 @@ def charges(request: Request) -> Data:
 
 
 class DiamagnetismParameters(StrictStruct, frozen=True):
-    """The material: its volume susceptibility in SI, of either sign, and its density in kg/m^3."""
+    """Parameters of `diamagnetism`, `swings`: volume susceptibility in SI, either sign, and density in kg/m^3."""
 
     susceptibility: float
     density: float

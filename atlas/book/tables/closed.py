@@ -91,8 +91,8 @@ def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: in
 def convergents(value: Any) -> Iterator[tuple[int, int]]:
     """Yield the first convergents (p, q) of the continued fraction of a ball, as far as its radius determines them.
 
-    At most `MAX_FRACTIONS`, with q up to `MAX_DENOMINATOR`. For a rational value the last one is the value; for a
-    negative value p < 0.
+    At most 6 (`MAX_FRACTIONS`), with q up to 10000 (`MAX_DENOMINATOR`). For a rational value the last one is the
+    value; for a negative value p < 0.
     """
     if value < 0:
         yield from ((-p, q) for p, q in convergents(-value))

@@ -114,7 +114,8 @@ class Point(NamedTuple):
 def points(request: Request, setup: PointsParameters) -> Data:
     """Return the table of points (omega2, omega3) of (67), with k, phi of (72) and the nutation frequency squared.
 
-    With several bodies the first column has each body's title, beside its first point.
+    Rates are in 1/s, the square in 1/s^2; the last column is "stable" or "unstable". With several bodies the first
+    column has each body's title, beside its first point. Raises AtlasError for B2 = 0.
     """
     found = [of_points(case, setup, request.digits) for case in request.cases]
     columns = [
@@ -213,7 +214,8 @@ def motion(request: Request, setup: Motion) -> Data:
 def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
     """Return the quantities of the motion of a body from the omega2 and omega3 of ``setup``, to ``digits`` digits.
 
-    They are (67), k and phi of (72), nutation, the integrals (36) to (41) and (88).
+    They are the start (67), k and phi (72), the square of the frequency of nutation where the motion is one of the
+    hyperbola, the energy and the integrals (36) to (41), and (m, B')/I2 (88), in 1/s or 1/s^2.
     """
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.elementary.certified_hyperbola import Hyperbola

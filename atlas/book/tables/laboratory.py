@@ -85,7 +85,7 @@ def levitated(setup: Dipole) -> Data:
 
 
 def _precession(motion: TopMotion) -> float:
-    """Return the precession frequency in the axis' spectrum, in rad/s; for a pendulum half the nutation frequency."""
+    """Return the rate of precession in the axis' spectrum, in rad/s; for a pendulum half that of nutation."""
     spectrum = motion.spectrum("axis")
     return float(spectrum.rates[spectrum.names.index("precession")])
 
@@ -93,7 +93,7 @@ def _precession(motion: TopMotion) -> float:
 class Lines(Dipole, frozen=True):
     """A `Dipole` with its rates of spin, for a table of the lines in the spectrum of its axis.
 
-    A line is shown if its amplitude is `least` or more; the axis has length 1.
+    A line is shown if its amplitude is `least` or more of the root mean square; the axis has length 1.
     """
 
     least: float = 1e-3
@@ -148,7 +148,8 @@ class Watch(Dipole, frozen=True):
 def inferred(setup: Watch) -> Data:
     """Return the table of standard deviations of parameters fitted to the axis alone, a column for each spin.
 
-    They are of first order, from the derivatives of the motion by its parameters at random times.
+    The rows are d E/I relative to itself, inclination in rad, I3/I2, spin in Hz, and spin in Hz with I3 known. They
+    are of first order, from the derivatives of the motion by its parameters at random times.
     """
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []

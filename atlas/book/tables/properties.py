@@ -83,18 +83,18 @@ class Thing:
 
     @property
     def says(self) -> str:
-        """Description of the object as the beginning of a sentence; a body without a field is free."""
+        """Description of the object as the beginning of a sentence; a body with a field of zeros is called free."""
         says = self.family.says
         if not any(self.given.get("field", (1.0,))):
             says = says.replace("charged ", "free ")
         return says[:1].upper() + says[1:]
 
     def kernels(self) -> Any:
-        """Return the object's class in doubles, made of its parameters as floats."""
+        """Return the object, an instance of the family's class in doubles, made of its parameters as floats."""
         return self.family.kernels()(*self.floats)
 
     def balls(self) -> Any:
-        """Return the object's certified class, in balls, made of its exact parameters."""
+        """Return the object, an instance of the family's certified class, in balls, made of its exact parameters."""
         return self.family.balls()(*self.exact)
 
     def unit(self, unit: str) -> str:
@@ -216,7 +216,7 @@ def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
 
 
 def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
-    """Return (value as a `Number` or text, words on its certainty).
+    """Return (value as a `Number` or text, words on its certainty) of a component's certified text.
 
     A value whose digits are not certified comes from the class in doubles. `place` is its index in the quantity, or
     None.
@@ -257,7 +257,10 @@ def _letter(matched: re.Match[str]) -> str:
 
 
 def cited(equations: str) -> str:
-    """Return the equations that the ledger has as citations in Markdown, separated by commas."""
+    """Return equations, names separated by commas, as citations in Markdown.
+
+    Names that the ledger lacks are left out.
+    """
     return ", ".join(f"@{name}" for name in equations.split(", ") if name in EQUATIONS)
 
 

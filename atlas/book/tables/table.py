@@ -101,7 +101,7 @@ def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[st
 
 
 def quantity(value: Any, digits: int) -> Number:
-    """Return the `Number` of one value with `digits` significant digits, as far as they are proven."""
+    """Return the `Number` of a ball, rational or float, with `digits` significant digits as far as they are proven."""
     return column([value], digits)[0]
 
 

@@ -268,7 +268,8 @@ def identified(request: Request, setup: Observed) -> Data:
 def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
     """Return two arrays of singular values, descending: of the linear equations of motion, of a fit's derivatives.
 
-    `I`, `K` and `omega` (3,) are moments, field and initial angular velocity in the body.
+    `I`, `K` and `omega` (3,) are moments, field and initial angular velocity in the body. The unknowns of the
+    equations are three moments and three components of the field, shape (6,); the fit has its free parameters.
     """
     from atlas.fitting.data import of_arrays
     from atlas.fitting.models import model_of

@@ -114,7 +114,7 @@ def _has(balls: Any, q: Quantity) -> bool:
 
 
 def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
-    """Return (text of a quantity, verdict on its digits) for one motion.
+    """Return (text of a quantity, verdict on its digits) for one motion in balls.
 
     The verdict is "10 digits proven" (`DIGITS`), "fewer than 10 digits are proven", "no digit is proven", "proven" for
     a bound on a number not told from zero, or "decided exactly" for a text without digits.
@@ -143,7 +143,7 @@ def _joined(q: Quantity, value: Any) -> str:
 
 
 def _number_text(value: Any) -> Any:
-    """Return a number as text of six digits, a sequence as a list of such texts, a complex number as two.
+    """Return a number as text of six digits, a sequence as a nested list of such texts, a complex number as two.
 
     Text and None are returned unchanged.
     """

@@ -82,7 +82,7 @@ class Explorer(ThreadingHTTPServer):
         return f"http://{HOST}:{self.server_address[1]}/{new}"
 
     def admits(self, ticket: str) -> bool:
-        """Return whether a ticket is valid, and invalidate it."""
+        """Return whether a text is a ticket that was issued and not used, and invalidate it."""
         used = {one for one in [*self.tickets] if _same(one, ticket)}
         self.tickets -= used
         return bool(used)
@@ -106,7 +106,10 @@ class Handler(BaseHTTPRequestHandler):
     server: Explorer
 
     def do_GET(self) -> None:
-        """Answer a request with a page or data, or with status 400, 403 or 404 for one that is refused."""
+        """Send the answer to a request, a page or data, or status 400, 403 or 404 for one that is refused.
+
+        A wrong value gives a JSON object with the key "error".
+        """
         try:
             url = urlsplit(self.path)
         except ValueError:  # as `http://[::1/`

@@ -103,7 +103,10 @@ class OfRecipe:
 
     @cached_property
     def sliders(self) -> list[Slider]:
-        """Sliders of the recipe's parameters whose defaults are numbers or tuples of numbers."""
+        """Sliders of the recipe's parameters whose defaults are numbers or tuples of numbers, one for each component.
+
+        Numbers of lines on a map have none.
+        """
         return [slider for key, default in self.recipe.parameters.items() for slider in self._slider(key, default)]
 
     def _slider(self, key: str, default: Any) -> Iterator[Slider]:
