@@ -69,6 +69,7 @@ def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, A
     """Return (value, "") of the card's number `key`, or (None, reason in words why there is none).
 
     The value is computed in doubles, in rad, time or rad/time; `arguments` are the family's inputs by name.
+    `motion` is the object in doubles.
     """
     try:
         value = float(_number(key, family, motion, arguments, math))
@@ -105,8 +106,9 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
 def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
     """Return the rate about the body's axis in rad/time for the key "spin", the time of one turn for "turn".
 
-    The turn is that of the axis about the field. `arguments` are the family's inputs by name, `functions` is `math` or
-    `Balls`. Raises DomainError for "turn" where the axis does not go round.
+    The turn is that of the axis about the field. `arguments` are the family's inputs by name, `functions` is `math`
+    or `Balls`. Raises DomainError for "turn" where the axis does not go round. `motion` is the object in doubles or
+    in balls.
     """
     if (rate := _spin_of_free_body(arguments)) is not None:
         if key == "spin":
@@ -128,7 +130,7 @@ def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], f
 def _spin_of_free_body(arguments: Mapping[str, Any]) -> Any:
     """Return the rate, in rad/time, of a free body's spin about its symmetry axis or a principal axis; else None.
 
-    None also for a body at rest, in a field, or without a start.
+    None also for a body at rest, in a field, or without a start. `arguments` are the family's inputs by name.
     """
     omega = arguments.get("omega")
     if omega is None or any(arguments.get("field", (1.0,))):
@@ -150,8 +152,8 @@ def _is_steady(motion: Any, arguments: Mapping[str, Any]) -> bool:
 def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
     """Return |B'| in rad/time, or for the key "tilt" the angle in [0, pi] rad between field and axis at t = 0.
 
-    Of a top the field's direction counts for the angle. `functions` is `math` or `Balls`. Raises DomainError without a
-    field, and for |B'| of a top.
+    Of a top the field's direction counts for the angle. `functions` is `math` or `Balls`. Raises DomainError
+    without a field, and for |B'| of a top. `arguments` are the family's inputs by name.
     """
     *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
     if not any((*across, along)):
@@ -166,7 +168,8 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
 def _words(one: Entry, centre: str, motion: Any) -> str:
     """Return the words of an entry, "the field" replaced by `centre`, the direction about which the axis precesses.
 
-    For a free body of three moments "body's axis" becomes the axis of the motion's mode, "long axis" or "short axis".
+    For a free body of three moments "body's axis" becomes the axis of the motion's mode, "long axis" or "short
+    axis". `motion` is the object in doubles.
     """
     says = one.says.replace("the field", centre)
     if centre == "the vertical":
@@ -191,7 +194,8 @@ def _pole(key: str, arguments: Mapping[str, Any]) -> str:
 def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, Any]) -> Any:
     """Return a frequency of a motion on a torus in rad/time: f1, f2 or f3 for `place` 0, 1, 2.
 
-    Raises DomainError for a family without such frequencies, or without a field.
+    Raises DomainError for a family without such frequencies, or without a field. `arguments` are the family's
+    inputs by name.
     """
     if not (family.quantity("frequencies") and any(arguments["field"])):
         raise DomainError(ONE_PERIOD)
@@ -212,6 +216,7 @@ def _nutation(family: Family, motion: Any, functions: Any) -> Any:
     """Return the period of nutation, in time; of an elementary motion the period of small nutations about it.
 
     `functions` is `math` for doubles, or `Balls`. Raises DomainError where small nutations do not oscillate.
+    `motion` is the object of `family`, in doubles or balls.
     """
     stability = family.quantity("stability") if family.takes("omega2") else None
     if stability is None:
@@ -299,7 +304,8 @@ def _unit(unit: str, time: str) -> str:
 def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: int) -> tuple[float | None, str]:
     """Return the double nearest to a number of the card, and its proven digits as text; (None, "") without a proof.
 
-    `twin` is the certified motion, None where there is none; `exact` holds the inputs by name.
+    `twin` is the certified motion, None where there is none; `exact` holds the inputs by name. `key` is that of the
+    number in `ENTRIES`, `item` the object.
     """
 
     def number() -> Any:

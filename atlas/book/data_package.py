@@ -178,7 +178,7 @@ def _csv(resource: Resource) -> bytes:
 def _parquet(resource: Resource) -> bytes:
     """Return a table as Parquet's bytes, numbers as the doubles nearest to the printed digits, null for empty cells.
 
-    Raises AtlasError where pyarrow is missing.
+    Raises AtlasError where pyarrow is missing. `resource` is the table.
     """
     pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     kinds: dict[str, tuple[Callable[[str], Any], Any]] = {

@@ -185,8 +185,9 @@ _TAG = re.compile(r'<div class="tag">(.*?)</div>', re.DOTALL)
 def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) -> str:
     """Return the index of a report as a script, which a page opened from disk can load: ``atlasIndex({...})``.
 
-    ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order of
-    the pages, ``equations`` the formula of each name as HTML. Formulas are words on one line: Ω3=ω1B'2, I=3/2.
+    ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order
+    of the pages, ``equations`` the formula of each name as HTML. Formulas are words on one line: Ω3=ω1B'2, I=3/2.
+    `pages` are the HTML by file name, `texts` the document's, typeset in HTML.
     """
     rows = [
         row for page in document.pages for row in sections(page.file, f"{page.number} {page.title}", pages[page.file])

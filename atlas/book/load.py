@@ -188,7 +188,8 @@ def _in_file(line: int, lines: Sequence[int]) -> int:
 def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> int:
     """Return the line, from 1, of a mistake's key if that stands once in its block or file.
 
-    Else it is the first line of the block, 0 without one. `pieces` are by (page, block), (page,) or ().
+    Else it is the first line of the block, 0 without one. `pieces` are by (page, block), (page,) or (). `text` is
+    the file's, `error` the mistake.
     """
     piece = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
     key, lines, start = re.escape(error.key), piece.lines if piece else text.split("\n"), piece.line if piece else 0

@@ -73,7 +73,8 @@ def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
 def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
     """Return trees (tree, inline) as HTML, Typst or LaTeX, a text for each.
 
-    Raises FormulaError for a formula that can't be read, AtlasError for what else `run` refuses.
+    Raises FormulaError for a formula that can't be read, AtlasError for what else `run` refuses. `target` is
+    "html", "typst" or "latex".
     """
     mark = _MARK[target].format(hashlib.sha256(json.dumps(trees).encode()).hexdigest())
     blocks: list[Any] = []

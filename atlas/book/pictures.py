@@ -72,7 +72,8 @@ def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Pic
 def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
     """Return the recipe's parameters by name: those that the block's body and field give, below the block's own.
 
-    Raises AtlasError for a body that the recipe does not take. `recipe` is None if it cannot be loaded.
+    Raises AtlasError for a body that the recipe does not take. `recipe` is None if it cannot be loaded. `report`
+    has the bodies and fields that the block names.
     """
     cases = chosen(block, report.parameters)
     offered: dict[str, Any] = {}

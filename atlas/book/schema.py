@@ -52,7 +52,8 @@ class SchemaError(AtlasError):
 def convert(raw: Any, kind: type[T], place: str = "") -> T:
     """Return a table, nested dicts and lists of TOML, as the record `kind`.
 
-    Raises SchemaError for the first of its faults, found at `place` of the file, "" for the top.
+    Raises SchemaError for the first of its faults, found at `place` of the file, "" for the top. `raw` is the
+    table.
     """
     for fault in faults_of(raw, kind, place):
         raise fault
@@ -62,7 +63,8 @@ def convert(raw: Any, kind: type[T], place: str = "") -> T:
 def faults_of(raw: Any, kind: Any, place: str = "") -> Iterator[SchemaError]:
     """Yield a SchemaError for each key of a table that is unknown, missing, or not of the type in the record `kind`.
 
-    `place` says in words where the table stands in the file, "" for the top.
+    `place` says in words where the table stands in the file, "" for the top. `raw` is the table, nested dicts and
+    lists of TOML.
     """
     return _faults(raw, inspect.type_info(kind), place, "")
 
@@ -93,7 +95,7 @@ def _faults(raw: Any, kind: inspect.Type, place: str, key: str) -> Iterator[Sche
 def _infinities(raw: Any, place: str, key: str) -> Iterator[SchemaError]:
     """Yield a SchemaError for each float that is nan or infinite in a value, its lists and tables.
 
-    `place` says in words where the value stands, and `key` is its key.
+    `place` says in words where the value stands, and `key` is its key. `raw` is a value of TOML.
     """
     for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
         yield from _infinities(item, place, key)
@@ -105,7 +107,7 @@ def _faults_of_union(raw: Any, union: inspect.UnionType, place: str, key: str) -
     """Yield the faults of a value of several types: a block, by its key "kind", or a value that may be left out.
 
     `place` says in words where the value stands, and `key` is its key. A value that may be a number or a text is
-    tried as the type that it has.
+    tried as the type that it has. `raw` is the value.
     """
     kinds = {
         str(kind_of_record.tag): kind_of_record
@@ -159,7 +161,7 @@ def _faults_of_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, k
 def _fits(raw: Any, kind: inspect.Type) -> bool:
     """Return whether a number, boolean or text has the type and lies within the limits or pattern of `kind`.
 
-    False for any other type.
+    False for any other type. `raw` is a value of TOML.
     """
     match kind:
         case inspect.FloatType():

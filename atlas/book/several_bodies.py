@@ -51,7 +51,8 @@ def value_of(entry: Mapping[str, Any]) -> str:
 def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
     """Return the index of many reports: texts by file name, a Markdown page with links and a CSV table.
 
-    `table` is the name of the file of bodies, `command` the command that made the reports.
+    `table` is the name of the file of bodies, `command` the command that made the reports. `rows` are those of
+    built reports and of failed ones.
     """
     made = [row for row in rows if not row.fault]
     blocks = list[str]()
@@ -114,7 +115,10 @@ def titled(request: Asked, made: Card) -> str:
 
 
 def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
-    """Return (name of the page on two bodies side by side, its files: texts by name)."""
+    """Return (name of the page on two bodies side by side, its files: texts by name).
+
+    `first` and `second` are the requests of both.
+    """
     cards, names = (card(first), card(second)), (name_of(first), name_of(second))
     name = f"{names[0]}-against-{names[1].removeprefix(f'{NAME}-')}"
     titles = map(titled, (first, second), cards)
@@ -138,7 +142,10 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
 
 
 def _rows(first: Card, second: Card) -> Iterator[list[str]]:
-    """Yield seven texts for each number of one of two cards: words, letter, both values, difference, unit, equation."""
+    """Yield seven texts for each number of one of two cards: words, letter, both values, difference, unit, equation.
+
+    `first` and `second` are the cards, records by key.
+    """
     for key, a in first.items():
         b = second[key]
         if a["value"] is None and b["value"] is None:

@@ -258,7 +258,8 @@ class _Checked:
     def are_works(self, citations: Any, links: Sequence[Link]) -> bool:
         """Return whether pandoc's citations are of works, not of equations.
 
-        Raises AtlasError for a mixture, and for words before a work in brackets.
+        Raises AtlasError for a mixture, and for words before a work in brackets. `links` are those of the
+        citations, in the same order.
         """
         works = {bool(link.bracketed) for link in links}
         if len(works) > 1:
@@ -286,7 +287,10 @@ class _Checked:
         return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
 
     def around(self, work: Any) -> dict[str, Tree]:
-        """Return {"citationPrefix": nodes, "citationSuffix": nodes}: words before and after a citation in brackets."""
+        """Return {"citationPrefix": nodes, "citationSuffix": nodes}: words before and after a citation in brackets.
+
+        `work` is pandoc's citation, a dict.
+        """
         return {key: self.tree(work[key]) for key in ("citationPrefix", "citationSuffix")}
 
     def address(self, url: str) -> str:
@@ -365,7 +369,10 @@ def _mark(text: Text) -> str:
 
 
 def _finished(piece: str, target: Target, text: Text) -> str:
-    """Return a text written by pandoc with corrected formulas, in Typst the parts between marks; LaTeX is unchanged."""
+    """Return a text written by pandoc with corrected formulas, in Typst the parts between marks; LaTeX is unchanged.
+
+    `target` is "html", "typst" or "latex".
+    """
     if target != "typst":
         return mend_all(piece) if target == "html" else piece
     pieces = piece.split(_mark(text))

@@ -359,7 +359,10 @@ def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> It
 
 
 def outweighed(beside: Sequence[Disturbance]) -> str:
-    """Return a sentence on the neglected effects that outweigh the computed motion; "" if there are none."""
+    """Return a sentence on the neglected effects that outweigh the computed motion; "" if there are none.
+
+    `beside` are all neglected effects.
+    """
     names = [one.says.partition(",")[0] for one in beside if one.outweighs]
     return f"What is shown is outweighed by {' and by '.join(names)}." if names else ""
 

@@ -242,7 +242,10 @@ def tensor_or_moments(options: Mapping[str, Any]) -> Any:
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
-    """Return R(0), (3, 3), from --attitude X Y Z W, or None. Raises AtlasError for a quaternion not of unit length."""
+    """Return R(0), (3, 3), from --attitude X Y Z W, or None. Raises AtlasError for a quaternion not of unit length.
+
+    `options` are the command's, by name.
+    """
     if options.get("attitude") is None:
         return None
     from atlas.arithmetic.quaternions import rotation_of
@@ -268,7 +271,8 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> st
 def as_typed(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options by name; with --decimal the typed numbers of the body, the field and the start are fractions.
 
-    Raises click.UsageError for --decimal with numbers that are computed from others in doubles.
+    Raises click.UsageError for --decimal with numbers that are computed from others in doubles. Without --decimal
+    the options are returned unchanged.
     """
     if not options.get("decimal"):
         return options
@@ -283,7 +287,7 @@ def mass_of(options: Mapping[str, Any]) -> Any:
     """Return the mass of a shape, from --mass or from --density with pi in 512 bits; None without either.
 
     The second is a Fraction. Raises UsageError for a density besides a mass, of a shape that is no solid, or of one
-    without all sizes; DomainError for a volume of zero.
+    without all sizes; DomainError for a volume of zero. `options` are the command's, by name.
     """
     if options.get("density") is None:
         return options.get("mass")
@@ -308,7 +312,7 @@ def mass_of(options: Mapping[str, Any]) -> Any:
 def system_of(options: Mapping[str, Any]) -> str:
     """Return the system of units: --units, or by default "si" with --charge, --points or a typed unit, else "natural".
 
-    Raises click.UsageError for a typed unit with another system.
+    Raises click.UsageError for a typed unit with another system. `options` are the command's, by name.
     """
     charged = options["charge"] is not None or options.get("points") is not None
     has_unit = in_one_system(options)
@@ -334,7 +338,10 @@ def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return `SECONDS`, such as {"time": "s", "1/time": "1/s"}, if a unit or a system of units is known, else {}."""
+    """Return `SECONDS`, such as {"time": "s", "1/time": "1/s"}, if a unit or a system of units is known, else {}.
+
+    `options` are the command's, by name.
+    """
     has_units = options.get("magnetic") is not None and system_of(options) != "natural"
     return SECONDS if has_units or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
@@ -380,6 +387,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
     A product that is no float is a Fraction, and so not rounded.
 
     Raises click.UsageError when neither or both are given, or an option of the one stands beside the other.
+    `options` are the command's, by name.
     """
     if (options["field"] is None) == (options["magnetic"] is None):
         if options["field"] is not None:
@@ -434,7 +442,7 @@ def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
     """Return (largest speed of a charge, its time) among t = 0 and the times of --times, in the typed units.
 
     Gyration is left out: the speed is that of the initial velocity and of the acceleration by E along B, or by E
-    without B.
+    without B. `options` are the command's, by name.
     """
     velocity, E, B = ([*map(float, options[name] or (0, 0, 0))] for name in ("velocity", "electric", "magnetic"))
     square = hypot(*B) ** 2
@@ -449,7 +457,8 @@ def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
     """Return the initial angular velocity, three numbers in 1/time, from --omega, or from --spin as (0, 0, W3).
 
-    None if neither is given and it is not `needed`; click.UsageError for both, and for none if `needed`.
+    None if neither is given and it is not `needed`; click.UsageError for both, and for none if `needed`. `options`
+    are the command's, by name.
     """
     omega, spin = options["omega"], options["spin"]
     if (needed or spin is not None) and (omega is None) == (spin is None):

@@ -188,7 +188,8 @@ def faults_of(
 def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
     """Yield (names of its options, function that reads them) for each part of body, field and start.
 
-    The functions take no argument and raise click.UsageError or AtlasError for a fault.
+    The functions take no argument and raise click.UsageError or AtlasError for a fault. `options` are the
+    command's, by name.
     """
     if family.takes("coupling"):
         yield from checks_of_top(options)
@@ -203,7 +204,8 @@ def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequenc
 def _checked_inertia(options: Mapping[str, Any]) -> Any:
     """Return the inertia tensor (3, 3) of --tensor, --points or three moments.
 
-    Raises DomainError for that of no body, click.UsageError unless the body is given once.
+    Raises DomainError for that of no body, click.UsageError unless the body is given once. `options` are the
+    command's, by name.
     """
     from atlas.bodies.inertia import inertia_tensor
 
@@ -508,7 +510,7 @@ def _exact(x: Any) -> float | str:
 def _body(options: dict[str, Any]) -> dict[str, Any]:
     """Return the body's record for a report file, a dict of its title and its typed inputs as plain numbers.
 
-    Points become two moments, a density a mass; a shape without a mass has 1.
+    Points become two moments, a density a mass; a shape without a mass has 1. `options` are the command's, by name.
     """
     of_field = {"field", "magnetic", "mu", "units"}
     parameters = {

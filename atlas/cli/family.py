@@ -499,7 +499,7 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
     """Return {"input_error": angle}, the largest angle in rad by which rounded inputs turn the body at the times.
 
-    {} without times, where the angle is not known, and below `ROUNDING`.
+    {} without times, where the angle is not known, and below `ROUNDING`. `motion` is the object in doubles.
     """
     error = _turn_by_rounding(family, motion, times)[0] if times else None
     return {"input_error": error} if error is not None and error > ROUNDING else {}
@@ -508,7 +508,8 @@ def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[st
 def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> tuple[float | None, float]:
     """Return (largest bound in rad of the angle by which rounded inputs turn the body, its time).
 
-    Where no derivatives are at hand the bound is None and the time the one furthest from 0.
+    Where no derivatives are at hand the bound is None and the time the one furthest from 0. `motion` is the object
+    in doubles.
     """
     moments = [*map(float, times)]
     with suppress(AtlasError):
@@ -520,7 +521,8 @@ def _turn_by_rounding(family: Family, motion: Any, times: Sequence[float]) -> tu
 def _rates(options: dict[str, Any]) -> list[float]:
     """Return the numbers, in 1/time, that bound a motion's rates: of --field, --omega, --omega2 and --spin.
 
-    [inf] for a field given as --magnetic and for tops, whose rates are not known from these.
+    [inf] for a field given as --magnetic and for tops, whose rates are not known from these. `options` are the
+    command's, by name.
     """
     rates = [x for name in ("field", "omega", "omega2", "spin") for x in parts_of(options.get(name) or 0.0)]
     return rates if options.get("magnetic") is None and options.get("linear") is None else [inf]
@@ -578,7 +580,8 @@ def _balls(family: Family, options: dict[str, Any]) -> Any:
 def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:
     """Return the quantities of a motion in doubles by name, and under "samples" a record for each of the times.
 
-    `sampled` are the functions of time. In given axes m is that of the body, not over I2 as in tables.
+    `sampled` are the functions of time. In given axes m is that of the body, not over I2 as in tables. `motion` is
+    the object of `family`.
     """
     columns = {s.name: along(s.method_of(motion), times) for s in sampled}
     placed = getattr(motion, "is_placed", False)
@@ -707,7 +710,7 @@ def _quantities(
 
     `columns` has a value for each time of each function; values of quantities are exact or in balls if `exact`. A
     quantity that may be missing is left out where it has no value, others are None; the reason stands under
-    "missing".
+    "missing". `motion` is the object of `family`, in doubles or balls.
     """
     values, reasons = dict[str, Any](), dict[str, str]()
     for q in family.quantities:
@@ -728,7 +731,10 @@ def _quantities(
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
-    """Return other names of units by the register's names, such as {"1/time": "1/s"}; {} where no unit is known."""
+    """Return other names of units by the register's names, such as {"1/time": "1/s"}; {} where no unit is known.
+
+    `options` are the command's, by name.
+    """
     if family.takes("coupling"):
         return top_units(options)
     if family.takes("c"):
@@ -739,7 +745,8 @@ def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
 def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterator[Line]:
     """Yield the `Line` of a quantity, or one for each component; "-" for a value None.
 
-    `case` selects words and equation, `units` replaces names of units.
+    `case` selects words and equation, `units` replaces names of units. `texts` is the value as text, or a list with
+    one for each component.
     """
     says, equation = q.cases.get(case, (q.says, q.equation))
     count = len(q.lines)
@@ -752,7 +759,7 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
 def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
     """Yield lines of the rates in hertz and of Larmor's frequency, rounded to six digits, if units are known.
 
-    `texts` are the quantities by name; those that are no number are left out.
+    `texts` are the quantities by name; those that are no number are left out. `options` are the command's, by name.
     """
     if not _units(family, options):
         return

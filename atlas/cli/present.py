@@ -65,7 +65,7 @@ def explain_build(built: Any) -> None:
 def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
     """Draw the `scene` of a result into `file` and print its path unless `silent`; nothing if `file` is None.
 
-    A file that the user edited stays, and the new one is written beside it.
+    A file that the user edited stays, and the new one is written beside it. `graded` is the result of a command.
     """
     if file is None:
         return
@@ -224,12 +224,18 @@ def answer(
 
 
 def certificate(options: dict[str, Any]) -> str:
-    """Return the sentence below a table: all digits are proven, for the inputs of `_inputs`."""
+    """Return the sentence below a table: all digits are proven, for the inputs of `_inputs`.
+
+    `options` are the command's, by name.
+    """
     return f"All digits printed are proven; inputs: {_inputs(options)}."
 
 
 def _inputs(options: dict[str, Any]) -> str:
-    """Return the inputs of proven digits in words: numbers as typed, and numbers computed from them in doubles."""
+    """Return the inputs of proven digits in words: numbers as typed, and numbers computed from them in doubles.
+
+    `options` are the command's, by name.
+    """
     from atlas.cli.typed import Inclined, measured
 
     option_names = {name for name, value in options.items() if value is not None}
@@ -274,7 +280,8 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
     """Yield a progress function of (parts done, number of parts, name of the next part).
 
     The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
-    terminal nothing is shown, or one line every `every` seconds, for the log of a batch job.
+    terminal nothing is shown, or one line every `every` seconds, for the log of a batch job. `title` stands before
+    the bar.
     """
     if not sys.stderr.isatty():
         yield _lines(title, every) if every else lambda _done, _total, _part: None

@@ -20,7 +20,10 @@ spectrum_options = stack(
 
 
 def check_spectrum(options: dict[str, Any]) -> None:
-    """Raise click.UsageError for --spectrum with --digits or --decimal, and for --least outside (0, 1)."""
+    """Raise click.UsageError for --spectrum with --digits or --decimal, and for --least outside (0, 1).
+
+    `options` are the command's, by name.
+    """
     if options.get("spectrum") and not 0 < options["least"] < 1:
         raise click.UsageError(f"--least is a fraction between 0 and 1, not {options['least'].text}.")
     if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):

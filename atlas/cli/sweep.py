@@ -318,6 +318,7 @@ def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
     """Return (columns, units) of a CSV list: floats by name, in SI where the heading has units, and these units.
 
     The units are a set without the register's own. Raises click.UsageError, with the line, for other cells.
+    `family` decides which options the names are.
     """
     options = _options(family)
     plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in options.items()}

@@ -119,8 +119,8 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
     """Return the `TopMotion` of a heavy top.
 
-    `direction` (n2, n3) points upwards, `omega` has three components in rad/s.
-    Raises click.UsageError without a mass, of --mass or of the points.
+    `direction` (n2, n3) points upwards, `omega` has three components in rad/s. Raises click.UsageError without a
+    mass, of --mass or of the points. `options` are the command's, by name.
     """
     from atlas.motions.nutation.kernel_top import TopMotion
 
@@ -135,6 +135,7 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
     """Return the `TopMotion` of a charged top; with --heavy it is held at a point, with its weight along the field.
 
     `omega` (3,) is the initial angular velocity in rad/s. Raises click.UsageError for --direction without --heavy.
+    `options` are the command's, by name.
     """
     from atlas.bodies.body import SymmetricBody
     from atlas.motions.nutation.kernel_top import TopMotion
@@ -157,6 +158,7 @@ def _body(options: Mapping[str, Any]) -> Any:
     """Return the `SymmetricBody` of --inertia, --shape or --points.
 
     Raises click.UsageError unless one of them is given, for options of another, and for a shape without --mass.
+    `options` are the command's, by name.
     """
     from atlas.bodies.body import SymmetricBody, from_shape
 
@@ -177,8 +179,8 @@ def _body(options: Mapping[str, Any]) -> Any:
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     """Return the `ChargeMoments` from --charged, --coat or --points.
 
-    `length` is the distance of the fixed point from the centre of mass, None for a free body. Raises click.UsageError
-    unless one of them is given.
+    `length` is the distance of the fixed point from the centre of mass, None for a free body. Raises
+    click.UsageError unless one of them is given. `options` are the command's, by name.
     """
     from atlas.bodies.charge import ChargeMoments
 

@@ -151,7 +151,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the `Typed` number, or several for an option of any length: a tuple, or `Steps` of a range.
 
-        Raises click.UsageError for other text.
+        Raises click.UsageError for other text. `value` is the typed text, `param` click's option.
         """
         if param and param.multiple:
             return joined([self._listed(word, param, ctx) for word in re.split(r"[,\s]+", value)])
@@ -269,7 +269,10 @@ def joined(numbers: Sequence[Sequence[Typed]]) -> Sequence[Typed]:
 
 
 def parts_of(value: Any) -> tuple[Any, ...]:
-    """Return the numbers of an option as a tuple: of a range its two ends, of a single number one."""
+    """Return the numbers of an option as a tuple: of a range its two ends, of a single number one.
+
+    A tuple is returned as it is.
+    """
     if isinstance(value, Steps):
         return value[0], value[-1]
     return value if isinstance(value, tuple) else (value,)

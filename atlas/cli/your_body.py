@@ -34,7 +34,8 @@ def built(
     """Write the report of a request, its card and its inputs into the folder `out`; return (`Built`, card).
 
     The card holds a record for each number by key. `jobs` is the number of processes, None for one a core. Raises
-    AtlasError for an object that cannot be, and where a source was edited by the user.
+    AtlasError for an object that cannot be, and where a source was edited by the user. `formats` are those of
+    `build_report`.
     """
     from atlas.book.card import ENTRIES
     from atlas.book.your_body import files_of, name_of

@@ -133,7 +133,10 @@ class _Letters:
         raise TypeError(f"{ast.unparse(node)} is no formula of the trial")
 
     def joined(self, node: ast.BinOp) -> str:
-        """Return the TeX of a sum, a difference, a quotient or a power; any other operator is written as a product."""
+        """Return the TeX of a sum, a difference, a quotient or a power; any other operator is written as a product.
+
+        `node` is a syntax tree of Python.
+        """
         match node.op:
             case ast.Add():
                 return f"{self.tex(node.left)}+{self.tex(node.right)}"

@@ -95,7 +95,7 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
     """Return the digests of everything on which a figure depends, by name: "parameters", "recipe and kernels", ....
 
     `gl` names the library that draws shaded pictures; it counts for a shaded figure alone. A recipe that can't be
-    loaded gets no records.
+    loaded gets no records. `sources` digests files of code.
     """
     from atlas.pictures import recipes
 
@@ -120,7 +120,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
     """Set each figure's `parts`, `keys` and, from the cache, `contents`; set `why` where the figure must be drawn.
 
     `gl` names the library that draws shaded pictures, None where there is none. The parts are saved in the cache
-    for the next comparison.
+    for the next comparison. `sources` digests files of code.
     """
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
@@ -298,7 +298,7 @@ def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Ma
     """Write the costs of the build of the report `name` as JSON into the file `path`, and return the path.
 
     `times` are the clock's readings in seconds at the end of each step, by the step's name and in order; the first
-    is the start. `jobs` is the number of workers.
+    is the start. `jobs` is the number of workers. `figures` are those of the report, drawn or failed.
     """
     steps = {
         step: round(end - start, 4) for (step, end), start in zip([*times.items()][1:], times.values(), strict=False)

@@ -52,7 +52,7 @@ _SCRIPT = re.compile(r'<script src="([^"]+)" defer></script>\n?')
 def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
     """Typeset a document's texts for these formats ("html", "pdf", "single") into `document.written`, in place.
 
-    Texts that an earlier build has set come from the cache.
+    Texts that an earlier build has set come from the cache. `sources` digests the code of the texts.
     """
     # pages of one object have most of their texts in common
     group = "a page" if len(document.pages) == 1 else document.report.name
@@ -76,8 +76,8 @@ def _pages(
 ) -> dict[str, bytes]:
     """Return the HTML pages of a report and all files beside them (figures, cards, fonts, manifest), contents by path.
 
-    A path begins with the report's name. `figures` are the drawn figures with their pictures; thumbnails and fonts that
-    an earlier build has made come from the cache.
+    A path begins with the report's name. `figures` are the drawn figures with their pictures; thumbnails and fonts
+    that an earlier build has made come from the cache. `sources` digests the code of both.
     """
     from atlas.book import fonts, html
 
@@ -174,7 +174,7 @@ def files_of(
     `figures` are the drawn figures with their pictures. The cache holds the last PDF of each report, which is taken
     where nothing in it has changed. Typst never gives memory back: a process of its own, where there can be one,
     ends with the report. Raises AtlasError if that process is ended, and for the format "single" of a report of
-    several pages.
+    several pages. `sources` digests the code that an entry depends on.
     """
     from concurrent.futures.process import BrokenProcessPool
 
@@ -205,7 +205,10 @@ def files_of(
 
 
 def _pdf_key(source: str, folder: Path, faces: Sequence[Path], sources: Sources) -> str:
-    """Return the digest of all that a PDF depends on: its Typst `source`, files in `folder`, fonts, code and Typst."""
+    """Return the digest of all that a PDF depends on: its Typst `source`, files in `folder`, fonts, code and Typst.
+
+    `faces` are the paths of the fonts; `sources` digests the code.
+    """
     beside = {path.relative_to(folder).as_posix(): digest_of(path) for path in folder.rglob("*") if path.is_file()}
     code = sources.closure([PACKAGE / "book" / "typesetting.py"])
     return digest(source, beside, [digest_of(face) for face in faces], code, versions())

@@ -242,7 +242,8 @@ def described() -> dict[str, Described]:
 def _members(owner: Any) -> Mapping[str, Described]:
     """Return the public functions, methods and properties of a class of this package by name, own before inherited.
 
-    {} for an object that is no class; members that are not functions are left out.
+    {} for an object that is no class; members that are not functions are left out. `owner` is any public object of
+    the package.
     """
     members: dict[str, Described] = {}
     for cls in inspect.getmro(owner) if inspect.isclass(owner) else ():

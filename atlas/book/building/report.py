@@ -107,7 +107,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None, values: Mappi
     """Return the digest of all that a report depends on: file, inputs, code, recipes, templates, records, libraries.
 
     `style` is a style sheet of Matplotlib, a file or a name, and `values` are the report's inputs by name; None for
-    none.
+    none. `sources` digests files of code.
     """
     from atlas import gl
 
@@ -128,7 +128,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None, values: Mappi
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
     """Return the `Built` of the existing report if each of its `formats` was built with this key, else None.
 
-    Its files must be unedited, too.
+    Its files must be unedited, too. `name` is that of its folder in `out`.
     """
     record_before = cache.load(_noted(name, out))
     for form in formats:
@@ -161,7 +161,8 @@ def _build(
 
     `file` is the report's, `name` that of its folder in `out`; `formats`, `style`, `jobs` and `progress` are those
     of `build_report`. `key` is that of `key_of`; if None, it is computed while the figures are drawn. Raises
-    AtlasError for a mistake in the report, and at the end for files that the user edited.
+    AtlasError for a mistake in the report, and at the end for files that the user edited. `cache` holds what
+    earlier builds made, `sources` digests files of code.
     """
     from atlas import gl
     from atlas.book.building import figures
@@ -302,7 +303,8 @@ def _figures(
     Pictures whose recipe failed are left out. The SVG is for the pages (``html`` or ``single`` among the
     `formats`), which offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen,
     and turn panels in space. Pictures that front-page `cards` show, by key, are drawn as PNG as well. `library`
-    draws shaded pictures; without one (None) they are drawn as the others.
+    draws shaded pictures; without one (None) they are drawn as the others. `style` is a style sheet of Matplotlib
+    or None.
     """
     from atlas.book.building.figures import FigureBuild
 

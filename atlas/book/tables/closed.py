@@ -18,8 +18,9 @@ PRINTED_DIGITS = 12
 def closed(request: Request, item: Thing) -> Data:
     """Return the table of best fractions p/q of phi/k, or of the turns in one nutation, each with its closed motion.
 
-    phi/k is that of an elementary motion (72); any other motion has a row (p turns, q nutations, time, miss) for each
-    fraction. Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
+    phi/k is that of an elementary motion (72); any other motion has a row (p turns, q nutations, time, miss) for
+    each fraction. Raises DomainError for a motion that does not turn, and where no fraction is told from the number
+    itself. `item` is the object of the request.
     """
     from flint import arb, fmpq
 
@@ -149,6 +150,7 @@ def angles(ratio: float, B2: float, B3: float, omega2: float) -> tuple[Any, ...]
     """Return balls theta (degrees), sqrt(c) (1/s), theta_+, theta_- (degrees) of an elementary motion.
 
     They are the columns of `companions`; sqrt(c) = 0 is an exact rational. Raises AtlasError without a companion.
+    `ratio` is I3/I2; B2, B3 and omega2 are in 1/s.
     """
     from flint import arb, fmpq
 

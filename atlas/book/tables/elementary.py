@@ -31,7 +31,8 @@ def side_by_side(
 ) -> tuple[tuple[Column, ...], tuple[tuple[str | Number, ...], ...]]:
     """Return (columns, rows) of a table with a column for each body, from their quantities in the same order.
 
-    The numbers of a row have the number of decimals that gives the largest of them the requested digits.
+    The numbers of a row have the number of decimals that gives the largest of them the requested digits. `bodies`
+    has a list of quantities for each body of the request.
     """
     titles = [case.body_record.title if case.body_record else "body" for case in request.cases]
     values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
@@ -154,7 +155,8 @@ def points(request: Request, setup: PointsParameters) -> Data:
 def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[Point]:
     """Return the named and the given points of the hyperbola (67) of a body, by rising omega2, but for the pole.
 
-    Equal points are one with several names. Raises AtlasError if there is none, as with B2 = 0.
+    Equal points are one with several names. Raises AtlasError if there is none, as with B2 = 0. `setup` has the
+    given omega2; values have `digits` proven digits.
     """
     from atlas.arithmetic.certified_inputs import rational
     from atlas.motions.elementary.certified_hyperbola import Hyperbola

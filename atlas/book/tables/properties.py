@@ -162,7 +162,8 @@ def _rows_given(item: Thing) -> Iterator[Row]:
 def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     """Yield six cells for each component of a quantity: meaning, name, value, unit, equation, what is proven.
 
-    A quantity without a value has one row with a dash and the reason in the last cell.
+    A quantity without a value has one row with a dash and the reason in the last cell. `item` is the object,
+    `digits` the number of significant digits.
     """
     try:
         texts = _texts(item, q, digits)
@@ -191,7 +192,8 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
 def _texts(item: Thing, q: Quantity, digits: int) -> Any:
     """Return the certified values of a quantity as texts, nested as the quantity is; None where it has none.
 
-    A quantity without certified digits is returned in doubles. Raises DomainError where it is not defined.
+    A quantity without certified digits is returned in doubles. Raises DomainError where it is not defined. `item`
+    is the object, `digits` the number of significant digits.
     """
     from atlas.arithmetic.certified_digits import certified
 
@@ -219,7 +221,7 @@ def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int
     """Return (value as a `Number` or text, words on its certainty) of a component's certified text.
 
     A value whose digits are not certified comes from the class in doubles. `place` is its index in the quantity, or
-    None.
+    None. `item` is the object, `digits` the number of significant digits asked for.
     """
     from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, ZERO_WITHIN
 
@@ -315,7 +317,8 @@ def _unit_of(case: BodyAndField, unit: str) -> str:
 def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
     """Yield (words, symbol, value, unit) of moments, their ratio, the charge-to-mass ratio and B'.
 
-    The moments, balls, only for a body given by its shape; the ratio mu only for a field given as B.
+    The moments, balls, only for a body given by its shape; the ratio mu only for a field given as B. The moments
+    have radii for `digits` digits.
     """
     from atlas.bodies.certified_body import ratio_of
 

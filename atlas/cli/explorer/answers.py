@@ -30,7 +30,8 @@ FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
 def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
     """Return the values of all sliders by name: `typed` texts by name as floats, else the sliders' starts.
 
-    Raises AtlasError for a name that has no slider, and for a text that is no finite number.
+    Raises AtlasError for a name that has no slider, and for a text that is no finite number. `subject` is a family
+    or a recipe.
     """
     known = {slider.name: slider for slider in subject.sliders}
     values = {name: slider.start for name, slider in known.items()}
