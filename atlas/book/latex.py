@@ -86,9 +86,10 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
 
 
 def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
-    """Yield a `Numeral` for each proven number of a computed table; its key is table/row, or table/row/column.
+    """Yield a `Numeral` for each proven number of a computed table.
 
-    `markdown` are the document's texts. The column is named only where several have numbers.
+    Its key is "table/row", or "table/row/column" where several columns have numbers. `markdown` are the document's
+    texts.
     """
     heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
     numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]

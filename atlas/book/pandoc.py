@@ -185,7 +185,8 @@ _FACTORS = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 def mend_all(html: str) -> str:
     """Return HTML whose formulas are corrected by `mend`.
 
-    An inline one stays on one line with adjacent commas or units.
+    An inline formula is put into a span with adjacent letters, commas and brackets, so that a line does not break
+    there.
     """
 
     def together(match: re.Match[str]) -> str:

@@ -104,10 +104,10 @@ def _infinities(raw: Any, place: str, key: str) -> Iterator[SchemaError]:
 
 
 def _faults_of_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> Iterator[SchemaError]:
-    """Yield the faults of a value of several types: a block, by its key "kind", or a value that may be left out.
+    """Yield the faults of a value `raw` of several types: a block, by its key "kind", or a value that may be left out.
 
     `place` says in words where the value stands, and `key` is its key. A value that may be a number or a text is
-    tried as the type that it has. `raw` is the value.
+    tried as the type that it has.
     """
     kinds = {
         str(kind_of_record.tag): kind_of_record

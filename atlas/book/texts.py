@@ -369,9 +369,10 @@ def _mark(text: Text) -> str:
 
 
 def _finished(piece: str, target: Target, text: Text) -> str:
-    """Return a text written by pandoc with corrected formulas, in Typst the parts between marks; LaTeX is unchanged.
+    """Return a text written by pandoc with corrected formulas; LaTeX is unchanged.
 
-    `target` is "html", "typst" or "latex".
+    `target` is "html", "typst" or "latex". In Typst the formulas are the parts between the marks of `_mark`; a space is
+    added behind a backslash at the end.
     """
     if target != "typst":
         return mend_all(piece) if target == "html" else piece

@@ -664,10 +664,10 @@ def value_of(family: Family, p: Parameter, options: dict[str, Any]) -> Any:
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
-    """Return a matrix or a vector at time t in balls; if the current precision fails, the best one so far from `best`.
+    """Return s(t), a matrix (3, 3) or a vector (3,) in balls; if the current precision fails, the best one so far.
 
-    Without any, its entries are the text `NOT_CERTIFIED`. So a time out of reach does not keep the others from
-    printing. `best` is updated in place.
+    That one is in `best`, which is updated in place. Without any, the entries are the text `NOT_CERTIFIED`, so that
+    a time out of reach does not keep the others from printing. `motion` is the object in balls.
     """
     try:
         best[s.name, t] = s.method_of(motion)(t)

@@ -87,7 +87,7 @@ def show(printout: Printout) -> None:
 
 
 def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the text of the title and that of the table of single quantities, each only if there is one."""
+    """Yield the text of a printout's title and that of its table of single quantities, each only if there is one."""
     from rich.table import Table
     from rich.text import Text
 
@@ -124,7 +124,7 @@ def _tables(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _notes(console: "Console", printout: Printout) -> Iterator[str]:
-    """Yield the text of each note, a line each."""
+    """Yield the text of each note of a printout, a line each."""
     for note in printout.notes:
         yield _text(console, note, style="dim", markup=False)
 

@@ -271,9 +271,10 @@ def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
-    """Return (body, field and start of the options, numbers by the names of a table's columns; axes as text).
+    """Return (numbers of body, field and start by the names of a table's columns; axes as text) from the options.
 
-    Those of a tensor are along its principal axes; the text describes these, "" where they are the axes given.
+    `options` are the command's, by name. Numbers of a tensor are along its principal axes; the text describes these, ""
+    where they are the axes given.
     """
     has_three, values = "tensor" in options, dict[str, float | Fraction]()
     if has_three and body.given_tensor(options) is not None:

@@ -52,7 +52,10 @@ def given_otherwise(options: Mapping[str, Any]) -> bool:
 
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return `SECONDS`, units of times and rates, for a top by --heavy or --magnetic; else those of `units_of`."""
+    """Return {"time": "s", "1/time": "1/s", ...} for a top by --heavy or --magnetic, else `units_of(options)`.
+
+    `options` are the command's, by name.
+    """
     return SECONDS if given_otherwise(options) else units_of(options)
 
 

@@ -264,7 +264,10 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
 
 
 def joined(numbers: Sequence[Sequence[Typed]]) -> Sequence[Typed]:
-    """Return the numbers of several words as one tuple; of a single word as they are, `Steps` for a range."""
+    """Return the numbers of several words, a sequence for each, as one tuple; of a single word as they are.
+
+    A single range stays `Steps`.
+    """
     return numbers[0] if len(numbers) == 1 else tuple(chain.from_iterable(numbers))
 
 

@@ -51,7 +51,10 @@ class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
 
 @dataclass(frozen=True)
 class DescribedView:
-    """A public name: its arguments as text, the index of its docstring among the texts, the views of its members."""
+    """A public name of the package as a page shows it, with its arguments as text, such as "(a, b=1)".
+
+    `text` is the index of its docstring among the document's texts, `members` are the views of its members.
+    """
 
     name: str
     arguments: str

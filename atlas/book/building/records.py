@@ -191,7 +191,7 @@ def _machines() -> dict[str, Data]:
 
 
 def title(name: str) -> str:
-    """Return the Markdown of a quantity or a regime of the stress runs, with letters and numbers as TeX."""
+    """Return the name of a quantity or of a regime of the stress runs as Markdown, with letters and numbers as TeX."""
     pieces = re.split(r"(, | )", name)
     formulas = [bool(_FORMULA.fullmatch(piece)) for piece in pieces]
     heading = ""

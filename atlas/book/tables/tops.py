@@ -296,8 +296,9 @@ def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
 def elliptic(request: Request, setup: Family) -> Data:
     """Return the table of elliptic motions of one body in one field, one a row, theorem-elliptic.
 
-    A row has z, v, omega (3,), C/D^2 whose sign decides on stability, the period T of K, the field in the body, the
-    angle in rad by which the body turns about the field in T, and the stability in words.
+    A row has the place (z, v) of the motion on its curve, omega (3,) in 1/time, C/D^2, whose sign decides on
+    stability, the period T of the field K in the body, the angle in rad by which the body turns about the field in
+    T, and "stable" or another word.
     """
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 
