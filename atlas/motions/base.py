@@ -64,10 +64,12 @@ def check_column(j: Any) -> None:
 
 
 class Motion(Shown, Generic[Single]):
-    """Motions R(t) of the shape of the parameters, which broadcasts with the times.
+    """One motion R(t), or an array of motions; the `shape` of the array broadcasts with the times.
 
-    One motion is evaluated by the object that `_single` makes of its inputs. So is each of an array at many times,
-    and at few where there are no `_rows`, or where these do not hold a motion.
+    ``make`` takes the inputs of one motion and returns its evaluator, whose `rotation`, `column`, `quaternion` and
+    `angular_velocity` take times and an array to fill; ``inputs`` are the inputs of all motions, which broadcast. Each
+    motion of an array at many times is evaluated by its own evaluator, see `_single`. At few times per motion the array
+    `_rows` serves all motions at once, where the class has one; motions beyond its range are evaluated singly.
     """
 
     _rows: Any = None
@@ -102,7 +104,7 @@ class Motion(Shown, Generic[Single]):
         return single
 
     def _row(self, i: int = 0) -> list[Any]:
-        """Return the inputs of the i-th motion: floats, rationals that no float holds, or None.
+        """Return the inputs of the i-th motion, a list: floats, rationals (`fmpq`) that no float holds, or None.
 
         I counts the array flattened.
         """
@@ -110,14 +112,18 @@ class Motion(Shown, Generic[Single]):
         return [element(x, index) for x in self._inputs]
 
     def _of_each(self, value: Callable[[Single], Value]) -> Value | NDArray[Any]:
-        """Return value(single) for each motion: plain for one motion, else an array of shape (*shape, ...)."""
+        """Return value(evaluator) of each motion: plain for one motion, else an array of shape (*shape, ...)."""
         if not self.shape:
             return value(self._single())
         values = np.array([value(self._single(i)) for i in range(prod(self.shape))])
         return values.reshape(self.shape + values.shape[1:])
 
     def _place(self, placement: Placement, arguments: Mapping[str, Any], made_by: str) -> Self:
-        """Set the placement and the call of a new motion, and return the motion."""
+        """Store where a new motion stands and the call that makes it, in place, and return the motion.
+
+        ``placement`` is its `Placement`, ``arguments`` are those of the call by name, and ``made_by`` is the call's
+        name.
+        """
         self._placement, self.made_by, self.arguments = placement, made_by, arguments
         return self
 
@@ -128,17 +134,22 @@ class Motion(Shown, Generic[Single]):
 
     @property
     def axes(self) -> FloatArray:
-        """Axes of the class as rows, in the body axes that were given; shape (..., 3, 3)."""
+        """Axes of the class as rows, unit vectors along the body axes that were given; shape (..., 3, 3)."""
         return self._sides[1]
 
     @property
     def _sides(self) -> tuple[FloatArray, FloatArray]:
-        """Constant rotations (L, C), (..., 3, 3), with R(t) = L R_class(t) C; unit matrices without a placement."""
+        """Constant rotations (L, C), (..., 3, 3) each, with R(t) = L R_class(t) C; unit matrices if not placed."""
         return (np.eye(3), np.eye(3)) if self._placement is None else self._placement.sides
 
     @property
     def given(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Inertia tensor, field in the laboratory, R(0) and Omega(0) of `atlas.motion`, as arrays in the given axes."""
+        """Inputs of `atlas.motion` as a tuple of four arrays: inertia tensor, field B', R(0) and Omega(0).
+
+        Tensor (..., 3, 3) and Omega(0) (..., 3), in rad/time, are along the body's given axes, the field (..., 3),
+        in 1/time, along those of the laboratory; R(0) is (..., 3, 3). Raises AtlasError for a motion made by its
+        class alone.
+        """
         p = self._placement
         if p is None:
             raise AtlasError(f"A {type(self).__name__} by its class has its parameters, and R(0) = 1.")
@@ -146,7 +157,7 @@ class Motion(Shown, Generic[Single]):
 
     @property
     def own(self) -> Self:
-        """The same motion along the axes of its class, with R(0) = 1."""
+        """The same motion along the axes of its class, with R(0) = 1; the motion itself if no axes were given."""
         return self._unplaced or self  # a motion that kept itself would be garbage
 
     @cached_property
@@ -159,7 +170,7 @@ class Motion(Shown, Generic[Single]):
         return own
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return the call that makes the motion again, for copy and pickle."""
+        """Return a callable and its arguments, by which copy and pickle make the motion again."""
         return super().__reduce__() if self._placement is None else (made, (self._placement.make, dict(self.arguments)))
 
     def rotation(self, t: RealArrayLike, out: FloatArray | None = None) -> FloatArray:
@@ -307,15 +318,15 @@ class Motion(Shown, Generic[Single]):
         return self._started(self._in_body(Omega), self._omega_at_zero, t)
 
     def _started(self, values: FloatArray, start: Callable[[], FloatArray], t: Any, rank: int = 1) -> FloatArray:
-        """Return ``values`` with those at t = 0 replaced by start(), where the formulas are not exact there.
+        """Return ``values`` at times t with those at t = 0 replaced by start(), where the formulas are not exact there.
 
-        They are vectors for ``rank`` 1, matrices for rank 2.
+        Values are vectors (..., 3) for ``rank`` 1, matrices (..., 3, 3) for rank 2, and are changed in place.
         """
         exact = self._placement is None and self._is_exact_at_zero
         return values if exact or np.all(bare(t, "The time", TIME)) else Placement.started(values, start(), rank, t)
 
     def _omega_at_zero(self) -> FloatArray:
-        """Angular velocity at t = 0 as given, (..., 3)."""
+        """Angular velocity at t = 0 along the body's axes as it was given, shape (..., 3), in rad/time."""
         if self._placement is not None:
             return self._placement.omega
         omega: tuple[RealArrayLike, ...] = self.omega  # type: ignore[attr-defined]  # of classes that have it
@@ -332,8 +343,9 @@ class Motion(Shown, Generic[Single]):
     def _momentum_of(self, factors: Callable[[FloatArray], FloatArray], t: Any, name: str = "m") -> FloatArray:
         """Return the angular momentum R II Omega in the laboratory at times t, shape (..., 3), in inertia/time.
 
-        ``factors`` maps Omega to II Omega along the axes of the class. Without field the momentum is that of t = 0 at
-        all times. Raises DomainError, naming ``name``, if it is too large for a float.
+        ``factors`` maps Omega (..., 3) to II Omega along the axes of the class; with a placement the given inertia
+        tensor II is used instead. Without field the momentum is that of t = 0 at all times. Raises DomainError,
+        naming ``name``, if the momentum is too large for a float.
         """
         Omega, p = self.angular_velocity(t), self._placement
         momentum = factors(Omega) if p is None else np.matvec(p.tensor, Omega)
@@ -418,13 +430,14 @@ class Motion(Shown, Generic[Single]):
     def _from_start(cls, start: Any, **parameters: Any) -> Any:
         """Return (motion, axes) of this class for a `Start`; None where the class has no motion from there.
 
-        The rows of `axes` (..., 3, 3) are the axes of the class, along those of the body.
+        The rows of `axes` (..., 3, 3) are the axes of the class, along those of the body. ``parameters`` are
+        further inputs of the class. Raises NotImplementedError in the base.
         """
         raise NotImplementedError
 
     @staticmethod
     def _body_of(inertia: Any) -> Any:
-        """Return the `Body` that the inertia of this class stands for."""
+        """Return the `Body` (moments, axes, tensor) for the inertia that `in_laboratory` of this class takes."""
         from atlas.motions.start import body_of
 
         return body_of(inertia)
@@ -594,15 +607,25 @@ class Motion(Shown, Generic[Single]):
         return actions(self)
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the `Inputs` of the i-th motion: exact inputs by name, the certified counterpart, and scalars."""
+        """Return the `Inputs` of the i-th motion: exact inputs by name, the certified counterpart, and scalars.
+
+        I counts the array flattened. Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     def _dynamics(self) -> Any:
-        """Return (moments, coupling, linear, quadratic) of one motion along the axes of its class; see `Inputs`."""
+        """Return (moments, coupling, linear, quadratic) of one motion, of which its angular acceleration is made.
+
+        Moments I_i and coupling k_i, shape (3,) each, are along the axes of the class; the potential is
+        linear nu + quadratic nu^2/2.
+        """
         return self._inputs_of(0).dynamics
 
     def _wheels(self) -> Wheels:
-        """Return one motion as turns and a function of phases, see `atlas.motions.spectrum.Wheels`."""
+        """Return one motion as two turns and a function S of phases, see `atlas.motions.spectrum.Wheels`.
+
+        Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     def animate(
@@ -698,15 +721,20 @@ class Motion(Shown, Generic[Single]):
         return out if self._placement is None else self._placement.matrices(out, between=1)
 
     def _fill_grid(self, single: Single, start: float, step: float, out: FloatArray) -> None:
-        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step."""
+        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step; ``single`` is its evaluator.
+
+        Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     def _evaluate(
         self, function: Callable[..., Any], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
     ) -> FloatArray:
-        """Return function(motion, t, out) for all motions at times that broadcast with them, shape (..., *shape).
+        """Return function(evaluator, t, out) for all motions at times that broadcast with them, shape (..., *shape).
 
-        Few times per motion are evaluated by `_rows`, others motion by motion. ``out``, if given, is filled.
+        ``shape`` is that of one value, (3, 3) for R. Below `MIN_SINGLE_TIMES` times per motion `_rows` evaluate all
+        motions at once, if the class has them; otherwise motion by motion. ``out``, if given, is filled and
+        returned.
         """
         t = t if type(t) is np.ndarray else bare(t, "The time", TIME)
         if not self.shape:
@@ -727,10 +755,10 @@ class Motion(Shown, Generic[Single]):
     def _evaluate_rows(
         self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
     ) -> None:
-        """Write function(rows, t, out) into ``out`` (m, ...) by blocks.
+        """Write function(rows, t, out) into ``out`` (m, ...), m the number of times, in blocks of `BLOCK` times.
 
-        Motions of shape ``own`` broadcast with ``times``. Motions that `_rows` count as extreme are evaluated one by
-        one.
+        Motions of shape ``own`` broadcast with ``times``, of any shape. Motions that `_rows` count as extreme are
+        evaluated one by one.
         """
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
         for start in range(0, times.size, BLOCK):
@@ -745,7 +773,11 @@ class Motion(Shown, Generic[Single]):
 
 
 class DoubleTurn(Motion[Rotation]):
-    """Motions in elementary functions, R(t) = R_n(k t) R_z(phi t), (85)."""
+    """Motions in elementary functions, R(t) = R_n(k t) R_z(phi t), (85): a turn about a fixed n after one about e3.
+
+    n is a unit vector in the laboratory, k and phi are rates in rad/time. Subclasses give the formulas in `_groups`
+    and the constant vectors in `_vectors`.
+    """
 
     _frequencies: slice
     """Which of the inputs are frequencies."""
@@ -760,33 +792,39 @@ class DoubleTurn(Motion[Rotation]):
 
     @cached_property
     def _rows(self) -> DoubleRotationRows:
-        """All motions in arrays, for a few times each."""
+        """The `DoubleRotationRows` of all motions, which evaluate each motion at a few times."""
         # by a weak reference: in a circle of references, memory would wait for the collector of garbage
         vectors = partial(getattr, proxy(self), "_flat_vectors")
         return DoubleRotationRows(self._groups(), prod(self.shape), self._frequencies, vectors, inverse=self._inverse)
 
     @cached_property
     def _flat_vectors(self) -> Mapping[str, Any]:
-        """Components of the motions' constant vectors by name, lists of arrays flattened to (count,)."""
+        """Constant vectors of the motions by name: a list of three components, each an array flattened to (count,)."""
         return {
             name: [np.broadcast_to(x, self.shape).reshape(-1) for x in vector]
             for name, vector in self._vectors().items()
         }
 
     def _groups(self) -> list[Group]:
-        """Return the motions grouped by the formulas that hold for them, as a list of `Group`."""
+        """Return the motions grouped by the formulas that hold for them, as triples (formula, indices, inputs).
+
+        See `DoubleRotationRows`.
+        """
         raise NotImplementedError
 
     def _vectors(self) -> Mapping[str, Any]:
-        """Return constant vectors of the motions by name, three components each."""
+        """Return constant vectors of the motions by name, such as "omega": three components each, which broadcast."""
         raise NotImplementedError
 
     def _fill_grid(self, single: Rotation, start: float, step: float, out: FloatArray) -> None:
-        """Write R of one motion at times start + i step into ``out`` (count, 3, 3), by `atlas.arithmetic.grid`."""
+        """Write R of one motion at times start + i step into ``out`` (count, 3, 3), by `atlas.arithmetic.grid`.
+
+        ``single`` is the `DoubleRotation` of the motion.
+        """
         fill_grid(single, start, step, out)
 
     def _wheels(self) -> Wheels:
-        """Return the `Wheels` of one motion: a rotation about the axis of precession and one about the body's axis."""
+        """Return the `Wheels` of one motion: a rotation by k about the axis n, one by phi about e3, and no phases."""
         single, (L, C), e3 = self._single(), self._sides, np.array([0.0, 0.0, 1.0])
         n = np.array([nearest(x) for x in single.axis])
         k, phi = (nearest(x) for x in single.frequencies)

@@ -31,9 +31,11 @@ MAX_RATE = 1e140
 
 
 class Moved(NamedTuple):
-    """Change of the inputs with a name: ``weights`` of inputs, ``turn`` of the laboratory (3,), ``spin`` of the body.
+    """Change of a motion's inputs per unit of one parameter of the user, such as "B1".
 
-    Both rotations are in rad per unit of the name; ``spin`` is about the third axis of the class.
+    ``weights`` holds d(input)/d(parameter) by the input's name, without zeros. ``turn`` (3,) is the rotation vector
+    of the laboratory, ``spin`` the rotation about the third axis of the class, both in rad per unit of the
+    parameter; a NaN spin says that there is no derivative.
     """
 
     weights: Mapping[str, float]
@@ -42,10 +44,10 @@ class Moved(NamedTuple):
 
 
 def of(motion: Any, t: Any, names: Any, of: str, *, certified: bool = True) -> FloatArray:
-    """Return derivatives of a motion, or of an array of motions, in ``names``; see `Motion.sensitivity`.
+    """Return derivatives of the quantity ``of`` of one or many motions in ``names``, see `Motion.sensitivity`.
 
-    Without `certified` eight digits are enough, and DomainError is raised where only balls, in milliseconds a time,
-    have eight.
+    The shape is (..., names, 3) for vectors at times t, (..., names) for a scalar. Without `certified` eight digits are
+    enough, and DomainError is raised where only balls, in milliseconds a time, have eight.
     """
     names = [names] if isinstance(names, str) else list(names)
     ones = _ones(motion)
@@ -63,7 +65,7 @@ def of(motion: Any, t: Any, names: Any, of: str, *, certified: bool = True) -> F
 
 
 def of_rounding(motion: Any, t: Any) -> FloatArray:
-    """Return the bound of `Motion.input_error` in rad, of the shape of motions and times."""
+    """Return the bound of `Motion.input_error`, angles in rad in an array of the shape of motions and times t."""
     probe = _ones(motion)
     names = list(probe[0].rounded) if probe else []
     v = of(motion, t, names, "rotation")
@@ -78,7 +80,12 @@ def _ones(motion: Any) -> list["One"]:
 
 
 class One:
-    """The i-th motion of an array, its inputs, and `changes`: by name, the `Moved` inputs of a derivative in it."""
+    """The i-th motion of an array, counted flattened, with all that its derivatives need.
+
+    Its `inputs` are the class's `Inputs`, `sides` the constant rotations (left, axes) of its placement, (3, 3)
+    each, and `changes` has, by each name that `sensitivity` takes, the `Moved` inputs. `scalar` and `vectors`
+    return the derivatives.
+    """
 
     def __init__(self, motion: Any, i: int) -> None:
         self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same folder
@@ -91,7 +98,10 @@ class One:
         self._cache, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
 
     def _changes_by_name(self, placed: bool, i: int) -> dict[str, Moved]:
-        """Return a `Moved` for each name that `sensitivity` takes, except "t"."""
+        """Return a `Moved` for each name that `sensitivity` takes, except "t".
+
+        ``placed`` is true for a motion with given axes or attitude; i is its index in the flattened array.
+        """
         names, L, C = self.inputs.names, self.left, self.axes
         changes = {x: Moved({x: 1.0}) for x in names if x[0] not in ("Kn" if placed else "K")}
         if "K1" in names or (placed and "n2" in names):
@@ -115,7 +125,10 @@ class One:
 
     @cached_property
     def rounded(self) -> dict[str, float]:
-        """Half an ulp of each input by name, for the names in `changes`; an attitude has no entry."""
+        """Half an ulp of each input, by name, in the input's unit; the names are those in `changes`.
+
+        An attitude has no entry.
+        """
         values = {x: nearest(value) for x, value in zip(self.inputs.names, self.inputs.values, strict=True)}
         if self.motion.is_placed:
             shape = (*self.motion.shape, 3)
@@ -130,8 +143,8 @@ class One:
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
         """Return the `Moved` inputs for a change (3,) of the field and a rotation ``turn`` (3,) of the body in space.
 
-        The field changes along the class's axes at t = 0. For a top along its field the spin is NaN: there is no
-        derivative.
+        The change is along the class's axes at t = 0, the rotation vector in the laboratory. For a top along its
+        field the spin is NaN: there is no derivative.
         """
         if "K1" in self.inputs.names:
             return Moved({f"K{k + 1}": change[k] for k in range(3)}, turn)
@@ -142,9 +155,10 @@ class One:
         return Moved(weights, turn - spin * self.left[:, 2], spin)
 
     def _inputs_behind(self, names: Sequence[str]) -> list[str]:
-        """Return the class's inputs on which ``names`` depend, in their order.
+        """Return the names of the class's inputs on which ``names`` depend, in the class's order.
 
-        Raises AtlasError for an unknown name, DomainError for a field's direction of a top along n.
+        Raises AtlasError for an unknown name, and DomainError for a component of n in ``names`` of a top whose axis
+        is along n.
         """
         allowed = [*self.changes, "t"]
         for name in names:
@@ -155,9 +169,9 @@ class One:
         return [x for x in self.inputs.names if any(x in self.changes[name].weights for name in names if name != "t")]
 
     def scalar(self, names: Sequence[str], of: str) -> FloatArray:
-        """Return the derivatives of a scalar such as "period" in ``names``, shape (len(names),).
+        """Return the derivatives of the scalar ``of``, such as "period", in ``names``, shape (len(names),); 0 in "t".
 
-        Raises AtlasError for an unknown scalar, DomainError for an infinite one.
+        Raises AtlasError for an unknown scalar, DomainError for an infinite one or a derivative that no float holds.
         """
         if of not in self.inputs.scalars:
             raise AtlasError(
@@ -177,9 +191,10 @@ class One:
         return np.asarray(finite(np.array(values), f"A derivative of the {of}"))
 
     def vectors(self, t: FloatArray, names: Sequence[str], of: str, *, certified: bool) -> FloatArray:
-        """Return derivatives at times t (m,) in ``names``, shape (m, len(names), 3), see `Motion.sensitivity`.
+        """Return derivatives of the vector quantity ``of`` at times t (m,) in ``names``, shape (m, len(names), 3).
 
-        Raises DomainError for rates beyond `MAX_RATE`.
+        See `Motion.sensitivity` for the quantities, `of` for ``certified``. Raises DomainError for rates beyond
+        `MAX_RATE`.
         """
         faster, inverse = of == "angular_velocity", "larmor" in self.inputs.names
         if not 1 / MAX_RATE < self.inputs.rate < MAX_RATE:
@@ -217,10 +232,10 @@ class One:
         return out
 
     def _weighted(self, names: Sequence[str]) -> tuple[Any, ...]:
-        """Return derivatives in the inputs behind ``names``, and how these are weighted; cached by ``names``.
+        """Return derivatives in the inputs behind ``names``, and how the inputs are weighted; cached by ``names``.
 
-        The tuple is (derivatives or None, weights (names, inputs), turns (names, 3), spins (names,), prepared data or
-        None).
+        The tuple is (`Varied` evaluator or None, weights (names, inputs), turns (names, 3), spins (names,),
+        prepared data or None); see `Moved`.
         """
         key = tuple(names)
         if key not in self._cache:
@@ -241,9 +256,11 @@ class One:
         return self._cache[key]
 
     def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
-        """Return dK/dt for "field", else dOmega/dt, (m, 3), along the body's axes at rotations R and velocities Omega.
+        """Return dK/dt if ``of`` is "field", else dOmega/dt, (m, 3), along the body's axes.
 
-        I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega].
+        R (m, 3, 3) are the rotations, Omega (m, 3) the angular velocities in the body, and B (3,) is the field in
+        the laboratory. I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega], with the
+        coupling k and the potential U of `Inputs.dynamics`, and b the field in the body.
         """
         J, k, linear, quadratic = self.inputs.dynamics
         w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T

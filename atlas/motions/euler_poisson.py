@@ -24,7 +24,7 @@ from atlas.bodies.inertia import mass_matrix
 
 
 def hat(omega: Any) -> FloatArray:
-    """Return the antisymmetric matrices (..., 3, 3) of vectors omega (..., 3): a row v times it is [v, omega]."""
+    """Return antisymmetric matrices (..., 3, 3) of vectors omega (..., 3): a row v times the matrix is [v, omega]."""
     omega = np.asarray(omega, dtype=np.float64)
     matrix = np.zeros((*omega.shape, 3))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -44,27 +44,36 @@ def field_in_body(R: Any, B: Any) -> FloatArray:
 
 
 def rotation_rate(R: Any, Omega: Any) -> FloatArray:
-    """Poisson equations, (12): dR_ij/dt = -eps_jab Omega_a R_ib, shape (..., 3, 3); each row obeys (74)."""
+    """Poisson equations, (12): dR_ij/dt = -eps_jab Omega_a R_ib, shape (..., 3, 3); each row of R obeys (74).
+
+    R (..., 3, 3) is the attitude, Omega (..., 3) the angular velocity in the body.
+    """
     return np.asarray(np.matmul(R, hat(Omega)))
 
 
 def field_rate(K: Any, Omega: Any) -> FloatArray:
-    """Poisson equation of the field in the body, (35), in components (39): dK/dt = -[Omega, K], shape (..., 3)."""
+    """Poisson equation of the field K in the body, (35), in components (39): dK/dt = -[Omega, K], shape (..., 3)."""
     return bracket(K, Omega)
 
 
 def angular_acceleration(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Euler equations, (16) and (34), (38) if I1 = I2: dOmega/dt = I^-1 [I Omega - 2 g K, Omega], shape (..., 3)."""
+    """Euler equations, (16) and (34), (38) if I1 = I2: dOmega/dt = I^-1 [I Omega - 2 g K, Omega], shape (..., 3).
+
+    I is the tensor ``inertia``, g = (tr I/2) 1 - I, and K and Omega are along the body's axes.
+    """
     return _solve(inertia, _torque(inertia, K, Omega))
 
 
 def body_momentum_rate(inertia: Any, K: Any, M: Any) -> FloatArray:
-    """Rate of M = I Omega in the body, (18): dM/dt = [M - 2 g K, I^-1 M], shape (..., 3)."""
+    """Rate of M = I Omega in the body, (18): dM/dt = [M - 2 g K, I^-1 M], shape (..., 3), with g = (tr I/2) 1 - I."""
     return _torque(inertia, K, _solve(inertia, M))
 
 
 def momentum_rate(inertia: Any, B: Any, R: Any, m: Any) -> FloatArray:
-    """Rate of m = R I Omega in the laboratory, (17): dm/dt = -2 [R g R^T B', R I^-1 R^T m], (..., 3)."""
+    """Rate of m = R I Omega in the laboratory, (17): dm/dt = -2 [R g R^T B', R I^-1 R^T m], (..., 3).
+
+    I is the tensor ``inertia``, g = (tr I/2) 1 - I, and `B` is B' in the laboratory.
+    """
     omega = np.matvec(R, _solve(inertia, np.vecmat(m, R)))
     return bracket(-2 * np.matvec(R, np.matvec(mass_matrix(inertia), field_in_body(R, B))), omega)
 
@@ -80,7 +89,7 @@ def momentum_along_field(inertia: Any, K: Any, Omega: Any) -> FloatArray:
 
 
 def _torque(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Return the right-hand side [I Omega - 2 g K, Omega] of I dOmega/dt in (16)."""
+    """Return the right-hand side [I Omega - 2 g K, Omega] of I dOmega/dt in (16), (..., 3), with g = (tr I/2) 1 - I."""
     return bracket(np.matvec(inertia, Omega) - 2 * np.matvec(mass_matrix(inertia), K), Omega)
 
 

@@ -21,8 +21,9 @@ class Placement:
 
     `left` and `right` (..., 3, 3), None for the unit matrix, are rounded: they add an error of 1e-15 at any time, since
     the inputs of the motion are turned exactly. The rows of `right` are the axes of the class in those of the body.
-    `tensor` is the inertia tensor, `field` B' in the laboratory, `attitude` R(0) and `omega` Omega(0), in the axes that
-    were given. `make` is the call that makes the motion, `arguments` the arguments of its class.
+    In the axes that were given, `tensor` (..., 3, 3) is the inertia tensor, `field` (..., 3) B' in the laboratory,
+    `attitude` (..., 3, 3) R(0), and `omega` (..., 3) Omega(0) along the body. `make` is the call that makes the motion,
+    `arguments` are the arguments of its class by name.
     """
 
     left: FloatArray | None
@@ -41,7 +42,7 @@ class Placement:
         return left, right
 
     def matrices(self, R: FloatArray, *, between: int = 0) -> FloatArray:
-        """Return left R right for matrices R (..., 3, 3) of the class, R overwritten.
+        """Return left R right for matrices R (..., 3, 3) of the class; R is overwritten and returned.
 
         `between` is the number of axes of R, such as times, between the shape of the motions and (3, 3).
         """
@@ -58,11 +59,14 @@ class Placement:
         return v if self.right is None else np.asarray(np.vecmat(v, self.right))
 
     def along_class(self, v: FloatArray) -> FloatArray:
-        """Return components along the axes of the class from components v (..., 3) along the axes of the body."""
+        """Return components along the axes of the class from components v (..., 3) along the axes of the body.
+
+        That is v itself where `right` is None.
+        """
         return v if self.right is None else np.asarray(np.matvec(self.right, v))
 
     def quaternions(self, q: FloatArray, t: Any) -> FloatArray:
-        """Return quaternions (x, y, z, w) of the placed motion from those of the class at times t.
+        """Return quaternions (x, y, z, w) of the placed motion, (..., 4), from q (..., 4) of the class at times t.
 
         They have w >= 0 at t = 0, where they are those of the given attitude.
         """
@@ -71,7 +75,10 @@ class Placement:
 
     @cached_property
     def _quaternions(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Quaternions (..., 4) of left, right and R(0), w >= 0 for R(0); the sign of left makes left right = R(0)."""
+        """Quaternions (x, y, z, w) of left, right and R(0), (..., 4) each, w >= 0 for R(0).
+
+        The sign of the quaternion of left is chosen such that left times right is that of R(0), not its negative.
+        """
         left, right, start = map(of_matrix, (*self.sides, self.attitude))
         start = start * np.where(start[..., 3:] < 0, -1.0, 1.0)
         along = (product(left, right) * start).sum(-1, keepdims=True)
@@ -79,9 +86,9 @@ class Placement:
 
     @staticmethod
     def started(values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
-        """Return ``values`` with those at t = 0 replaced by ``start``; vectors for ``rank`` 1, matrices for 2.
+        """Return ``values`` at times t with those at t = 0 replaced by ``start``; the array is changed in place.
 
-        The array is changed in place.
+        Values are vectors (..., 3) for ``rank`` 1, matrices (..., 3, 3) for rank 2; start broadcasts to them.
         """
         known = np.equal(bare(t, "The time", TIME), 0)
         if known.any():
@@ -91,11 +98,12 @@ class Placement:
 
 
 def turned_by(v: list[Any], *turns: FloatArray) -> list[Any]:
-    """Return the three components of vectors rotated by ``turns``, the first one first, without rounding.
+    """Return the three components of vectors v rotated by ``turns``, the first one first, without rounding.
 
-    ``turns`` are matrices (..., 3, 3), or quaternions (4,) of any length. A matrix of floats is orthogonal but for
-    rounding: it stands for the rotation of its quaternion, whose components are floats. That is the matrix itself where
-    its entries are -1, 0 and 1. Without rotations other than 1, v itself is returned.
+    Components are floats, arrays or `Given`. ``turns`` are matrices (..., 3, 3), or quaternions (x, y, z, w), shape
+    (4,), of any length. A matrix of floats is orthogonal but for rounding: it stands for the rotation of its
+    quaternion, whose components are floats. That is the matrix itself where its entries are -1, 0 and 1. Without
+    rotations other than 1, v itself is returned.
     """
     turns = tuple(M for M in turns if M.shape == (4,) or (np.eye(3) != M).any())
     if not turns:

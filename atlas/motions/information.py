@@ -22,12 +22,12 @@ NUISANCES: dict[Reading, tuple[str, ...]] = {
 
 
 def expected_errors(motion: Any, names: Sequence[str], t: FloatArray, reading: Reading, sigma: float) -> FloatArray:
-    """Return the standard deviations of inputs that readings of a motion would have; inf where they do not tell it.
+    """Return the standard deviations of inputs that a fit to readings of a motion would have.
 
     Parameters
     ----------
     motion : Motion
-        Of `atlas.motion`, whose inputs have derivatives.
+        Motion of `atlas.motion`, whose inputs have derivatives.
     names : sequence of str
         Inputs, as in `Motion.sensitivity`.
     t : ndarray, shape (n,)
@@ -36,6 +36,11 @@ def expected_errors(motion: Any, names: Sequence[str], t: FloatArray, reading: R
         "rotation", the attitude; "axis", the direction of the third axis; or "angular_velocity", along the body's axes.
     sigma : float
         Standard deviation of each component of a reading, in rad or in rad/time.
+
+    Returns
+    -------
+    ndarray, shape (len(names),)
+        Standard deviations, each in the unit of its input; inf for an input that the readings do not determine.
 
     Notes
     -----

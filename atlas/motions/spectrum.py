@@ -94,7 +94,7 @@ class Spectrum:
         Returns
         -------
         ndarray, shape (..., *shape of f)
-            Values of f.
+            Values of f, in its unit: (3, 3) matrices for "rotation", vectors (3,) otherwise.
         """
         times = real(bare(t, "The time", TIME), "The time")
         phases = np.exp(1j * np.multiply.outer(times, self.frequencies))
@@ -106,10 +106,12 @@ class Spectrum:
 
 
 class Wheels(NamedTuple):
-    """A motion as R_n(p t) S(phases) R_a(s t), n in the laboratory, a in the body; p and s in rad/time.
+    """A motion as R_n(p t) S(phases) R_a(s t): a turn about n in the laboratory, one about a in the body, S periodic.
 
-    `phases` are the rates of the d phases of S, in rad/time. ``at(name, x)`` gives S, or Omega or K without the
-    rotation about a, at phases x (d, m). `actions`, for two phases, gives their actions from the principal moments.
+    `n` and `a` are unit vectors (3,), `p` and `s` rates in rad/time. `phases` (d,) are the rates of the d phases of
+    S, in rad/time; d is 0, 1 or 2. ``at(name, x)`` takes a quantity of `SpectrumOf` and phases x (d, m) in rad, and
+    returns S (m, 3, 3) for "rotation" and "axis", else Omega or the field in the body (m, 3) without the rotation
+    about a. `actions`, for two phases, returns their actions from the principal moments; None otherwise.
     """
 
     n: FloatArray
@@ -134,12 +136,12 @@ class Wheels(NamedTuple):
 
     @property
     def rates(self) -> FloatArray:
-        """Basic angular frequencies: those of the phases, then p and s, in rad/time, shape (d + 2,)."""
+        """Basic angular frequencies in rad/time, shape (d + 2,): those of the d phases, then p and s."""
         return np.array([*self.phases, self.p, self.s])
 
 
 def spectrum(motion: Any, of: str, least: float) -> Spectrum:
-    """Return the `Spectrum` of a motion, see `Motion.spectrum`.
+    """Return the `Spectrum` of the quantity ``of``, such as "axis", of one motion; see `Motion.spectrum`.
 
     Raises AtlasError for an array of motions, another name, and ``least`` outside [`MIN_AMPLITUDE`, 1).
     """
@@ -165,8 +167,9 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
 def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
     """Return a `Spectrum` of lines by ascending frequency; amplitudes of equal frequencies are added.
 
-    Lines below the fraction `least` of the root mean square are left out. Raises DomainError where the mean square is
-    no float.
+    ``combinations`` (N, d + 2) are the integers of each line in the rates of ``wheels``, ``amplitudes`` (N, ...)
+    complex. Lines below the fraction `least` of the root mean square are left out, and so are rates that no line
+    contains. Raises DomainError where the mean square is no float.
     """
     frequencies, unit = combinations @ wheels.rates, _size(amplitudes)
     size = _power(amplitudes, unit)
@@ -193,7 +196,7 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
 
 
 def _power(amplitudes: Array, unit: float = 1.0) -> FloatArray:
-    """Return the sum of squared magnitudes of the amplitudes of each line, over ``unit`` squared, shape (N,)."""
+    """Return the sum of squared magnitudes of each line's amplitudes (N, ...), over ``unit`` squared, shape (N,)."""
     return np.asarray(((abs(amplitudes) / unit) ** 2).sum(axis=tuple(range(1, amplitudes.ndim))))
 
 
@@ -203,9 +206,9 @@ def _size(amplitudes: Array) -> float:
 
 
 def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
-    """Return the rotation about n by ``rate`` t as matrices (3, 3) of its Fourier coefficients, by multiple -1, 0, 1.
+    """Return the Fourier coefficients of the rotation about n (3,) by the angle ``rate`` t: matrices (3, 3).
 
-    For rate 0 it is the unit matrix alone, under 0.
+    They stand in a dict by the multiple of the rate, -1, 0 and 1; for rate 0 the unit matrix alone, under 0.
     """
     if not rate:
         return {0: np.eye(3, dtype=complex)}
@@ -217,10 +220,11 @@ def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
 
 
 def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
-    """Return (integers m (n, d), Fourier coefficients (n, ...)) of a function of d phases.
+    """Return (integers m (n, d), complex Fourier coefficients (n, ...)) of a function of d phases, 0, 1 or 2.
 
-    ``function`` takes phases (d, m) in rad and returns (m, ...). Raises DomainError if more than `LAST` coefficients
-    would be needed for a phase.
+    ``function`` takes phases (d, m) in rad and returns (m, ...). The number of points along a phase is doubled
+    until the outer coefficients, which are left out, are below `MAX_OUTER_AMPLITUDE`. Raises DomainError if a phase
+    would need more than `LAST` points.
     """
     if not d:
         return np.zeros((1, 0), dtype=int), function(np.zeros((0, 1))).astype(complex)
@@ -247,7 +251,7 @@ def function_of(motion: Any, of: str) -> Any:
 
 
 def mean(function: Callable[[FloatArray], FloatArray]) -> float:
-    """Return the mean over one period of a function of one phase; it takes phases (1, m) and returns (m,)."""
+    """Return the mean over one period of a function of one phase, which takes phases (1, m) in rad and returns (m,)."""
     indices, amplitudes = coefficients(function, 1)
     return float(amplitudes[np.flatnonzero(indices[:, 0] == 0)[0]].real)
 

@@ -40,9 +40,10 @@ NEARLY_ORTHOGONAL = 2e-3
 class Body(NamedTuple):
     """Principal moments (..., 3), principal axes as rows (..., 3, 3) and inertia tensor (..., 3, 3) along given axes.
 
-    `exact` has the moments without rounding where floats do not hold them: a body or ratio with the moments along the
-    first and the last axis, or three different moments; otherwise None. `turn` has the nine elements of the axes
-    without rounding where floats do not hold them; then there is an `exact`.
+    `exact` has the moments without rounding where floats do not hold them: a `SymmetricBody` or a ratio as a
+    Fraction, with the symmetry axis last, or a tuple of three moments; otherwise None. `turn` has the nine elements
+    of the axes, by rows, without rounding where floats do not hold them, and is otherwise empty; where it is not,
+    there is an `exact`.
     """
 
     moments: FloatArray
@@ -53,9 +54,11 @@ class Body(NamedTuple):
 
 
 class Start:
-    """Initial data as given: body, components B of B' in the laboratory, components w of the angular velocity, R(0).
+    """Initial data as given: a `Body`, the field B' in the laboratory, the angular velocity w, and the attitude R(0).
 
-    The angular velocity is along the axes of the body, or, if ``outside``, along those of the laboratory.
+    B (1/time) and w (rad/time) are lists of three components, floats, arrays or `Given`. w is along the axes of the
+    body, or, if ``outside``, along those of the laboratory. ``attitude`` is an array (..., 3, 3), an object with
+    `as_matrix`, or None for 1. `shape` is the common shape of all.
     """
 
     def __init__(self, body: Body, B: list[Any], w: list[Any], attitude: Any, *, outside: bool = False) -> None:
@@ -65,9 +68,9 @@ class Start:
         self.shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
 
     def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
-        """Return (field, angular velocity) at t = 0, three components each along ``axes``, rows in the body.
+        """Return (field, angular velocity) at t = 0, three components each, along ``axes`` (..., 3, 3), rows.
 
-        They are not rounded: floats, arrays or `Given`.
+        The rows are axes in the body. Components are not rounded: floats, arrays or `Given`.
         """
         back = np.swapaxes(self.R, -1, -2) if self._turn is None else np.array(self._turn) * (-1.0, -1.0, -1.0, 1.0)
         if not self.body.turn:
@@ -78,7 +81,7 @@ class Start:
 
     @property
     def moments(self) -> tuple[Any, Any, Any]:
-        """The three principal moments, without rounding, along the axes of the body; 1, 1, I for a ratio I."""
+        """The three principal moments, without rounding, along the body's principal axes; 1, 1, I for a ratio I."""
         exact = self.body.exact
         if exact is None or isinstance(exact, tuple):
             return exact or parts(self.body.moments)
@@ -93,7 +96,7 @@ class Start:
 
     @cached_property
     def is_symmetric(self) -> bool:
-        """Whether two moments are equal. Raises DomainError where they are for some bodies of an array."""
+        """Whether two moments are equal. Raises DomainError where that is true for only some bodies of an array."""
         if isinstance(self.body.exact, tuple):
             return False
         I = self.body.moments
@@ -125,10 +128,10 @@ class Start:
     def place(
         self, own: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
     ) -> Any:
-        """Return ``own``, a motion along the axes of its class, placed in the given axes.
+        """Return ``own``, a motion along the axes of its class, placed in the given axes; changed in place.
 
-        ``axes`` are the class's, as rows. ``make`` and ``arguments`` are the call that makes the motion again,
-        ``made_by`` its name.
+        ``axes`` (..., 3, 3) are the class's, as rows along the body's axes. ``make`` and ``arguments`` are the call
+        that makes the motion again, ``made_by`` its name.
         """
         outer = self.R @ np.swapaxes(axes, -1, -2)
         before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (outer, axes))
@@ -143,7 +146,7 @@ def start_of(
 ) -> Start:
     """Return the `Start` of a motion from the arguments of `atlas.motion`.
 
-    Raises AtlasError unless one of ``omega`` and ``omega_laboratory`` is given.
+    Raises AtlasError unless exactly one of ``omega`` and ``omega_laboratory`` is given.
     """
     if (omega is None) == (omega_laboratory is None):
         raise AtlasError(
@@ -156,9 +159,10 @@ def start_of(
 
 
 def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
-    """Return a motion of the class ``family``, see `Motion.in_laboratory`; ``parameters`` are those of the class.
+    """Return a motion of the class ``family``, see `Motion.in_laboratory`; ``parameters`` are the class's own.
 
-    Raises DomainError if the class has no motion from this start.
+    ``omega``, if not None, is the angular velocity along the axes of the laboratory. Raises DomainError if the
+    class has no motion from this start.
     """
     B = columns(field, "The field", "B")
     w = [0.0, 0.0, 0.0] if omega is None else columns(omega, "The angular velocity", "omega")
@@ -177,7 +181,10 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
 
 
 def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
-    """Return (component along e2, rotation matrix (3, 3) about e3) such that the rotated vector has K1 = 0."""
+    """Return (component along e2, rotation matrix (3, 3) about e3) that turns the vector (K1, K2) onto e2.
+
+    The component is sqrt(K1^2 + K2^2), or K2 with its sign, and the unit matrix, where K1 = 0 already.
+    """
     if K1 == 0:
         return K2, np.eye(3)
     with workprec():
@@ -228,9 +235,9 @@ def body_of(inertia: Any) -> Body:
 
 
 def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
-    """Return (moments, axes as rows) of one tensor, exact rationals near its eigenvalues; equal moments come first.
+    """Return (moments, axes as rows) of one tensor (3, 3), exact rationals near its eigenvalues and eigenvectors.
 
-    Warns NearlySymmetricWarning for two nearly equal moments.
+    Moments ascend, except that two equal ones come first. Warns NearlySymmetricWarning for two nearly equal moments.
     """
     I, axes = principal_values(rational_matrix(inertia_tensor(tensor)))
     largest = max(range(3), key=I.__getitem__)
@@ -243,15 +250,15 @@ def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
 
 
 def _along(*numbers: Number) -> tuple[Number, ...]:
-    """Return the components of a vector, the last three numbers, along axes whose elements are the first nine."""
+    """Return the three components of a vector, the last three numbers, along axes whose elements are the first nine."""
     *axes, x, y, z = numbers
     return tuple(dot(axes[i : i + 3], (x, y, z)) for i in (0, 3, 6))
 
 
 def _hint_at_symmetry(I: FloatArray, gaps: list[float], axes: FloatArray) -> None:
-    """Warn NearlySymmetricWarning if two ascending principal moments of a tensor are different but nearly equal.
+    """Warn NearlySymmetricWarning if two ascending principal moments I (3,) of a tensor are different but nearly equal.
 
-    ``gaps`` are their two differences over the largest moment.
+    ``gaps`` are their two differences over the largest moment, ``axes`` (3, 3) the principal axes as rows.
     """
     i, part = min(enumerate(gaps), key=lambda gap: gap[1])
     if 0 < part <= NEARLY:
@@ -266,7 +273,11 @@ def _hint_at_symmetry(I: FloatArray, gaps: list[float], axes: FloatArray) -> Non
 
 
 def of_moments(moments: Any, axes: FloatArray) -> Body:
-    """Return the `Body` of principal moments along ``axes``, rows. Raises DomainError for moments that no body has."""
+    """Return the `Body` of three principal moments along ``axes``, rows (3, 3).
+
+    The moments are floats, arrays or `Given`. For one body given by exact numbers two equal moments are put first.
+    Raises DomainError for moments that no body has.
+    """
     principal_moments = [real(x, "A moment of inertia") for x in moments]
     common_shape(*(x.shape for x in principal_moments))
     rows = joined_columns(principal_moments)
@@ -306,14 +317,19 @@ def joined_columns(v: list[Any]) -> FloatArray:
 
 
 def argument(value: Any, parts: list[Any]) -> Any:
-    """Return vectors for storage: an array (..., 3), or ``value`` itself if floats do not hold its components."""
+    """Return a vector for storage: an array (..., 3) of ``parts``, or ``value`` itself if floats do not hold them.
+
+    ``value`` is the vector as the user gave it, ``parts`` its three components.
+    """
     return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
 
 
 def attitude_of(attitude: Any) -> FloatArray:
-    """Return the rotation matrices (..., 3, 3) nearest to given ones.
+    """Return the rotation matrices (..., 3, 3) nearest to a given attitude; the unit matrix for None.
 
-    Warns NearestInputWarning where R^T R is not 1 to 1e-9, raises DomainError where it is not 1 to 2e-3.
+    ``attitude`` is an array (..., 3, 3) or an object with `as_matrix`, such as SciPy's Rotation. Warns
+    NearestInputWarning where R^T R is not 1 to 1e-9; raises DomainError where it is not 1 to 2e-3 or det R < 0,
+    AtlasError for another shape.
     """
     if attitude is None:
         return np.eye(3)

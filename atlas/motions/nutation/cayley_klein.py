@@ -27,7 +27,8 @@ QUATERNION = (0, 1, 3, 2)
 class Evaluation:
     """Cayley-Klein parameters alpha and beta at up to ``size`` times at once, with their workspace.
 
-    If ``signed``, their common real factor is positive and continuous in time; otherwise it may be negative.
+    ``parameters`` are the constants of one motion. If ``signed``, the real factor that alpha and beta share is positive
+    and continuous in time; otherwise it may be negative.
     """
 
     def __init__(self, parameters: CayleyKlein, size: int, *, signed: bool = False) -> None:
@@ -43,7 +44,7 @@ class Evaluation:
         """Return rows Re alpha, Re beta, Im alpha, Im beta, (4, m), up to a real factor that they share at each time.
 
         Where the parameters' table has derivatives, their four rows by time follow, with the same factor: (8, m).
-        `low` (m,) are corrections to the times t, or None.
+        `low` (m,) are corrections to the times t (m,), or None.
         """
         if self.parameters.by_balls:
             return self.parameters.in_balls(t, low)
@@ -73,7 +74,10 @@ class Evaluation:
         return np.asarray(result)
 
     def _phases(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Fill the rows; return half the sum and half the difference of the phases of alpha and beta, (2, m)."""
+        """Fill `rows` with the functions of time at t + low, (m,) each; return half the phases' sum and difference.
+
+        The phases are those of alpha and beta, in rad, less whole turns; the result is (2, m). `low` may be None.
+        """
         m, functions = t.size, self.parameters.functions
         rows = self.rows[:, :m]
         if isinstance(functions, Hyperbolic) and functions.periodic:
@@ -99,7 +103,10 @@ class Evaluation:
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Fill the rows with trigonometric functions; return half the phases' sum and difference, (2, m), in rad."""
+        """Fill `rows` with trigonometric functions at t + low, (m,); return half the phases' sum and difference.
+
+        The result is (2, m), in rad, less whole turns; ``functions`` is the basis. `low` may be None.
+        """
         swing = self.parameters.swing
         if swing and swing.is_large:
             u, e = self._reduced(t, low)
@@ -116,18 +123,18 @@ class Evaluation:
         return np.asarray(u)
 
     def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        """Return (half the phases less whole turns in rad, their rounding errors), (n, m) each.
+        """Return (half the n phases at t + low less whole turns, in rad; their rounding errors), (n, m) each.
 
-        The number of turns is noted in `odd`.
+        The number of turns is stored in `odd`, if `signed`. `low` (m,) may be None.
         """
         half, errors, half_turns, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
         self._keep(half_turns)
         return half, errors
 
     def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return half the phases less whole turns in rad, (n, m), each rounded to one double.
+        """Return half the n phases at t + low less whole turns, in rad, (n, m), each rounded to one double.
 
-        The number of turns is noted in `odd`.
+        The number of turns is stored in `odd`, if `signed`. `low` (m,) may be None.
         """
         turns = np.empty((len(self.parameters.frequencies), t.size)) if self.signed else None
         half = self.parameters.phases.halves_of(t, self.work, low, turns)
@@ -135,19 +142,26 @@ class Evaluation:
         return half
 
     def _keep(self, half_turns: FloatArray | None) -> None:
-        """Note the whole turns left out of the phases, summed: their parity is the sign of (alpha, beta)."""
+        """Store in `odd` (m,) the sum of the whole turns left out of the phases; its parity is the pair's sign.
+
+        ``half_turns`` (n, m) holds integers in the memory of doubles, or is None; without `signed` nothing is stored.
+        """
         if self.signed and half_turns is not None:
             self.odd = half_turns.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
 
     def products_at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
-        """Return the ten products `PAIRS` of the normalised quaternion components at times t + low, shape (10, m)."""
+        """Return the ten products `PAIRS` of the normalised quaternion components at times t + low (m,), shape (10, m).
+
+        `low` may be None. The array is overwritten by the next call.
+        """
         return self.products.of_pair(self.components(t, low))
 
 
 def products_of_one(parameters: CayleyKlein, t: float) -> list[float]:
-    """Return the ten products `PAIRS` at one time, as `Evaluation` does by arrays; for parameters `at_one_time`.
+    """Return the ten products `PAIRS` at one time t, a list of floats, as `Evaluation` does by arrays.
 
-    Half the phases are rounded once, as there, and the bound on errors is the same.
+    It is for ``parameters`` with `at_one_time`. Half the phases are rounded once, as there, and the bound on errors
+    is the same.
     """
     half_sum, half_difference, *half = parameters.phases.halves_of_one(t)
     functions: Any = parameters.functions
@@ -210,5 +224,8 @@ ENTRIES = _entries()
 
 
 def entries(before: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the weights (10, 9) with which the ten products sum to the entries of before R(alpha, beta) right."""
+    """Return the weights (10, 9) with which the ten products `PAIRS` sum to the entries, by rows, of before R right.
+
+    R is the matrix of (alpha, beta); ``before`` and ``right`` are constant matrices (3, 3).
+    """
     return (before @ ENTRIES @ right).reshape(10, 9)

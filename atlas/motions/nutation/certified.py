@@ -21,10 +21,11 @@ from atlas.motions.nutation.certified_spheres import Sphere
 
 
 class Nutating:
-    """Base of certified motions with nutation.
+    """Base of certified motions with nutation, R(0) = 1: theta, the angle from `field` to the body's axis, varies.
 
     Subclasses give `quartic`, `kind` (a string), the exact `omega` and `field` in the body at t = 0, and `sphere`, the
     `Sphere` of the field at the current working precision. Members that raise NotImplementedError are to be overridden.
+    psi is the angle about the field and chi the angle about the body's axis.
     """
 
     quartic: Quartic
@@ -48,33 +49,45 @@ class Nutating:
         raise NotImplementedError
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return (k about the field, phi about the body's axis) in rad/time where theta is constant."""
+        """Return (k about the field, phi about the body's axis) in rad/time, for a motion with constant theta.
+
+        Each is a rational or a ball. Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     @property
     def is_plane(self) -> bool:
-        """Whether the axis swings in a plane that rotates about the field at the rate `precession`."""
+        """Whether the axis swings in a plane that rotates about the field at `precession`; False in the base."""
         return False
 
     @property
     def precession(self) -> Real:
-        """Rate about the field, in rad/time, of the frame in which alpha and beta have their own rates."""
+        """Rate about the field, in rad/time, of the frame to which the rates of alpha and beta refer.
+
+        Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the spin in a period is exactly zero, since nu swings evenly about zero."""
+        """Whether the spin in a period is exactly zero, since nu = cos theta swings evenly about zero.
+
+        Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     @property
     def precesses_evenly(self) -> bool:
-        """Whether the angle of precession in a period is exactly that of the frame, `precession` times the period."""
+        """Whether the precession angle per period is exactly that of the frame, `precession` times the period.
+
+        It is False in the base.
+        """
         return False
 
     def _separatrix(self, poles: str) -> str | None:
-        """Return "separatrix", with " between ``poles``" or ", triple root" where it is so.
+        """Return "separatrix", "separatrix between ``poles``" or "separatrix, triple root"; None for any other motion.
 
-        None for any other motion.
+        Two double roots of Q are the second case, a triple root is the third.
         """
         roots = self.quartic.roots()
         ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))
@@ -83,12 +96,12 @@ class Nutating:
 
     @property
     def turning_axis(self) -> Sequence[fmpq]:
-        """Vector along the axis of precession, in the body at t = 0, three components of any length."""
+        """Vector along the axis of precession, in the body at t = 0, three rationals; its length has no meaning."""
         return self.field
 
     @property
     def b(self) -> Real:
-        """Length of `field`, exact where it is rational."""
+        """Length of `field`, in its unit: a rational where the length is rational, else a ball."""
         return length(*self.field)
 
     @by_precision
@@ -111,9 +124,9 @@ class Nutating:
         return arb.pi() / square.sqrt() if square > 0 else arb("inf")
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Return (cos, sin) of theta(0)/2, then (cos, sin) of chi(0), the angle of spin.
+        """Return (cos, sin) of theta(0)/2, then (cos, sin) of chi(0): four rationals or balls.
 
-        theta is the angle from the field to the axis.
+        theta is the angle from the field to the axis, chi the angle of spin about the axis.
         """
         return self.sphere.tilt
 
@@ -127,7 +140,7 @@ class Nutating:
 
     @property
     def precession_per_period(self) -> arb:
-        """Angle in rad by which the body precesses about B in one period, the integral of psi'.
+        """Total angle in rad, a ball, by which the body precesses about B in one period: the integral of psi'.
 
         Raises DomainError without a period.
         """
@@ -135,7 +148,7 @@ class Nutating:
 
     @property
     def spin_per_period(self) -> arb:
-        """Angle in rad by which the body rotates about its axis in one period, the integral of chi'.
+        """Total angle in rad, a ball, by which the body rotates about its axis in one period: the integral of chi'.
 
         Raises DomainError without a period.
         """
@@ -160,7 +173,10 @@ class Nutating:
 
     @property
     def nome(self) -> arb:
-        """Nome q = exp(-pi K'/K) of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        """Nome q = exp(-pi K'/K) of the elliptic functions, a ball: 0 where nutation is elementary, 1 on a separatrix.
+
+        Raises DomainError at a triple root of Q, where there is no limit.
+        """
         half, imaginary = self._periods()
         if infinite(half):
             return arb(1)
@@ -168,12 +184,18 @@ class Nutating:
 
     @property
     def modulus(self) -> arb:
-        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        """Modulus k of the elliptic functions, a ball: 0 where nutation is elementary, 1 on a separatrix.
+
+        Raises DomainError at a triple root of Q, where there is no limit.
+        """
         return self._moduli()[0]
 
     @property
     def complementary_modulus(self) -> arb:
-        """Complementary modulus k' = sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        """Complementary modulus k' = sqrt(1 - k^2), a ball that keeps its digits next to a separatrix.
+
+        Raises DomainError at a triple root of Q, where there is no limit.
+        """
         return self._moduli()[1]
 
     def _periods(self) -> tuple[arb, arb]:
@@ -218,7 +240,7 @@ class Nutating:
         return precession, T * solution.spin + difference_of_angles + further
 
     def quaternion(self, t: Any) -> list[arb]:
-        """Return a unit quaternion (w, x, y, z) of R(t), of either sign, four balls."""
+        """Return a unit quaternion (w, x, y, z) of R(t), of either sign, as a list of four balls."""
         if self.is_steady and self.kind != "at rest":
             (k, phi), last = self.steady_rates(), AXES[self.places[2]]
             (s, c), (S, C) = (sin_cos(rate * rational(t, "the time") / 2) for rate in (k, phi))
@@ -232,14 +254,20 @@ class Nutating:
         return [x / size for x in q]
 
     def from_frame(self, a: acb, b: acb) -> list[arb]:
-        """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
+        """Return the quaternion (w, x, y, z) of R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised.
+
+        a and b are alpha and beta at some time, theta0 and chi0 the angles of `tilt` at t = 0.
+        """
         c, s, C, S = self.sphere.tilt
         w, x, y, z = a.real, b.real, b.imag, a.imag
         w, x, y, z = w * c + x * s, x * c - w * s, y * c + z * s, z * c - y * s
         return [w, x * C + y * S, y * C - x * S, z]
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t) as three rows: exact at t = 0, two rotations where theta is constant, else from (alpha, beta)."""
+        """Return R(t) as three rows of balls or rationals; the unit matrix at t = 0.
+
+        It is a product of two rotations where theta is constant and for a ball, else the matrix of (alpha, beta).
+        """
         t = rational(t, "the time")
         if t == 0 or self.kind == "at rest":
             return identity()
@@ -253,7 +281,10 @@ class Nutating:
         return self._swung(t, a, b) if self.is_plane else matrix(self.from_frame(a, b))
 
     def _swung(self, t: fmpq, a: acb, b: acb) -> Matrix:
-        """Return R(t), three rows, of a swing in a plane of Larmor's frame, about the vector n across that plane."""
+        """Return R(t), three rows of balls, of a swing in a plane of Larmor's frame, about the vector n across it.
+
+        a and b are alpha and beta at time t.
+        """
         # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
         phase = acb(0, -self.precession * t / 2).exp()
         w, x, y, _ = self.from_frame(a * phase, b * phase)
@@ -274,7 +305,7 @@ class Nutating:
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', (32), along the body's axes, three balls."""
+        """Return R^T `field`, for a body in a field K(t) of (32), along the body's axes: a list of three balls."""
         return [dot(column, self.field) for column in zip(*self.rotation(t), strict=True)]
 
     def angular_velocity(self, t: Any) -> list[Real]:

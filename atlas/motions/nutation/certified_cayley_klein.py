@@ -22,7 +22,7 @@ LOG2, FALLING = log(2.0), log(0.49)
 
 
 def infinite(x: arb) -> bool:
-    """Whether a period is infinite. A period not known at the current precision is NaN, and counts as finite."""
+    """Whether the ball x, a period, is +inf. A period unknown at the current precision is NaN, and counts as finite."""
     return bool(x > 0) and not x.is_finite()
 
 
@@ -30,9 +30,10 @@ def infinite(x: arb) -> bool:
 class Lattice:
     """The periods of nutation and the form of the sums.
 
-    ``half`` is half the real period T, infinite on the separatrix; ``imaginary`` half the imaginary period, infinite
-    where a nutation is elementary. ``oblique`` for two real roots: then half + i imaginary is half of a period too.
-    ``rate`` is the factor of s in the functions.
+    `form` is "trigonometric", "hyperbolic" or "linear". ``half`` is half the real period T, in time, infinite on
+    the separatrix; ``imaginary`` half the imaginary period, infinite where a nutation is elementary. ``oblique``
+    for two real roots: then half + i imaginary is half of a period too. ``rate`` (1/time) is the factor of the time
+    s since a turning point in the functions.
     """
 
     form: str
@@ -43,7 +44,7 @@ class Lattice:
 
     @property
     def nome(self) -> acb:
-        """Nome of the sums; zero where a sum has a single term."""
+        """Nome of the sums, a complex ball; imaginary if `oblique`, zero where a sum has a single term."""
         if infinite(self.half) or infinite(self.imaginary):
             return acb(0)
         ratio = self.imaginary / self.half if self.form == "trigonometric" else self.half / self.imaginary
@@ -52,7 +53,7 @@ class Lattice:
 
     @property
     def twist(self) -> arb:
-        """Rate of the phase by s and by the distance y of a zero, in the lattice with its periods exchanged.
+        """Rate, in 1/time^2, of a phase that is twist y s, for a zero at s = i y: the effect of exchanged periods.
 
         It is N pi/(2 half imaginary), N = 2 for an oblique lattice, else 1; 0 except in a hyperbolic form with a finite
         period.
@@ -71,8 +72,9 @@ class Lattice:
 class Sum:
     """A sum over n of ``odd[n]`` S(k rate s) + ``even[n]`` C(k rate s), k = 2n + 1, or 2n if ``doubled``.
 
-    S and C are sine and cosine, or sinh and cosh, or rate s and one. The remainder is at most ``bound`` times
-    exp(m rate |s|) in a hyperbolic sum, m the first k left out. ``shifted``: the zero is that of another cell.
+    S and C are sine and cosine, or sinh and cosh, or rate s and one, by the `form` of ``lattice``; s is the time
+    since a turning point. The remainder is at most ``bound``, in a hyperbolic sum times exp(m rate |s|), m the
+    first k left out. ``shifted``: the sum's zero was moved by half a period, see `vanishing_at`.
     """
 
     lattice: Lattice
@@ -103,7 +105,10 @@ class Sum:
         return _widened(value, remainder), _widened(slope, 2 * k * remainder) * self.lattice.rate
 
     def _functions(self, x: arb) -> Iterator[tuple[arb, arb]]:
-        """Yield the pairs S(k x), C(k x) for rising k: sine and cosine, or their hyperbolic counterparts."""
+        """Yield the pairs (S(k x), C(k x)), sine and cosine or their hyperbolic counterparts, as balls.
+
+        k is 0, 2, 4, ... if `doubled`, else 1, 3, 5, ....
+        """
         circular = self.lattice.form == "trigonometric"
         S, C = x.sin_cos() if circular else x.sinh_cosh()
         turn = multiplied(S, C, S, C, circular)
@@ -124,7 +129,7 @@ class Sum:
 
     @property
     def logarithmic_slope(self) -> acb:
-        """Derivative of the logarithm at s = 0."""
+        """Derivative by s of the logarithm of the sum at s = 0, a complex ball, in 1/time."""
         if self.lattice.form == "linear":
             return self.odd[0] * self.lattice.rate / self.even[0]
         value = _widened(sum(self.even, acb(0)), self.bound)
@@ -135,8 +140,9 @@ class Sum:
 def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
     """Return the sum with a zero at s = i y, or at s = T/2 + i y if ``beyond``; |y| at most the imaginary half-period.
 
-    With two real roots and small nome a zero in the outer half of its cell is moved by T/2 + i imaginary into the
-    inner one, lest the sum converge slowly: that multiplies the function by a phase linear in s.
+    s is the time since a turning point, T the real period. With two real roots and small nome a zero in the outer
+    half of its cell is moved by T/2 + i imaginary into the inner one, lest the sum converge slowly: that multiplies
+    the function by a phase linear in s.
     """
     zeta = lattice.rate * y
     if lattice.form == "linear":
@@ -152,17 +158,23 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
 
 
 def constant(lattice: Lattice) -> Sum:
-    """Return the sum that is one everywhere: the limit of a sum whose zero goes to infinity."""
+    """Return the `Sum` that is one everywhere: the limit of a sum whose zero goes to infinity."""
     return Sum(lattice, (acb(0),), (acb(1),), arb(0), doubled=True)
 
 
 def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb]:
-    """Return (sine, cosine) of the sum of two angles if ``circular``, otherwise (sinh, cosh) of the sum."""
+    """Return (sine, cosine) of the sum of two angles if ``circular``, otherwise (sinh, cosh) of the sum.
+
+    S, C are sine and cosine (or sinh, cosh) of the first, s, c of the second.
+    """
     return S * c + C * s, C * c - S * s if circular else C * c + S * s
 
 
 def _hyperbolic_weights(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
-    """Yield by term the weights (odd, even) of a hyperbolic sum with a zero at i zeta, half a period on if doubled."""
+    """Yield by term the weights (odd, even) of a hyperbolic sum with a zero at rate s = i zeta.
+
+    If ``doubled``, the zero is half a period further.
+    """
     s, c = zeta.sin_cos()
     turn = multiplied(s, c, s, c, True)
     s, c = (arb(0), arb(1)) if doubled else (s, c)
@@ -172,7 +184,10 @@ def _hyperbolic_weights(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]
 
 
 def _trigonometric_weights(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
-    """Yield weights cos k z, -sin k z of a trigonometric sum with zero z = i zeta, or pi/2 + i zeta if `beyond`."""
+    """Yield by term the weights (cos k z, -sin k z) of a trigonometric sum with its zero at rate s = z.
+
+    z is i zeta, or pi/2 + i zeta if `beyond`; k = 1, 3, 5, ...
+    """
     s, c = zeta.sinh_cosh()
     turn, sign = multiplied(s, c, s, c, False), 1
     while True:
@@ -184,8 +199,9 @@ def _trigonometric_weights(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, ac
 def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], *, doubled: bool = False) -> Sum:
     """Return the `Sum` of terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if ``doubled``, times ``weights``.
 
-    Terms are added until the remainder is below the working precision. A term's weights are at most 2 exp(k ``depth``).
-    At too low a precision the sum is NaN.
+    q is the nome of the lattice, and ``weights`` yields a pair (odd, even) for each n, at most 2 exp(k ``depth``).
+    Terms are added until the remainder is below the working precision. If the precision does not suffice, the sum
+    is NaN.
     """
     nome, growth = lattice.nome, depth + lattice.reach + int(lattice.form == "hyperbolic")
     size, odd, even, n = abs(nome), list[acb](), list[acb](), 0
@@ -211,7 +227,7 @@ def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], 
 
 
 def _widened(value: acb, radius: arb) -> acb:
-    """Return a complex ball with ``radius`` added to both of its radii."""
+    """Return a complex ball with ``radius`` added to the radii of its real and of its imaginary part."""
     if radius.is_zero():
         return value
     return value + acb(arb(0, radius.upper()), arb(0, radius.upper()))
@@ -219,10 +235,11 @@ def _widened(value: acb, radius: arb) -> acb:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A Cayley-Klein parameter up to the common factor: factor exp(i (rate t + twist s)) sum(s), s within a period.
+    """A Cayley-Klein parameter up to the common factor: factor exp(i (rate t + twist s)) sum(s).
 
-    Its rate is the sum of ``own_rate`` and of the rate ``frame`` of the frame. ``turn`` is the sense, -1, 0 or 1, of
-    the half turn of ``sum`` about zero in one period.
+    s is the time since the turning point, less whole periods. `rate` is the sum of ``own_rate`` and of the rate
+    ``frame`` of the frame; all are in rad/time. ``turn`` is the sense, -1, 0 or 1, of the half turn of ``sum``
+    about zero in one period.
     """
 
     factor: acb
@@ -240,7 +257,7 @@ class Parameter:
     def at(self, t: Any, s: arb) -> tuple[acb, acb]:
         """Return (the parameter, its derivative by time), complex balls, at time t.
 
-        S is the time since the turning point.
+        s is the time since the turning point.
         """
         value, slope = self.sum.at(s)
         phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
@@ -251,8 +268,10 @@ class Parameter:
 class Solution:
     """All constants of a motion at one precision: ``origin`` is the time since the turning point at t = 0.
 
-    ``precession`` and ``spin`` are the rates of the frame in which alpha and beta have their own: Larmor's, -b, and
-    (1-I) c3; or all there is where theta is constant.
+    `alpha` and `beta` are the Cayley-Klein parameters over one `lattice`. ``precession`` and ``spin`` are the
+    rates, in rad/time, of the frame in which alpha and beta have their own: Larmor's, -b, and (1-I) c3; or the full
+    rates where theta is constant. ``swing`` is the further turn of a top about its axis, a `Swing` or `Crossing`;
+    else None.
     """
 
     lattice: Lattice
@@ -293,16 +312,17 @@ class Solution:
 
     @property
     def alternates(self) -> bool:
-        """Whether alpha and beta change their sign with each whole turn that is left out of the phase in a period."""
+        """Whether (alpha, beta) changes sign when a whole period is left out of the argument of their sums."""
         if self.lattice.form != "hyperbolic":
             return not (self.alpha.sum.doubled or self.beta.sum.doubled)
         (a, b, *_), (c, d, *_) = (self._parameters(arb(0), s * self.lattice.half, turning=False) for s in (1, -1))
         return bool((a * c.conjugate() + b * d.conjugate()).real < 0)
 
     def in_cell(self, s: arb) -> arb:
-        """Return the time s since the turning point less whole periods.
+        """Return the time s since the turning point less whole periods, a ball.
 
-        NaN if the precision leaves their number open.
+        NaN if the precision leaves their number open. In forms whose functions are periodic, and without a period, s is
+        returned unchanged.
         """
         periods = self._whole_periods(s)
         if periods == 0:
@@ -325,9 +345,9 @@ class Solution:
 
 
 def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
-    """Return the `Solution` of a motion with constant ``tilt``: two rotations at the rates k and phi, in rad/time.
+    """Return the `Solution` of a motion with constant theta: two rotations at the rates k and phi, in rad/time.
 
-    ``half`` is half the period of an infinitesimal nutation.
+    ``tilt`` begins with cos and sin of theta/2; ``half`` is half the period of an infinitesimal nutation.
     """
     c, s, *_ = tilt
     lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
@@ -347,7 +367,10 @@ def quaternion(R: Sequence[Sequence[Any]], doubles: Sequence[float]) -> list[arb
 
 
 def turning_rate(q: Sequence[Number], slope: Sequence[Number]) -> list[Number]:
-    """Return the angular velocity in the body, (3,), from a quaternion, scalar first, of any length, and its slope."""
+    """Return the angular velocity in the body, three numbers in rad/time, from a quaternion and its slope by time.
+
+    The quaternion q is (w, x, y, z), of any length.
+    """
     (w, x, y, z), (dw, dx, dy, dz) = q, slope
     half = (w * w + x * x + y * y + z * z) / 2
     return [

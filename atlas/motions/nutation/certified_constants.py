@@ -23,9 +23,11 @@ from atlas.motions.nutation.certified_spheres import Sphere
 
 
 class TurningPoint:
-    """A simple turning point u = e of Q, with the other roots (repeated by multiplicity) and times of u from e.
+    """A simple turning point u = e of Q, the quartic of nutation, and times that u takes from there.
 
-    `quarter_slope` is Q'(e)/4, as a product over the other roots.
+    `roots` are the distinct roots of Q, ``place`` is the index of e among them, and `other_roots` holds the indices
+    of the others, repeated by multiplicity. `quarter_slope` is Q'(e)/4, as a product over these. w is the function
+    of the module.
     """
 
     def __init__(self, quartic: Quartic, roots: tuple[Root, ...], place: int) -> None:
@@ -38,7 +40,7 @@ class TurningPoint:
         self.quarter_slope = slope.real
 
     def w(self, place: int) -> acb:
-        """Return w = Q'(e)/(4 (u - e)) at the root number ``place``; 0 for a root at infinity."""
+        """Return w = Q'(e)/(4 (u - e)) at the root number ``place``, a complex ball; 0 for a root at infinity."""
         return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
 
     def real_time(self, u: arb) -> arb:
@@ -46,21 +48,21 @@ class TurningPoint:
         return acb.elliptic_rf(*(self._above(u, i) for i in self.other_roots)).real
 
     def imaginary_time(self, u: arb) -> arb:
-        """Return y > 0 with u(i y) = ``u``, for a value beyond the interval of motion."""
+        """Return y > 0 with u(i y) = ``u``, a ball in time, for a value beyond the interval in which u moves."""
         return acb.elliptic_rf(*(-self._above(u, i) for i in self.other_roots)).real
 
     @cached_property
     def imaginary_time_to_infinity(self) -> arb:
-        """The y > 0 at which u(i y) is infinite, as a ball."""
+        """The y > 0 at which u(i y) is infinite, as a ball, in time."""
         return acb.elliptic_rf(*(self.w(i) for i in self.other_roots)).real
 
     def real_time_to_infinity(self) -> arb:
-        """Return the time x > 0 at which u(x) is infinite, where Q is positive beyond this outermost root."""
+        """Return the time x > 0 at which u(x) is infinite, a ball, where Q is positive beyond this outermost root."""
         return acb.elliptic_rf(*(-self.w(i) for i in self.other_roots)).real
 
     @cached_property
     def lattice(self) -> Lattice:
-        """The `Lattice` of Omega3; its form is decided by the multiple roots, otherwise by the smaller nome."""
+        """The `Lattice` of u; its form is decided by the multiple roots, otherwise by the smaller nome."""
         opposite = self.quartic.low + self.quartic.high - self.place
         multiple = self.roots[opposite].multiplicity
         if multiple == 3:
@@ -84,7 +86,10 @@ class TurningPoint:
         return _balanced(half, imaginary, oblique=True)
 
     def _above(self, u: arb, place: int) -> acb:
-        """Return wp(u) - wp(r) for the root r number ``place``, formed without cancellation."""
+        """Return wp(u) - wp(r), a complex ball, for the root r number ``place``, formed without cancellation.
+
+        wp(u) is Weierstrass's function at a time at which the variable of Q is ``u``.
+        """
         if self.roots[place].is_infinite:
             return acb(self.quarter_slope / (u - self.u))
         r = self.roots[place].value
@@ -92,7 +97,10 @@ class TurningPoint:
 
 
 class Nutation:
-    """Makes the `Solution` of a motion whose Omega3 is not constant, at the current working precision."""
+    """Makes the `Solution` of a motion whose theta is not constant, at the current working precision.
+
+    ``quartic`` is Q of u (Omega3, or -nu of a top), ``sphere`` the one on which the vector of alpha and beta moves.
+    """
 
     def __init__(self, quartic: Quartic, sphere: Sphere) -> None:
         self.quartic, self.sphere = quartic, sphere
@@ -119,7 +127,7 @@ class Nutation:
         return self.turnings[place]
 
     def _start(self) -> TurningPoint:
-        """Return the turning point where time is zero: on a separatrix the simple root, else the more isolated one."""
+        """Return the `TurningPoint` where time is zero: on a separatrix the simple root, else the more isolated one."""
         low, high = self.quartic.low, self.quartic.high
         if self.roots[low].multiplicity > 1:
             return self.turning(high)
@@ -137,7 +145,7 @@ class Nutation:
         return self.turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
 
     def _origin(self) -> arb:
-        """Return the time since the turning point, positive if Omega3 moves away from this point."""
+        """Return the time since the turning point at t = 0, a ball, positive if u moves away from this point."""
         q, sense, u = self.quartic, self.quartic.sense, arb(self.quartic.u.value)
         if sense == 0:
             return arb(0) if self.start.u.overlaps(u) else self.lattice.half
@@ -145,7 +153,10 @@ class Nutation:
         return time if (sense > 0) == (self.start.place == q.low) else -time
 
     def _parameter(self, pole: int, origin: arb, initial: acb) -> Parameter:
-        """Return the `Parameter` alpha (``pole`` -1) or beta (1); ``initial`` is its value at t = 0."""
+        """Return the `Parameter` alpha (``pole`` -1) or beta (1).
+
+        ``initial`` is its value at t = 0, ``origin`` the time since the turning point there.
+        """
         sphere, function, y, turn = self.sphere, *self._function(pole)
         twist = self.lattice.twist * y
         rate = arb(0)
@@ -160,9 +171,11 @@ class Nutation:
         return Parameter(factor, rate, arb(sphere.frames[pole]), twist, function, turn)
 
     def _function(self, name: int) -> tuple[Sum, arb, int]:
-        """Return the sum with its zero at a pole, the zero's imaginary part y, and the sign of the torque there.
+        """Return (the `Sum` with its zero at the pole ``name``, -1 or 1; the zero's imaginary part y; a sign).
 
-        Where the vector meets the pole the sum is real up to a phase, and the sign is 0.
+        The sign is that of the torque at the pole, reversed where the zero is reached through the other turning
+        point or was moved by half a period. Where the vector meets the pole the sum is real up to a phase, and the
+        sign is 0.
         """
         q, pole, sense = self.quartic, self.sphere.poles[name], self.sphere.signs[name]
         # the pole -1 is where Omega3 is highest
@@ -186,7 +199,7 @@ class Nutation:
         return function, y, -sense if function.shifted else sense
 
     def _through_infinity(self, name: int) -> bool:
-        """Whether u(i y) reaches the pole, from the first turning point on, only beyond an infinity of u."""
+        """Whether u(i y), from the first turning point on, reaches the pole ``name`` only beyond an infinity of u."""
         if self.quartic.bend >= 0:
             return False
         if len(self.real) <= 2:
@@ -197,7 +210,7 @@ class Nutation:
         return bool(beyond > 0) or (self.sphere.signs[name] == 0 and bool(beyond.overlaps(arb(0))))
 
     def _heteroclinic(self) -> Solution:
-        """Return the motion between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, and no phase but the frame's.
+        """Return the `Solution` between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, no phase but the frame's.
 
         There c3 = 0 and E' = I b^2, so that field and angular velocity have the same poles, ± b.
         """
@@ -225,5 +238,5 @@ def _balanced(half: arb, imaginary: arb, *, oblique: bool) -> Lattice:
 
 
 def _of_pair(z: acb) -> arb:
-    """Return R_F(0, z, conjugate of z) = pi/(2 agm(sqrt z, sqrt of the conjugate)), by one step of the mean."""
+    """Return R_F(0, z, conjugate of z) = pi/(2 agm(sqrt z, its conjugate)), a ball, by one step of the mean."""
     return arb.pi() / (2 * z.sqrt().real.agm(abs(z).sqrt()))

@@ -48,7 +48,11 @@ Row: TypeAlias = list[Any]
 
 @dataclass(frozen=True)
 class Constants:
-    """Constants of a motion: `form` does not depend on the inputs, `tables` are the numbers, by groups."""
+    """Constants of a motion: `form` says which formulas hold, `tables` holds the numbers, balls in lists by group.
+
+    The groups of `constants` are "tilt", "rates", "times", "slopes", "sum 0" (alpha) to "sum 3", and those of a
+    swing. Two motions have comparable tables if their `form` is equal.
+    """
 
     form: tuple[Any, ...]
     tables: Tables
@@ -56,7 +60,10 @@ class Constants:
 
 @dataclass(frozen=True)
 class Variation:
-    """Constants of a motion by name (`values`), and their derivatives in one input (`slopes`)."""
+    """Constants of a motion (`values`) and their derivatives in one input (`slopes`), lists of balls by group.
+
+    See `Constants` for the groups and `form`.
+    """
 
     form: tuple[Any, ...]
     values: Tables
@@ -64,9 +71,9 @@ class Variation:
 
 
 def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
-    """Return the `Constants` of a pair (alpha, beta) with this ``tilt`` at t = 0; ``places`` order the body's axes.
+    """Return the `Constants` of a pair (alpha, beta) with this ``tilt`` at t = 0, see `Nutating.tilt`.
 
-    Raises DomainError on a separatrix.
+    ``places`` order the body's axes, the nutating one last. Raises DomainError on a separatrix.
     """
     lattice, pair, swing = solution.lattice, (solution.alpha, solution.beta), solution.swing
     steady = lattice.rate.is_zero()
@@ -94,17 +101,21 @@ def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] =
 
 
 def _flat(x: Sum, factor: acb) -> list[acb]:
-    """Return the weights of a sum times a factor, odd and even alternating: near a steady motion one vanishes."""
+    """Return the weights of a sum times a factor, odd and even alternating.
+
+    Both are multiplied alike, since near a steady motion one of them vanishes.
+    """
     return [y * factor for pair_of_weights in zip(x.odd, x.even, strict=True) for y in pair_of_weights]
 
 
 def variations(
     make: Callable[..., Constants], values: Sequence[fmpq], places: Sequence[int], scales: Sequence[fmpq]
 ) -> list[Variation]:
-    """Return a `Variation` for the input at each of `places`; `scales` are sizes of the inputs, not zero.
+    """Return a `Variation` for the input at each index in `places`; `scales` are sizes of the inputs, not zero.
 
-    Where the formulas do not change, each derivative is one forward difference, and a step back in all inputs checks
-    them. Raises DomainError where the constants have no derivatives.
+    ``make`` takes all inputs, ``values`` or values beside these, and returns `Constants`. Where the formulas do not
+    change, each derivative is one forward difference, and a step back in all inputs checks them. Raises DomainError
+    where the constants have no derivatives.
     """
     h = [scale / fmpq(2) ** STEP_BITS for scale in scales]
 
@@ -132,7 +143,8 @@ def variations(
 def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
     """Return the `Variation` of constants in the input number ``place``, also next to a border, by differences.
 
-    Raises TooNearError where no step is small enough.
+    For the other arguments see `variations`. Raises DomainError on a separatrix, TooNearError where no step is small
+    enough.
     """
     small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
     lost_bits = max(0, int(small.q).bit_length() - int(small.p).bit_length())
@@ -150,9 +162,10 @@ def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int
 def _differences(
     make: Callable[..., Constants], values: Sequence[fmpq], place: int, h: fmpq, scale: fmpq
 ) -> Variation | None:
-    """Return constants and their derivatives by differences over h; None where these are not accurate enough.
+    """Return the `Variation` in the input number ``place`` by differences over h; None where it is not accurate enough.
 
-    Raises DomainError on a separatrix, where the motion itself has no constants.
+    ``make`` and ``values`` are those of `variations`, ``scale`` is the size of the input. Raises DomainError on a
+    separatrix, where the motion itself has no constants.
     """
 
     def constants_at(steps: int) -> Constants | None:
@@ -186,7 +199,10 @@ def _differences(
 
 
 class Groups:
-    """Constants of motions of one form as rows of equal length; missing terms of sums are zeros."""
+    """Constants of several motions of one form as `rows` of equal length; missing terms of sums are zeros.
+
+    `lengths` holds the number of entries of each group by name, `places` the number of the group of each entry.
+    """
 
     def __init__(self, motions: Sequence[Constants]) -> None:
         tables = [x.tables for x in motions]
@@ -219,7 +235,10 @@ class Groups:
         )
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
-        """Whether all radii of ``mean`` and ``slopes`` are at most MAX_RADIUS times the group's largest value."""
+        """Whether all radii of ``mean`` and ``slopes`` are at most MAX_RADIUS times the group's largest value.
+
+        ``slopes`` are pairs (row of derivatives, scale of the input), of which the product is compared.
+        """
         size, radius = self._largest(sizes_of(mean)), radii_of(mean)
         for row, scale in slopes:
             unit = float(arb(scale).mid())
@@ -238,7 +257,7 @@ class Groups:
 
 
 def _combined(rows: Sequence[Row], weights: Sequence[Any]) -> Row:
-    """Return the linear combination of rows with these weights, a list."""
+    """Return the linear combination of rows of balls with these weights, a list; rows with weight 0 are not read."""
     pairs = [(x, w) for x, w in zip(rows, weights, strict=True) if w != 0]
     if [w for _, w in pairs] == [1, -1]:
         return [x - y for x, y in zip(pairs[0][0], pairs[1][0], strict=True)]
@@ -258,7 +277,7 @@ def sizes_of(row: Row) -> FloatArray:
 
 
 def radii_of(row: Row) -> FloatArray:
-    """Return the radii of the balls in a row as a float array; NaN for a ball that is not finite."""
+    """Return the radii of the balls in a row as a float array, for a complex ball the sum of two; NaN if not finite."""
     return np.array(
         [
             float(x.real.rad() + x.imag.rad() if isinstance(x, acb) else x.rad()) if x.is_finite() else np.nan

@@ -29,7 +29,9 @@ MAX_DERIVATIVE_CHANGE = 2.0**-30
 class Differences:
     """Derivatives of R and Omega at single times by differences of the motion in balls, near any border.
 
-    R is analytic in the inputs whatever its constants do: how far it bends depends on how fast neighbours depart.
+    ``make`` makes the certified motion of all inputs, ``values``; ``places`` are the indices of the inputs that
+    vary, ``scales`` the sizes of all. R is analytic in the inputs whatever its constants do: how far it bends
+    depends on how fast neighbours depart.
     """
 
     def __init__(
@@ -48,7 +50,8 @@ class Differences:
     def _neighbours(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
         """Return triples (motion, weight of the derivative, weight of its change over h) for the input ``place``.
 
-        Raises DomainError where no motions beside this one exist.
+        The motions have that input changed by multiples of h. Raises DomainError where no motions beside this one
+        exist.
         """
         for steps, weights in SIDES:
             try:
@@ -60,9 +63,10 @@ class Differences:
         raise DomainError("No motions beside this one are known.")
 
     def at(self, t: float) -> tuple[FloatArray, ...]:
-        """Return (v, R dOmega/dp, R e3, its slope) at a time: (inputs, 3) twice, then (3,) twice; dR/dp = [v]x R.
+        """Return (v, R dOmega/dp, R e3, its slope) at a time t: (inputs, 3) twice, then (3,) twice; dR/dp = [v]x R.
 
-        Raises DomainError where they are not known well enough.
+        All are in the laboratory. The steps are made smaller until the differences are accurate; raises DomainError
+        where no step is small enough.
         """
         time = rational(t)
         for _ in range(MAX_TRIES):
@@ -86,7 +90,11 @@ class Differences:
     def _derivative(
         self, here: Row, R: Sequence[Row], neighbours: Sequence[tuple[Any, arb, arb]], t: fmpq
     ) -> tuple[Row, Row, float]:
-        """Return v, where dR/dp = [v]x R for one input p; R dOmega/dp; and the largest change of dR/dp over a step."""
+        """Return (v, R dOmega/dp, change) for one input p at time t, dR/dp = [v]x R: lists of three balls, a float.
+
+        The last is the largest change of an entry of dR/dp over a step. ``here`` is the `_state` of the motion, R
+        its matrix, and ``neighbours`` are the triples of `_neighbours`.
+        """
         rows = [here if x is self.here else self._state(x, t) for x, _, _ in neighbours]
         _, slopes, bends = zip(*neighbours, strict=True)
         change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))

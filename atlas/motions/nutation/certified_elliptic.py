@@ -35,8 +35,9 @@ ROUNDING = fmpq(1, 2**48)
 class EllipticMotion(Nutating):
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3) at t = 0.
 
-    Every value is computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`; which case it
-    is, is decided on the exact inputs.
+    z and ``branch`` (1 or -1, the sign of v) are the parameters of the family, see the module. Every value is
+    computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`; which case it is, is
+    decided on the exact inputs.
     """
 
     frame = 1
@@ -62,7 +63,7 @@ class EllipticMotion(Nutating):
         self.kind = self._kind()
 
     def _order(self) -> tuple[int, int, int]:
-        """Return a cyclic order of the axes' indices, the nutating axis last.
+        """Return the three axes' indices 0, 1, 2 in a cyclic order, the nutating axis last.
 
         If K has a single component, its axis is the last.
         """
@@ -92,7 +93,7 @@ class EllipticMotion(Nutating):
 
     @property
     def _rests(self) -> bool:
-        """Whether |E_i| = 1 wherever K_i is not zero: the body is at rest, or at -2 K."""
+        """Whether |E_i| = 1 wherever K_i is not zero: each component of Omega is then 0 or -2 K_i."""
         return all(x == 0 or c * c * self.square == 1 for c, x in zip(self._e, self.field, strict=True))
 
     @property
@@ -113,7 +114,10 @@ class EllipticMotion(Nutating):
         return "undecided" if C == 0 and stays else "unstable"
 
     def _change(self) -> fmpq:
-        """Return the squared frequency of a small change, within the family, of a K that is constant."""
+        """Return the squared frequency, in 1/time^2, of a small change, within the family, of a K that is constant.
+
+        It is negative where such a change grows.
+        """
         first, second, nutating = self.places
         e = self._e
         return (e[first] - e[nutating]) * (e[second] - e[nutating]) * self.square * self.quartic.N
@@ -130,7 +134,7 @@ class EllipticMotion(Nutating):
 
     @property
     def v(self) -> Real:
-        """The root v of prod(z + D/I_i), of the sign of the branch."""
+        """Root v of prod(z + D/I_i), D = I1 I2 I3, of the sign of the branch, in inertia^3: a rational or a ball."""
         return self.branch * root(self.square)
 
     @property
@@ -146,18 +150,24 @@ class EllipticMotion(Nutating):
 
     @property
     def invariants(self) -> list[Real]:
-        """List [H, F, (M, K), K^2, kinetic energy] of theorem-clebsch."""
+        """List [H, F, (M, K), K^2, kinetic energy] of theorem-clebsch, from Omega and K at t = 0, M = II (Omega + K).
+
+        H = (M, II^-1 M)/2 + (K, II K)/2 and F = M^2 - D (K, II^-1 K) are the two integrals, D = det II.
+        """
         J = [self.inertia[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
         H, F, MK, K2, energy = clebsch(*J, *self.omega, *self.field)
         return [H / 2, F, MK, K2, energy / 2]
 
     def rate_of(self, K: Any) -> list[Real]:
-        """Return Omega_i = (E_i - `frame`) K_i along the principal axes for a field K in the body."""
+        """Return Omega_i = (E_i - `frame`) K_i along the principal axes, in rad/time, for a field K in the body."""
         return [(E - self.frame) * x for E, x in zip(self.E, K, strict=True)]
 
     @property
     def precession(self) -> Real:
-        """Rate (E_a - frame) b, in rad/time, about the field, of the frame to which rates of alpha and beta refer."""
+        """Rate (E_a - `frame`) b, in rad/time, about the field, of the frame to which rates of alpha and beta refer.
+
+        a is the nutating axis, b the field's magnitude.
+        """
         return (self.E[self.places[2]] - self.frame) * self.b
 
     @by_precision
@@ -179,7 +189,10 @@ class EllipticMotion(Nutating):
         )
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return (k about the field, phi about the nutating axis) in rad/time of a motion that is two rotations."""
+        """Return (k about the field, phi about the nutating axis) in rad/time, for a motion that is two rotations.
+
+        phi is 0 where K is constant.
+        """
         left, _, nutating = self.places
         if self.kind != "elementary":  # K is constant, along an axis or where E is a number
             return self.precession, fmpq(0)
@@ -187,7 +200,10 @@ class EllipticMotion(Nutating):
 
     @property
     def period(self) -> arb:
-        """Period of K; for constant K, the period of an infinitesimal change of K, inf if that does not oscillate."""
+        """Period of K, a ball in time, inf on a separatrix.
+
+        For constant K it is the period of an infinitesimal change of K, inf if that does not oscillate.
+        """
         if not self.is_steady:
             return super().period
         if self.kind == "elementary":
@@ -199,7 +215,7 @@ class EllipticMotion(Nutating):
 
     @property
     def circled(self) -> int:
-        """Index of the axis around which K goes: that of the largest or least E, of two equal E the third."""
+        """Index, 0 to 2, of the axis around which K goes: of the largest or least E; of two equal E the third."""
         e, (left, right, nutating) = self._e, self.places
         if len(set(e)) == 2:
             return next(i for i in range(3) if e.count(e[i]) == 1)
@@ -212,14 +228,14 @@ class EllipticMotion(Nutating):
 
     @property
     def turn_per_period(self) -> arb:
-        """Angle in rad, a ball, by which the body has rotated about B after one period.
+        """Total angle in rad, a ball, of the rotation about B that R is after one period of K.
 
-        K, the field along the axes of the body, is then the same again.
+        K, the field along the axes of the body, is then the same again. Whole turns are those of the nutating axis.
         """
         return super()._angles()[0]
 
     def _angles(self) -> tuple[arb, arb]:
-        """Return the angles in rad of (precession, spin) in one period, of the axis around which K goes.
+        """Return the total angles in rad, two balls, of (precession, spin) in one period, of the axis K goes round.
 
         Alpha and beta belong to another axis, which makes one turn more or less about B in a period. Where K is
         constant, the angles are the limits for a motion next to it.
@@ -279,7 +295,7 @@ class EllipticMotion(Nutating):
         return applied(self.rotation(t), m)
 
     def from_frame(self, a: acb, b: acb) -> list[arb]:
-        """Return the quaternion (w, x, y, z) of (a, b), along the principal axes in the order of the moments."""
+        """Return the quaternion (w, x, y, z) of (alpha, beta) = (a, b), along the axes in the order of the moments."""
         q = super().from_frame(a, b)
         return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
 
@@ -289,9 +305,10 @@ class EllipticMotion(Nutating):
 
 
 class EulerTop(EllipticMotion):
-    """The motion R(t), R(0) = 1, of a free body with moments (I1, I2, I3) that starts with ``omega``.
+    """The motion R(t), R(0) = 1, of a free body with moments (I1, I2, I3) that starts with ``omega``, in rad/time.
 
-    The angular momentum m = II Omega in the body stands for the field, and E = II^-1: m' = [m, E m]. No frame turns.
+    It is an `EllipticMotion` with `frame` 0, so that no frame turns: the angular momentum m = II Omega in the body
+    stands for the field, and E = II^-1: m' = [m, E m].
     """
 
     frame = 0
@@ -306,7 +323,7 @@ class EulerTop(EllipticMotion):
 
     @property
     def _rests(self) -> bool:
-        """Whether there is no motion."""
+        """Whether the body is at rest, omega = 0."""
         return not any(self.field)
 
     @property
@@ -335,7 +352,10 @@ def check_moments(moments: tuple[fmpq, ...]) -> None:
 
 
 def square_of_v(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
-    """Return v^2 = prod(z + D/I_i). Raises DomainError where it is not positive."""
+    """Return v^2 = prod(z + D/I_i), D = I1 I2 I3, exactly.
+
+    Raises DomainError where v^2 is not positive, with the intervals of z where it is.
+    """
     D = moments[0] * moments[1] * moments[2]
     zeros = sorted(-D / I for I in moments)
     if not (z > zeros[2] or zeros[0] < z < zeros[1]):

@@ -18,9 +18,11 @@ from atlas.motions.nutation.certified_quartic import Quartic, Root, Vector, rati
 
 
 class EllipticQuartic(Quartic):
-    """Quartic Q(u), u = -K_a, of an elliptic motion; ``e`` and ``K`` have the order (b, c, a), a the nutating axis.
+    """Quartic Q(u), u = -K_a, of an elliptic motion; see the module.
 
-    ``square`` is v^2, ``sign`` the sign of v.
+    ``e`` holds e_i = 1/(z I_i + D), and ``K`` the field's components at t = 0, in the order (b, c, a), a the
+    nutating axis. ``square`` is v^2, ``sign`` the sign of v. `N` is K^2, `h` the sum of e_i K_i^2; ``rate`` and
+    `torque` are du/dt at t = 0 and the torque at the poles, both over |v|.
     """
 
     def __init__(self, e: Vector, K: Vector, square: fmpq, sign: int) -> None:
@@ -35,7 +37,10 @@ class EllipticQuartic(Quartic):
         self.torque = sign * (e[2] * self.N - self.h)
 
     def _isolated(self) -> list[Root]:
-        """Return the roots of Q, a quadratic in u^2, in balls that do not overlap; real ones first, ascending."""
+        """Return the distinct roots of Q, a quadratic in u^2, as `Root`, in balls that do not overlap.
+
+        Real ones come first, ascending.
+        """
         (e_b, e_c, e_a), h, N = self._e, self.h, self.N
         if e_a in (e_b, e_c):
             return super()._isolated()

@@ -27,8 +27,8 @@ from atlas.motions.nutation.certified_spheres import Sphere, sphere_of_field, sp
 class GeneralMotion(Nutating):
     """The motion R(t), R(0) = 1, that starts with Omega(0) = ``omega`` in the field B' = (0, B2, B3).
 
-    `at_state` takes a field in any direction. Every value is computed anew at the precision of the moment, see
-    `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
+    ``ratio`` is I = I3/I2; `at_state` takes a field in any direction. Every value is computed anew at the precision
+    of the moment, see `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
     """
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
@@ -37,7 +37,10 @@ class GeneralMotion(Nutating):
 
     @classmethod
     def at_state(cls, ratio: Any, Omega: Any, K: Any) -> Self:
-        """Return the motion that starts with the angular velocity Omega and the field K, both in the body, (3,)."""
+        """Return the motion that starts with the angular velocity Omega and the field K, both in the body, (3,).
+
+        ``ratio`` is I = I3/I2, Omega is in rad/time and K in 1/time.
+        """
         motion = cls.__new__(cls)
         motion._start(  # noqa: SLF001  of this class
             ratio_of(ratio), rationals(Omega, "Omega", 3), rationals(K, "K", 3)
@@ -51,7 +54,7 @@ class GeneralMotion(Nutating):
 
     @cached_property
     def cancelled(self) -> int:
-        """Bits that the spin in a period loses by cancellation, since its size is of the order of 1 - I."""
+        """Binary digits that the spin in a period loses by cancellation, since its size is of the order of 1 - I."""
         less = abs(1 - self.I)
         return max(0, int(less.q).bit_length() - int(less.p).bit_length()) if less != 0 else 0
 
@@ -110,12 +113,15 @@ class GeneralMotion(Nutating):
         return momentum if any(w != 0 for w in self.omega) else (fmpq(0), fmpq(0), fmpq(1))
 
     def velocity_sizes(self) -> tuple[Real, Real, Real, Real]:
-        """Return (cos, sin of the azimuth of Omega(0), largest |Omega| across the axis, largest along it)."""
+        """Return (cos, sin of the azimuth of Omega(0), size across the axis, size along it), rationals or balls.
+
+        The sizes are the largest magnitudes that Omega's parts across and along the axis can have, in rad/time.
+        """
         sphere = self._velocity_sphere
         return sphere.tilt[2], sphere.tilt[3], sphere.length, abs(sphere.poles[1])
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return (k about the field, phi about the body's axis) in rad/time where Omega3 is constant.
+        """Return (k about the field, phi about the body's axis) in rad/time, for a motion with constant Omega3.
 
         For a free body k is about the momentum.
         """
@@ -169,7 +175,10 @@ class GeneralMotion(Nutating):
 
     @property
     def roots(self) -> list[acb]:
-        """Roots of Q, repeated by multiplicity: the real ones ascending, then the complex pair; [] for B = 0."""
+        """Roots of Q in Omega3, in rad/time, as a list of complex balls repeated by multiplicity.
+
+        The real ones come first, ascending, then the complex pair; roots at infinity are left out. [] for B = 0.
+        """
         if self.quartic.K2 == 0:
             return []
         finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
@@ -186,7 +195,10 @@ class GeneralMotion(Nutating):
 
     @property
     def is_plane(self) -> bool:
-        """Whether p = M3 = 0 and theta varies: the axis swings in a plane that turns about the field."""
+        """Whether p = M3 = 0 and theta varies: the axis swings in a plane that turns about the field.
+
+        M3 = I c3 is the canonical momentum along the axis, p = (M, K)/b along the field.
+        """
         return not self.is_steady and bool(self.quartic.c3 == self.quartic.momentum == 0)
 
     @property
@@ -196,7 +208,10 @@ class GeneralMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether nu swings evenly about zero, and chi' = -p nu/(1 - nu^2) with it."""
+        """Whether nu = K3/b swings evenly about zero, and with it the rate chi' = -p nu/(1 - nu^2) of the spin.
+
+        p = (M, K)/b; M3 = I c3 is then zero.
+        """
         q = self.quartic
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
@@ -208,15 +223,19 @@ class GeneralMotion(Nutating):
 
     @property
     def invariants(self) -> dict[str, fmpq]:
-        """The constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M = II (Omega + K) in units of I2."""
+        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B'), M = II (Omega + K), over I2: rationals by name.
+
+        c3 is in 1/time, the others are in 1/time^2.
+        """
         q = self.quartic
         return {"E'": q.E, "K^2": q.K2, "c3": q.c3, "c5": q.c5, "(M,B')": q.momentum}
 
 
 class Symmetric:
-    """The motion of a body with two equal moments, whatever the order of its axes.
+    """The motion of a body with two equal moments, whatever the order of its axes, R(0) = 1.
 
-    Omega (rad/time) and K (1/time) are along those axes at t = 0; two of the ``moments`` must be equal.
+    ``Omega`` (rad/time) and ``K`` (1/time) are along those axes at t = 0; two of the ``moments`` must be equal.
+    `exact` is the `GeneralMotion` along axes in which the symmetry axis is the third.
     """
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:

@@ -33,7 +33,7 @@ Vector = tuple[fmpq, fmpq, fmpq]
 
 @dataclass(frozen=True)
 class Root:
-    """A root of Q as a ball, real or complex, and its multiplicity."""
+    """A root of Q as a complex ball `value`, +inf for a root at infinity, and its `multiplicity`."""
 
     value: acb
     multiplicity: int
@@ -58,10 +58,12 @@ INFINITY = acb(arb("inf"))
 
 
 class Quartic:
-    """Q(u) = (dOmega3/dt)^2 of a body of ratio I, from Omega and K, both along the body's axes at t = 0.
+    """Q(u) = (dOmega3/dt)^2, u = Omega3, of a body of ratio I, from Omega and K along the body's axes at t = 0.
 
-    ``low`` and ``high`` are indices, among the distinct real roots in ascending order, of the two between which Omega3
-    moves. They are equal where Omega3 is constant: at a multiple root or an isolated point.
+    `polynomial` is a tuple of `Surd`, the constant first. `E`, `K2`, `c3`, `c5` are the integrals (36) to (41), and
+    `rate` is du/dt at t = 0. ``low`` and ``high`` are indices, among the distinct real roots in ascending order, of
+    the two between which Omega3 moves. They are equal where Omega3 is constant: at a multiple root or an isolated
+    point.
     """
 
     def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
@@ -76,7 +78,7 @@ class Quartic:
 
     @property
     def leading(self) -> Real:
-        """The leading coefficient of Q, the last one that is not zero."""
+        """The leading coefficient of Q, the last one that is not zero, a rational or a ball."""
         return self.polynomial[-1].value
 
     @property
@@ -89,12 +91,12 @@ class Quartic:
 
     @property
     def sense(self) -> int:
-        """Sign of du/dt at t = 0."""
+        """Sign of du/dt at t = 0: -1, 0 or 1."""
         return self.rate.sign
 
     @cached_property
     def slope(self) -> Surd:
-        """Q'(u) at t = 0, twice the second derivative of u."""
+        """Q'(u) at t = 0, exactly, in the unit of Q over that of u: twice the second derivative of u."""
         return evaluated(derivative(self.polynomial), self.u)
 
     @property
@@ -108,7 +110,11 @@ class Quartic:
         return self.rate.is_zero and self.slope.is_zero
 
     def sign_beside(self, pole: int) -> int:
-        """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
+        """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole.
+
+        M3 = I c3 is the canonical momentum along the axis, p = (M, K)/b along the field. The pole -1 is theta = pi,
+        where nu = K3/b is -1.
+        """
         torque: Surd = Surd.root(self.K2) * (-pole * self.I * self.c3) + self.momentum
         return torque.sign
 
@@ -138,7 +144,7 @@ class Quartic:
 
     @cached_property
     def _interval(self) -> tuple[int, int]:
-        """Indices (low, high) of the roots that enclose Omega3, decided at rising precision."""
+        """Indices (low, high), among the real roots ascending, of those that enclose u, decided at rising precision."""
         precision = ctx.prec
         while True:
             with workprec(precision):
@@ -170,10 +176,12 @@ def rational_polynomial(coefficients: Iterable[fmpq]) -> Polynomial:
 
 
 class TopQuartic(Quartic):
-    """Q of a top with the moments (1, I), coupling (k2, k3), direction (n2, n3) and angular velocity at t = 0.
+    """Q of u = -nu of a top, with moments (1, I), coupling (k2, k3), direction (n2, n3), and omega at t = 0.
 
-    `low` and `high` are the places, among the distinct real roots in ascending order, of those between which u moves;
-    they are equal, and name a multiple root, where theta is constant.
+    ``potential`` is (linear, quadratic); all are over I2. `nu` and `transverse` are cos and sin of theta at t = 0;
+    `M3` is the canonical momentum along the axis, `p` along n, and `a`, `A`, `kappa` are those of the module. `low`
+    and `high` are indices, among the distinct real roots in ascending order, of the two between which u moves; they
+    are equal, the index of a multiple root, where theta is constant.
     """
 
     def __init__(self, I: fmpq, coupling: Any, direction: Any, omega: Any, potential: Any) -> None:
@@ -195,6 +203,9 @@ class TopQuartic(Quartic):
         self.polynomial = trimmed([h2 - p * p, 2 * a - 2 * p * M3, -A - h2 - M3 * M3, -2 * a, A])
 
     def sign_beside(self, pole: int) -> int:
-        """Return the sign of p + M3 for `pole` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
+        """Return the sign of p + M3 for `pole` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole.
+
+        M3 and p are the canonical momenta along the axis and along n.
+        """
         torque: Surd = self.p - self.M3 * pole
         return torque.sign

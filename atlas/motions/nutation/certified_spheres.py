@@ -30,9 +30,10 @@ POLES = (-1, 1)
 class Sphere:
     """Sphere on which a vector moves in the body, with its poles -1 (of alpha) and 1 (of beta) as keys.
 
-    `poles` are values of Omega3 there, `torques` numerators of the phase rates, `signs` their exact signs, `frames`
-    rates of the frame. `start` is the vector at t = 0, of this `length`. `slopes` are the derivatives of alpha and beta
-    at t = 0, for the one that is zero there. The frame has the rates `precession` and `spin`, in rad/time.
+    The vector is K, a top's b, or (Omega2, Omega1, -sqrt(I) Omega3). `poles` are values of the quartic's variable u
+    there, `torques` the T of the module, `signs` their exact signs, and `frames` the rates f of the frame. `start`
+    is the vector at t = 0, of this `length`. `slopes` are the derivatives of alpha and beta at t = 0, for the one
+    that is zero there. The frame has the rates `precession` about the field and `spin` about the axis, in rad/time.
     """
 
     start: tuple[Real, Real, Real]
@@ -47,14 +48,15 @@ class Sphere:
 
     @cached_property
     def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Tilt of the vector at t = 0, four numbers, see `tilt_of`."""
+        """Tilt of the vector at t = 0: (cos, sin of half the polar angle, cos, sin of the azimuth), see `tilt_of`."""
         return tilt_of(self.start, self.length)
 
 
 def tilt_of(vector: Sequence[Real], length: Real) -> tuple[Real, Real, Real, Real]:
-    """Return (cos, sin of half the polar angle, cos, sin of the azimuth) of a vector of this ``length``.
+    """Return (cos, sin of half the polar angle, cos, sin of the azimuth) of a vector (x, y, z) of this ``length``.
 
-    The azimuth runs from the second axis to the first; it is 0 for a vector along the third axis.
+    Each is a rational or a ball. The azimuth runs from the second axis to the first; it is 0 for a vector along the
+    third axis.
     """
     x, y, z = vector
     if x == 0 and y == 0:
@@ -67,7 +69,10 @@ def tilt_of(vector: Sequence[Real], length: Real) -> tuple[Real, Real, Real, Rea
 
 
 def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
-    """Return the `Sphere` on which K moves; of a free body, where K = 0, the sphere of its momentum, along `axis`."""
+    """Return the `Sphere` on which K moves; of a free body, where K = 0, the sphere of its momentum.
+
+    ``q`` is the quartic of the motion, `axis` is K, or the momentum, at t = 0, three rationals.
+    """
     (w1, w2, _), (x, y, z) = q.Omega, axis
     b = root(q.K2)
     return Sphere(
@@ -84,7 +89,7 @@ def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
 
 
 def sphere_of_velocity(q: Quartic) -> Sphere:
-    """Return the `Sphere` of (Omega2, Omega1, -sqrt(I) Omega3), whose length is constant."""
+    """Return the `Sphere` of (Omega2, Omega1, -sqrt(I) Omega3), whose length is constant, for the quartic ``q``."""
     (w1, w2, w3), (K1, K2, _) = q.Omega, q.K
     square = q.E / q.I
     end, short = arb(root(square)), root(q.I)

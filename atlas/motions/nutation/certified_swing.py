@@ -30,9 +30,11 @@ ROUGH_BITS = 80
 
 @dataclass(frozen=True)
 class Swing:
-    """kappa times the integral of nu, a linear part and 2 at(x)/sqrt(|A|), x sqrt(|A|) = odd/even.
+    """Rotation of a top about its axis by kappa times the integral of nu = cos theta, as a function of time.
 
-    `rate` and `twist` are its slopes by t and by s; at is artanh for A > 0, arctan for A < 0.
+    The angle is kappa (rate t + twist s + 2 at(x)/sqrt(|A|)), x = sqrt(|A|) odd(s)/even(s), with at = artanh for A
+    > 0, arctan for A < 0, and 2 odd/even for A = 0. s is the time since a turning point, A the quartic's leading
+    coefficient.
     """
 
     lattice: Lattice
@@ -48,17 +50,23 @@ class Swing:
     """Distance of the turning points of nu."""
 
     def at(self, t: arb, s: arb) -> arb:
-        """Return kappa times the integral of nu from a turning point to time t; s is the time in its period."""
+        """Return kappa times the integral of nu from a turning point to time t, an angle in rad, a ball.
+
+        s is the time since that turning point, in a hyperbolic form less whole periods.
+        """
         return self.kappa * (self.rate * t + self.twist * s + self.oscillation(s))
 
     @property
     def steepest(self) -> arb:
-        """Largest slope of half the oscillating part of `at` by the phase rate s, a bound, dimensionless."""
+        """Upper bound on the slope of half the oscillating part of `at` by the phase rate s, a ball, dimensionless."""
         return abs(self.kappa) * self.width / (2 * self.lattice.rate)
 
     @property
     def largest(self) -> arb:
-        """Half the largest part not linear in time, in rad: a bound if below MAX_HALF_ANGLE, else an estimate."""
+        """Half the largest part of `at` that is not linear in t, in rad, a ball.
+
+        It is an upper bound if below MAX_HALF_ANGLE, else an estimate from eight times.
+        """
         half = self.lattice.half
         most = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
         if most < MAX_HALF_ANGLE:
@@ -82,8 +90,9 @@ class Swing:
 class Crossing:
     """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n.
 
-    Up to a constant it is kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): the rate is -kappa sense long before
-    s = 0 and kappa sense long after, with no mean.
+    Up to a constant it is kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): the rate is -kappa sense long
+    before s = 0 and kappa sense long after, with no mean. s is the time since the axis crosses the equator,
+    `origin` its value at t = 0; `slope` is in 1/time, `sense` is 1 or -1.
     """
 
     kappa: arb
@@ -94,13 +103,19 @@ class Crossing:
     """Size of the rate of the integral long before and after."""
 
     def at(self, _: arb, s: arb) -> arb:
-        """Return kappa times an integral of nu at time s from the equator; the first argument is not used."""
+        """Return kappa times an integral of nu at time s since the equator, a ball in rad.
+
+        The first argument, the time, is not used.
+        """
         x = self.slope * abs(s)
         return self.kappa * self.sense * (x + (1 + (-2 * x).exp()).log()) / self.slope
 
 
 def turn_of(odd: arb, even: arb, A: arb) -> arb:
-    """Return 2 g(odd/even sqrt(|A|))/sqrt(|A|), g = artanh for A > 0, arctan for A < 0; 2 odd/even for A = 0."""
+    """Return 2 g(sqrt(|A|) odd/even)/sqrt(|A|), g = artanh for A > 0, arctan for A < 0; 2 odd/even for A = 0.
+
+    The result is a ball; for A < 0 the quadrant of (even, odd) counts.
+    """
     if A == 0:
         return 2 * odd / even
     size = abs(A).sqrt()
@@ -110,7 +125,10 @@ def turn_of(odd: arb, even: arb, A: arb) -> arb:
 
 
 def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
-    """Return the `Swing` of a motion of this quartic, except on the separatrix between n and -n; see `crossing`."""
+    """Return the `Swing` of a motion, except on the separatrix between n and -n; see `crossing`.
+
+    ``quartic`` is that of the top, ``nutation`` the maker of its constants, whose solution has been made.
+    """
     lattice, A = nutation.lattice, arb(quartic.A)
     sense = 1 if nutation.start.place == quartic.low else -1
     depth = arb(0)
@@ -140,14 +158,17 @@ def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
 
 
 def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) for poles at s = x + i imaginary; ``depth`` is rate x."""
+    """Return the sums (O times ``factor``, E) for poles of nu at s = x + i imaginary; ``depth`` is rate x.
+
+    O and E are the odd and even parts of the module's theta function, as `Sum`; imaginary is half the imaginary period.
+    """
     if lattice.form == "trigonometric":
         return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())
     return _beside_imaginary(lattice, depth, factor, lambda k: (depth * k).sinh_cosh())
 
 
 def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) for a double pole at s = i imaginary.
+    """Return the sums (O times ``factor``, E) for a double pole of nu at s = i imaginary.
 
     O is the slope of E, negated, over rate.
     """
@@ -156,7 +177,7 @@ def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
 
 
 def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) for poles at s = i y."""
+    """Return the sums (O times ``factor``, E) for poles of nu at s = i y and -i y; see `_poles_aside`."""
     if lattice.form == "trigonometric":
         function = _inclined(lattice, y)
         odd, even = [x.real for x in function.odd], [x.real for x in function.even]
@@ -169,7 +190,7 @@ def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
 
 
 def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum, Sum]:
-    """Return two sums in the form of ``like``: one with odd terms times ``factor``, one with the even terms."""
+    """Return two sums in the form of ``like``: one with ``odd`` terms times ``factor``, one with the ``even`` terms."""
     none = (acb(0),) * len(odd)
     return (
         replace(like, odd=tuple(acb(x * factor) for x in odd), even=none, bound=abs(factor) * like.bound),
@@ -180,9 +201,10 @@ def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum
 def _beside_imaginary(
     lattice: Lattice, depth: arb, factor: arb, weights: Callable[[int], tuple[arb, arb]]
 ) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) for a zero near s = i imaginary.
+    """Return the sums (O times ``factor``, E) of a theta function with a zero near s = i imaginary.
 
-    `weights(k)` gives the weights of S(k rate s) and of C(k rate s), at most exp(k ``depth``).
+    `weights(k)` gives the weights of S(k rate s) and of C(k rate s), at most exp(k ``depth``); k is even for a
+    trigonometric lattice, else odd.
     """
     doubled = lattice.form == "trigonometric"
 
@@ -197,7 +219,7 @@ def _beside_imaginary(
 
 
 def _inclined(lattice: Lattice, y: arb) -> Sum:
-    """Return exp(-i v) times the theta function with a zero at i y, as a `Sum` in trigonometric form, v = rate s.
+    """Return exp(-i v) times the theta function with a zero at s = i y, as a `Sum` in trigonometric form, v = rate s.
 
     Its weights are NaN where nome or rate y is not finite, and where |nome| is not certainly below 1.
     """

@@ -31,8 +31,9 @@ from atlas.surfaces.formula_top import constants
 class TopMotion(Nutating):
     """The motion R(t), R(0) = 1, of a top with inertia (I2, I3), coupling (k2, k3) and direction (n2, n3) at t = 0.
 
-    Every value is computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`; which case it
-    is, is decided on the exact inputs.
+    ``linear`` and ``quadratic`` are the coefficients of its potential. Omega is in rad/time; `I`, `coupling` and
+    `potential` are over I2. Every value is computed anew at the precision of the moment, see
+    `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
     """
 
     def __init__(
@@ -67,28 +68,34 @@ class TopMotion(Nutating):
 
     @property
     def is_plane(self) -> bool:
-        """Whether the top is a plane pendulum in a frame that turns about n: p = M3 = 0, and kappa = 0."""
+        """Whether the top is a plane pendulum in a frame that turns about n: p = M3 = 0, and kappa = k2 - k3/I = 0.
+
+        M3 and p are the canonical momenta along the axis and along n.
+        """
         q = self.quartic
         return not self.is_steady and q.p.is_zero and q.M3.is_zero and bool(q.kappa == 0)
 
     @property
     def precession(self) -> Real:
-        """Rate -k2 about n, in rad/time, of the frame to which rates of alpha and beta refer."""
+        """Rate -k2/I2 about n, in rad/time, of the frame to which rates of alpha and beta refer."""
         return -self.coupling[0]
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the spin in a period is exactly zero: M3 = 0, so that chi' is odd in nu, which averages to zero."""
+        """Whether the spin in a period is exactly zero: M3 = 0 and nu swings evenly, so that chi' is odd in nu."""
         return self.quartic.M3.is_zero and self._is_even
 
     @property
     def precesses_evenly(self) -> bool:
-        """Whether precession in a period is Larmor's exactly: p = 0, so that the rest is odd in nu, with mean zero."""
+        """Whether precession in a period is exactly -k2/I2 times the period: p = 0 and nu swings evenly.
+
+        The rest of the rate is then odd in nu, with mean zero.
+        """
         return self.quartic.p.is_zero and self._is_even
 
     @property
     def _is_even(self) -> bool:
-        """Whether nu swings evenly about zero: the potential is even, and (p - M3 nu)^2."""
+        """Whether nu swings evenly about zero: potential and (p - M3 nu)^2 are even in nu, and nu passes zero."""
         q = self.quartic
         even = q.a.is_zero and (q.M3.is_zero or q.p.is_zero) and not q.is_constant
         return even and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
@@ -118,7 +125,10 @@ class TopMotion(Nutating):
 
     @property
     def invariants(self) -> list[Real]:
-        """List [h, M3, p] of constants over I2: energy, momentum along the axis, and (M, n) along the direction."""
+        """List [h, M3, p] of constants over I2: energy, momentum along the axis, and (M, n) along the direction.
+
+        h is in 1/time^2, M3 and p are in 1/time; each is a rational or a ball, and n counts as a unit vector.
+        """
         q, (k2, k3), (a0, A0), (w1, w2, w3) = self.quartic, self.coupling, self.potential, self.omega
         energy, M3, p = constants(self.I, k2, k3, q.transverse, q.nu, a0, A0, w1, w2, w3)
         return [(energy / 2).value, M3.value, p.value]
@@ -141,7 +151,10 @@ class TopMotion(Nutating):
 
     @property
     def roots(self) -> list[acb]:
-        """Roots in nu of (dnu/dt)^2, repeated by multiplicity: the real ones ascending, then the complex pair."""
+        """Roots in nu of (dnu/dt)^2, a list of complex balls repeated by multiplicity; none at infinity.
+
+        The real ones come first, ascending, then the complex pair.
+        """
         finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
         real = [root for root in finite_roots if root.is_real]
         return [-x.value for x in real[::-1] + finite_roots[len(real) :] for _ in range(x.multiplicity)]
@@ -162,14 +175,17 @@ class TopMotion(Nutating):
 
     @property
     def steady_precessions(self) -> list[SteadyPrecession]:
-        """The steady precessions of this top at its inclination and with its omega3, at most two."""
+        """List of the `SteadyPrecession` of this top at its inclination and with its omega3, at most two.
+
+        Raises DomainError where every rate is one.
+        """
         return top_steady.steady_precessions(self.quartic, self.coupling[0])
 
     @property
     def sleeping_bands(self) -> dict[str, tuple[Real, Real] | None]:
-        """Interval (low, high) of omega3 where a sleeping top is unstable, or None.
+        """Intervals (low, high) of omega3, in rad/time, where a sleeping top is unstable; None where there is none.
 
-        "upright" along n, "hanging" against it.
+        The names are "upright", for the axis along n, and "hanging", against it.
         """
         q, k3 = self.quartic, self.coupling[1]
         return {

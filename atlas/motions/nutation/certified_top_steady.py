@@ -12,10 +12,10 @@ from atlas.motions.nutation.certified_quartic import TopQuartic
 
 
 class SteadyPrecession(NamedTuple):
-    """A steady precession at one inclination: its rate about n, and its stability.
+    """A steady precession at one inclination: its `rate` about n, in rad/time, and its stability.
 
-    `nutation` is the square of the frequency of small nutations, theorem-top-nutation: where it is negative a push
-    grows. `stable` also decides the case nutation = 0.
+    `nutation` is the square of the frequency of small nutations, in 1/time^2, theorem-top-nutation: where it is
+    negative a push grows. `stable` also decides the case nutation = 0.
     """
 
     rate: Real
@@ -24,9 +24,10 @@ class SteadyPrecession(NamedTuple):
 
 
 def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession]:
-    """Return the steady precessions with nu and M3 of a quartic, at most two, by ascending w; ``precession`` is k2.
+    """Return the steady precessions with nu and M3 of the quartic q, at most two; ``precession`` is k2/I2.
 
-    It is [] where there is none. Raises DomainError where every rate is one.
+    They ascend by the magnitude of w = rate + k2/I2; [] where there is none, and for an axis along n. Raises
+    DomainError where every rate is one.
     """
     if q.transverse.is_zero:
         return []
@@ -60,7 +61,7 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
 
 
 def _any_rate(push: Surd) -> list[SteadyPrecession]:
-    """Return an empty list for nu = M3 = 0, where M3 w = a has no solution w. Raises DomainError for a = 0."""
+    """Return [] for nu = M3 = 0, where M3 w = a has no solution w; ``push`` is a. Raises DomainError for a = 0."""
     if push.is_zero:
         raise DomainError("With nu = M3 = a = 0 every rate is one of a steady precession.")
     return []
@@ -75,7 +76,7 @@ def sign_of_sum(x: Surd, y: Surd, d: Surd) -> int:
 
 
 def _value(x: Surd, y: Surd, d: Surd) -> Real:
-    """Return x + y sqrt(d) as a rational or a ball, without cancellation."""
+    """Return x + y sqrt(d), d >= 0, as a rational or a ball, without cancellation."""
     if (y * y * d).is_zero:
         return x.value
     if sign_of_sum(x, y, d) == 0:
@@ -88,7 +89,8 @@ def _value(x: Surd, y: Surd, d: Surd) -> Real:
 def stable(q: TopQuartic) -> bool:
     """Whether a motion with constant theta is stable against nutation, decided exactly.
 
-    ``q`` is its quartic, with a double root at `nu`; where that root is of higher order the next derivatives decide.
+    ``q`` is the quartic of the motion, with a double root at u = -nu; where that root is of higher order the next
+    derivatives decide.
     """
     second = derivative(derivative(q.polynomial))
     sign = evaluated(second, -q.nu).sign
@@ -103,8 +105,8 @@ def stable(q: TopQuartic) -> bool:
 def sleeping_band(I: fmpq, kappa: fmpq, k3: fmpq, potential: tuple[fmpq, fmpq], side: int) -> tuple[Real, Real] | None:
     """Return (low, high) of omega3, rad/time, between which a top along n (`side` 1) or against n (-1) is unstable.
 
-    None if there is no such omega3. With M3 = I omega3 + side k3 it is (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0
-    + A); ``potential`` is (a0, A).
+    None if there is no such omega3. I = I3/I2; kappa, k3 and ``potential``, which is (a0, A), are over I2. The band is
+    (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A) with M3 = I omega3 + side k3.
     """
     a0, A = potential
     square = kappa * kappa + side * a0 + A

@@ -42,9 +42,11 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 class CayleyKlein:
     """Constants of alpha and beta of one motion as doubles, from balls at a precision where each is accurate.
 
-    `values` (4, rows) are the weights of Re alpha, Re beta, Im alpha, Im beta, each sum being over the rows that
-    `functions` fills, up to a common factor; with ``slopes`` eight rows, the last four for the derivatives by time,
-    without the swing of a top. Raises DomainError where `MAX_BITS` digits do not suffice.
+    ``solution()`` makes the `Solution` at the current working precision. `values` (4, rows) are the weights of Re
+    alpha, Re beta, Im alpha, Im beta, each sum being over the rows that `functions` fills, up to a common factor;
+    with ``slopes`` eight rows, the last four for the derivatives by time, without the swing of a top. `phases` and
+    `frequencies`, in turns per time, are of the sum and the difference of the phases of alpha and beta, and of the
+    period, if there is one. Raises DomainError where `MAX_BITS` digits do not suffice.
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
@@ -53,9 +55,10 @@ class CayleyKlein:
             self.precision = _doubled(self.precision)
 
     def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return the array (4, m) or (8, m) of `Evaluation.components` from balls, normalised, at times t + low (m,).
+        """Return the array (4, m) or (8, m) of `Evaluation.components` from balls, normalised, at times t + low.
 
-        It is for tops whose swing is too fast for two words. Raises DomainError where `MAX_BITS` digits do not suffice.
+        t and low are (m,), low may be None. It is for tops whose swing is too fast for two words. Raises
+        DomainError where `MAX_BITS` digits do not suffice.
         """
         self.phases.check(t)
         lacks = np.zeros(t.size) if low is None else np.broadcast_to(low, t.shape)
@@ -63,7 +66,10 @@ class CayleyKlein:
         return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
 
     def _in_balls(self, t: fmpq) -> list[float]:
-        """Return Re alpha, Re beta, Im alpha, Im beta at t, squares summing to one; with slopes four rates follow."""
+        """Return [Re alpha, Re beta, Im alpha, Im beta] at time t, squares summing to one.
+
+        With slopes the four derivatives by time follow, over the same factor, without the swing of a top.
+        """
         precision = self.precision
         while True:
             with workprec(precision):
@@ -80,7 +86,10 @@ class CayleyKlein:
             precision = _doubled(precision)
 
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
-        """Compute and store the constants at ``precision`` bits; return whether these suffice."""
+        """Compute and store the constants at ``precision`` binary digits; return whether these suffice.
+
+        ``solution()`` makes the `Solution`. Where the result is False, only some attributes are stored.
+        """
         with workprec(precision):
             constants = solution()
             lattice, pair = constants.lattice, (constants.alpha, constants.beta)
@@ -109,7 +118,7 @@ class CayleyKlein:
 
     @property
     def at_one_time(self) -> bool:
-        """Whether the pair at one time is known from floats: without `swing`, and away from separatrices.
+        """Whether `products_of_one` may evaluate the pair at one time: without `swing`, and away from separatrices.
 
         Near them the argument of the hyperbolic functions is large, and a double of it loses digits.
         """
@@ -122,7 +131,10 @@ class CayleyKlein:
             return self.periodic and self._solution().alternates
 
     def _are_lost(self, values: list[list[acb]]) -> bool:
-        """Whether alpha or beta is nonzero but too small for a float beside the other."""
+        """Whether alpha or beta is nonzero but too small for a float beside the other.
+
+        ``values`` (2, rows) are their exact weights.
+        """
         pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
         return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
 
@@ -141,7 +153,7 @@ class CayleyKlein:
 
 
 def _doubled(precision: int) -> int:
-    """Return twice the precision. Raises DomainError where more digits are hopeless."""
+    """Return twice the precision, in binary digits. Raises DomainError where that exceeds `MAX_BITS`."""
     if 2 * precision > MAX_BITS:
         raise DomainError(
             f"The constants of this motion are not known with {MAX_BITS} binary digits: it is too near to a case of "
@@ -158,17 +170,21 @@ def _swing(exact: Any) -> Any:
 
 
 def _crossed(solution: Solution) -> list[arb] | None:
-    """Return the phases (2,) at t = 0 in turns on the separatrix from n to -n, zero and kappa s/2 pi; else None."""
+    """Return the phases at t = 0 on the separatrix from n to -n, a list of two in turns; None for any other motion.
+
+    They are those of the sum and the difference of alpha and beta: zero, and kappa s/2 pi, s the time since the
+    equator.
+    """
     if not isinstance(solution.swing, ExactCrossing):
         return None
     return [ZERO, middle(solution.swing.kappa * solution.swing.origin / (2 * arb.pi()))]
 
 
 def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
-    """Return (frequencies in turns per unit of time, phase of the period at t = 0 in turns).
+    """Return (list of frequencies in turns per unit of time, phase of the period at t = 0 in turns).
 
     The frequencies are of the sum and the difference of the phases of alpha and beta, and, if ``periodic``, of the
-    period.
+    period; otherwise the phase is 0.
     """
     pair, swing = (solution.alpha, solution.beta), solution.swing
     rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
@@ -194,9 +210,9 @@ def _reducible(turns: list[arb], origin: arb) -> bool:
 
 
 def _weights(solution: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
-    """Return tables (2, rows) of weights of the functions of time in alpha and beta, and for ``slopes`` a second one.
+    """Return one table (2, rows) of complex balls: the weights of ``functions`` in alpha and in beta.
 
-    The second table is for their derivatives by time.
+    With ``slopes`` the list has a second table, for their derivatives by time.
     """
     swing, start = solution.swing, acb(1)
     if swing:
@@ -224,7 +240,7 @@ def _is_known(x: acb, largest: arb) -> bool:
 
 
 def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:
-    """Return Re alpha, Re beta, Im alpha, Im beta of the weights over the ``largest``, (4, rows)."""
+    """Return Re alpha, Re beta, Im alpha, Im beta of the weights (2, rows) over the ``largest``, an array (4, rows)."""
     rows = [[x / largest for x in row] for row in pair]
     return np.array(
         [[float(x.real.mid()) for x in row] for row in rows] + [[float(x.imag.mid()) for x in row] for row in rows]

@@ -33,13 +33,13 @@ LOST_TERM_OF_FITS = 2.0**26
 
 
 class Weighted:
-    """v of some combinations of a pair's inputs: sums of functions of time with constant weights.
+    """v of N combinations of a pair's P inputs: sums of functions of time with constant weights.
 
-    In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q and
-    along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so from b;
-    a_p and b_p are the derivatives. `to_lab` (3, 3) takes vectors into the laboratory, `names` (N, P) are
-    combinations of inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its
-    own, besides.
+    In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q
+    and along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so
+    from b; a, b are alpha, beta, and a_p, b_p their derivatives. `to_lab` (3, 3) takes vectors into the laboratory,
+    `names` (N, P) are the weights of the inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the
+    laboratory, and about its own, besides.
     """
 
     def __init__(
@@ -75,7 +75,8 @@ class Weighted:
     def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
         """Return ([v] or [v, dv/dt] if ``slopes``, sizes of v's terms) at times t (m,).
 
-        v is (3, N, m); sizes are (N, m), or 0.0 if no terms cancel.
+        v is (3, N, m), in the laboratory, in rad per unit of the combination; sizes are (N, m), or 0.0 if no terms
+        cancel.
         """
         pair = self.pair
         turn, s, count = pair.places(t)
@@ -106,7 +107,7 @@ class Weighted:
         return vectors, terms + self.sizes @ basis_size
 
     def _functions(self, s: FloatArray) -> list[FloatArray]:
-        """Return the functions of time of alpha and of beta at places s in the period, two arrays (rows, m)."""
+        """Return the functions of time of alpha and of beta at times s (m,) in the period, two arrays (rows, m)."""
         doubled, counts = self.pair.doubled, [len(x) for x in self.pair.frequencies]
         if doubled[0] == doubled[1]:
             f = [self.pair.functions(s, doubled[0], max(counts))] * 2
@@ -117,12 +118,12 @@ class Weighted:
     def _directions(
         self, a: Array, b: Array, square: FloatArray, angle: FloatArray
     ) -> tuple[list[FloatArray], list[FloatArray], FloatArray]:
-        """Return three of the directions at m times: ways and axes, lists of arrays (3, 4, m) and (3, m), and nu (m,).
+        """Return (ways, axes, nu) at m times: the directions by which derivatives of alpha and beta move the body.
 
-        ``ways`` are those of `_ways`, ``axes`` the unit vector of the body's axis in the laboratory, nu its cosine
-        to the frame's third axis. Each list has one item, or two if ``a`` and ``b`` (alpha and beta, (levels, m))
-        have slopes: then the second is the derivative by time. ``square`` is |a|^2 + |b|^2, ``angle`` that of the
-        frame in rad.
+        ``ways`` (3, 4, m) are those of `_ways`, ``axes`` (3, m) the unit vector of the body's axis in the
+        laboratory, nu (m,) its cosine to the frame's third axis. The first two are lists of one item, or of two if
+        ``a`` and ``b`` (alpha and beta, (levels, m)) have slopes: then the second is the derivative by time.
+        ``square`` is |a|^2 + |b|^2, ``angle`` that of the frame in rad.
         """
         phase = np.empty(angle.size, complex)
         phase.real, phase.imag = np.cos(angle), np.sin(angle)
@@ -142,7 +143,10 @@ class Weighted:
         return ways, [self.axes @ np.array([x.real, x.imag, y]) for x, y in zip(e, nu, strict=True)], nu[0]
 
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
-        """Return the terms of v from the real and imaginary parts of a_p and of b_p, shape (3, 4, m)."""
+        """Return the factors (3, 4, m) of v, in the laboratory, for Re a_p, Im a_p, Re b_p and Im b_p.
+
+        p, q, u and w are the complex arrays (m,) of the class, a_p and b_p the derivatives of alpha and beta.
+        """
         ways = np.array([
             [-q.real, q.imag, p.real, -p.imag],
             [-q.imag, -q.real, p.imag, p.real],
@@ -152,7 +156,11 @@ class Weighted:
 
     @staticmethod
     def _sum(ways: Sequence[FloatArray], factors: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
-        """Return the terms of v (``level`` 0) or of dv/dt (1) from ``rows`` of the derivatives, shape (3, rows, m)."""
+        """Return the terms of v (``level`` 0) or of dv/dt (1) from ``rows`` of the derivatives, shape (3, rows, m).
+
+        ``ways`` are those of `_directions`; ``factors`` has, by level, the real and imaginary parts of a_p and b_p,
+        (4, all rows, m).
+        """
         pairs = [(ways[i], factors[level - i][:, rows]) for i in range(level + 1)]
         terms = [(way[:, j, None], derivative[j]) for way, derivative in pairs for j in range(4)]
         total = np.multiply(*terms[0])
@@ -165,7 +173,11 @@ class Weighted:
         self, t: FloatArray, s: FloatArray, count: FloatArray, by_s: Sequence[FloatArray], axis: Sequence[FloatArray],
         level: int,
     ) -> FloatArray:  # fmt: skip
-        """Return the functions of time that the columns weigh (``level`` 0), or their slopes (1), shape (3, 8, m)."""
+        """Return the functions of time that `columns` weigh (``level`` 0), or their slopes (1), shape (3, 8, m).
+
+        t are the times, s those in the period and ``count`` the whole periods, (m,) each; ``by_s`` has the
+        derivative of R by s as a vector, ``axis`` the body's axis, (3, m) each, by level.
+        """
         (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
         basis = np.empty((3, 8, t.size))
         basis[:, 0], basis[:, 1], basis[:, 2], basis[:, 3], basis[:, 4] = s * v, count * v, t * e, e, s * e
@@ -178,9 +190,10 @@ class Weighted:
 
 
 class Varied:
-    """Derivatives of one motion in several inputs; inputs with equal constants are evaluated together.
+    """Derivatives of one motion in several inputs, from a `Variation` for each.
 
-    Where the constants have no derivatives, or terms cancel, differences of the motion in balls replace them.
+    Inputs with equal constants are evaluated together. Where the constants have no derivatives (an empty list), or
+    terms cancel, differences of the motion in balls, made by ``differences()``, replace them.
     """
 
     def __init__(self, variations: Sequence[Variation], differences: Callable[[], Differences]) -> None:
@@ -193,7 +206,10 @@ class Varied:
         return self._make()
 
     def weighted(self, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
-        """Return the `Weighted` evaluators of combinations of inputs, one for each group; v is the sum of all."""
+        """Return the `Weighted` evaluators of combinations of inputs, one for each group; v is the sum of all.
+
+        The arguments are those of `Weighted`; the list is empty where the constants have no derivatives.
+        """
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
             share = 0 if weighted else 1
@@ -207,8 +223,9 @@ class Varied:
     ) -> list[FloatArray]:  # fmt: skip
         """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
-        Raises DomainError at a time where the motion is too near a special case, and, unless ``certified``, where
-        fewer than eight digits remain.
+        They are in the laboratory. ``combinations`` are those of `weighted`, made of the same arguments. Raises
+        DomainError at a time where the motion is too near a special case, and, unless ``certified``, where fewer
+        than eight digits remain.
         """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
@@ -237,7 +254,10 @@ class Varied:
 
 
 def _alike(variations: Sequence[Variation]) -> list[list[int]]:
-    """Return lists of indices of variations with equal constants; at a special case each input may have its own."""
+    """Return lists of indices of variations with equal constants, which together are all indices.
+
+    At a special case each input may have its own constants.
+    """
     groups: list[list[int]] = []
     for i, x in enumerate(variations):
         for group in groups:

@@ -26,11 +26,13 @@ NUTATION: dict[str, Callable[[Any], Any]] = {name: attrgetter(name) for name in 
 
 @dataclass(frozen=True)
 class Inputs:
-    """Exact inputs of one motion by name, their sizes, the constructor of its certified counterpart, and its scalars.
+    """Exact inputs of one motion by name, the constructor of its certified counterpart, and its scalars.
 
-    `dynamics` are moments, coupling, and the potential's linear and quadratic
-    part, from which the angular acceleration follows; `field` is the field in the body at t = 0 with its derivatives in
-    the inputs. Where `along_body` vectors are along the axes of the body that were given, not along those of the class.
+    `names`, `values` and `scales`, sizes that are not zero, belong together; `twin` takes all values and returns
+    the certified motion. `scalars` has functions of that motion by the scalar's name. `dynamics` are moments (3,),
+    coupling (3,), and the potential's linear and quadratic coefficient, from which the angular acceleration
+    follows; `field` (3,) is the field in the body at t = 0, `fields` its derivatives (3,) by the input's name.
+    Where `along_body` vectors are along the axes of the body that were given, not along those of the class.
     """
 
     names: tuple[str, ...]
@@ -62,7 +64,10 @@ class Inputs:
             return Varied([], differences)
 
     def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of a scalar in the inputs ``names``, shape (len(names),)."""
+        """Return the derivatives of the scalar ``name`` in the inputs ``names``, shape (len(names),).
+
+        Raises DomainError where the scalar has no derivatives.
+        """
 
         def make(*x: fmpq) -> Constants:
             return Constants((), {name: [arb(self.scalars[name](self.twin(*x)))]})
@@ -84,7 +89,7 @@ def size_of(*rates: fmpq) -> fmpq:
 
 
 def of_general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
-    """Return the `Inputs` of a body in a field: I, and K and omega in the body at t = 0."""
+    """Return the `Inputs` of a body of ratio I, with K (1/time) and omega (rad/time) in the body at t = 0."""
     size, J = size_of(*K, *omega), np.array([1.0, 1.0, *floats([I])])
     return Inputs(
         ("ratio", "K1", "K2", "K3", "omega1", "omega2", "omega3"), (I, *K, *omega), (I, *[size] * 6),
@@ -94,12 +99,15 @@ def of_general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
 
 
 def units(names: Sequence[str]) -> dict[str, FloatArray]:
-    """Return unit vectors (3,) by name, in order; two names get the last two axes."""
+    """Return the unit vectors (3,) by ``names``, in order; two names get those of the last two axes."""
     return dict(zip(names, np.eye(3)[3 - len(names) :], strict=True))
 
 
 def of_top(row: Sequence[Any]) -> Inputs:
-    """Return the `Inputs` of a top from its row I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic."""
+    """Return the `Inputs` of a top from its row of eleven numbers.
+
+    They are I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic; see `TopMotion`.
+    """
     values, row = tuple(map(rational, row)), [nearest(rational(x)) for x in row]
     I2, I3, k2, k3, n2, n3, w1, w2, w3 = values[:9]
     pull, push = (rational(float(np.sqrt(abs(x / row[0])))) for x in row[9:])
@@ -116,7 +124,7 @@ def of_top(row: Sequence[Any]) -> Inputs:
 
 
 def of_elliptic(exact: EllipticMotion) -> Inputs:
-    """Return the `Inputs` of an elliptic motion: moments, K at t = 0, and z."""
+    """Return the `Inputs` of an elliptic motion: I1, I2, I3, K1, K2, K3 (K in the body at t = 0) and z."""
     size, (I1, I2, I3), J = size_of(*exact.field), exact.inertia, floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "K1", "K2", "K3", "z"), (*exact.inertia, *exact.field, exact.z),

@@ -22,7 +22,13 @@ Array: TypeAlias = np.ndarray[Any, Any]
 
 
 class VariedPair:
-    """alpha and beta of one motion in doubles at any times, with their derivatives in several inputs."""
+    """alpha and beta of one motion in doubles at any times, with their derivatives in several inputs.
+
+    It is made of one `Variation` per input, which have equal constants. By the inputs (P,) `rates` (P, 2) are the
+    derivatives of the sum and difference of the phases' rates, `cells` and `origins` (P,) those of the length of a
+    cell (two periods, or one if hyperbolic) and of the time since the turning point at t = 0. `tables` has for
+    alpha and beta an array of weights: of the function, of its slope, and of its P derivatives.
+    """
 
     def __init__(self, variations: Sequence[Variation]) -> None:
         form, places, _, kinds, *_ = variations[0].form
@@ -55,9 +61,10 @@ class VariedPair:
         self.swing = Swing(value, slopes, self) if "swing" in value else None
 
     def _weigh(self, i: int, value: Tables, slopes: Sequence[Tables]) -> None:
-        """Store weights, S and C alternating, of alpha (i = 0) or beta (1), of its slope by s and its derivatives.
+        """Append to `tables` the weights of alpha (i = 0) or beta (1), of its slope by s and of its derivatives.
 
-        Raises TooNearError where a weight on the period exceeds a float, near a separatrix.
+        Weights of S and C alternate. ``value`` and ``slopes`` are the constants and their derivatives by each
+        input. Raises TooNearError where a weight on the period exceeds a float, near a separatrix.
         """
         rate, *twists = value["slopes"]
         row, twist, sign = value[f"sum {i}"], twists[i] * acb(0, 1), 1 if self.hyperbolic else -1
@@ -86,10 +93,10 @@ class VariedPair:
         self.frequencies.append(frequencies[:count])
 
     def _place(self, tilt: FloatArray, tilts: FloatArray, order: FloatArray) -> None:
-        """Set the axes of the frame of the field in the body, and its rotation vectors (inputs, 3) by each input.
+        """Store the axes of the frame of the field in the body, and its rotation vectors (inputs, 3) by each input.
 
-        ``tilt`` are cosine and sine of half the angle between axis and field, then of the azimuth, at t = 0;
-        ``tilts`` their derivatives by the inputs; ``order`` (3, 3) takes the class's axes to the body's.
+        ``tilt`` are cosine and sine of half the angle between axis and field, then of the azimuth, at t = 0; ``tilts``
+        (4, inputs) their derivatives; ``order`` (3, 3) takes the class's axes to the body's.
         """
         (c, sine, C, S), (dc, ds, dC, dS) = tilt, tilts
         cos, sin = c * c - sine * sine, 2 * c * sine
@@ -98,7 +105,10 @@ class VariedPair:
         self.turning = np.stack([C * lean, -S * lean, -self.chi], -1) @ order.T
 
     def places(self, t: FloatArray) -> tuple[Array, FloatArray, FloatArray]:
-        """Return (phase of the frame in rad, time s since the turning point, count of whole cells), (m,) each."""
+        """Return (phase of the frame in rad, time s since the turning point, count of whole cells) at times t (m,).
+
+        Each is (m,). The phase is less whole turns, s less whole cells; s and count are zero for a steady motion.
+        """
         half, errors, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
         turn = 2 * (half + errors)
         if self.steady:
@@ -130,7 +140,10 @@ class VariedPair:
         return out.reshape(2 * count, s.size)
 
     def slope(self, table: Array, i: int) -> Array:
-        """Return the weights of d/ds of functions from their weights in alpha (i = 0) or beta (1), shape of `table`."""
+        """Return the weights of d/ds of sums of functions from their weights ``table`` (rows, 2 terms).
+
+        The sums belong to alpha (i = 0) or beta (1); the result has the shape of ``table``.
+        """
         k, pairs = self.rate * self.frequencies[i], table.reshape(len(table), -1, 2)
         upper_weights, lower_weights = (
             (pairs[..., 0], -pairs[..., 1]) if self.hyperbolic else (-pairs[..., 1], pairs[..., 0])
@@ -139,7 +152,11 @@ class VariedPair:
 
 
 class Swing:
-    """Rotation about a top's axis by the integral of nu, and its derivatives."""
+    """Rotation of a top about its axis by kappa times the integral of nu, and its derivatives in the inputs.
+
+    ``value`` and ``slopes`` are the constants and their derivatives by each input, ``pair`` the `VariedPair` of the
+    top.
+    """
 
     def __init__(self, value: Tables, slopes: Sequence[Tables], pair: VariedPair) -> None:
         self.pair, self.A = pair, float(value["A"][0].mid())
@@ -157,7 +174,7 @@ class Swing:
     def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
         """Return derivatives of the swing's angle, in rad, without terms linear in t, by N combinations, (N, m).
 
-        ``names`` (N, inputs) are combinations of inputs, ``s`` (m,) the times in the period, ``count`` (m,) the
+        ``names`` (N, inputs) are the weights of the inputs, ``s`` (m,) the times in the period, ``count`` (m,) the
         whole periods before.
         """
         values, bys, functions = [], [], []
@@ -187,7 +204,10 @@ class Swing:
         return np.asarray(changes)
 
     def _integral_of_nu(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return y = 2 at(sqrt(|A|) o/e)/sqrt(|A|) and dy/dA; at is artanh for A > 0, arctan for A < 0."""
+        """Return (y, dy/dA), (m,) each: y = 2 at(sqrt(|A|) o/e)/sqrt(|A|); at is artanh for A > 0, arctan for A < 0.
+
+        o and e (m,) are the odd and even sums of the swing. Near A = 0, y is 2 o/e and dy/dA a series.
+        """
         A, size = self.A, np.sqrt(abs(self.A))
         integral = 2 * o / e
         if A:
@@ -204,15 +224,15 @@ class Swing:
     def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
         """Return the rates (N, m), in rad/time, of the derivatives of the angle, without their constant parts.
 
-        The angle's own rate is kappa nu. ``names`` (N, inputs) are combinations of inputs, ``nu`` (m,) is the cosine,
-        ``changes`` (N, m) are its derivatives.
+        The angle's own rate is kappa nu. ``names`` (N, inputs) are the weights of the inputs, ``nu`` (m,) is the
+        cosine of axis and field, ``changes`` (N, m) are its derivatives.
         """
         varied = names @ self.spins
         return np.asarray(varied[:, :1] * nu + varied[:, 1:] + self.kappa * changes)
 
 
 def _double(row: Sequence[Any]) -> Array:
-    """Return the midpoints of balls as a complex array."""
+    """Return the midpoints of real or complex balls as a complex array (n,)."""
     return np.array([complex(acb(x).mid()) for x in row], dtype=complex)
 
 

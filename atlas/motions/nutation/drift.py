@@ -35,7 +35,10 @@ MIN_WIDTH, WITHIN_A_STEP = 1e-6, 1e-2
 
 
 class Body(NamedTuple):
-    """Moments I2, I3, coupling k2, k3 and potential `linear`, `quadratic` of a top, in the units of `TopMotion`."""
+    """Moments I2, I3, coupling k2, k3 and potential `linear`, `quadratic` of a top, in the units of `TopMotion`.
+
+    For a body in a field the coupling is |B'| (I2, I3), and the potential is zero.
+    """
 
     I2: float
     I3: float
@@ -48,6 +51,8 @@ class Body(NamedTuple):
 @dataclass(frozen=True)
 class Drift:
     """Slow change of a motion at m times, as `atlas.drift` returns it; arrays have the shape (m,) unless noted.
+
+    For a body given by its ratio I3/I2, energy, momenta and action are divided by I2.
 
     Attributes
     ----------
@@ -62,7 +67,7 @@ class Drift:
     nutation, precession, spin : ndarray
         Mean rates, in rad/time.
     phases : ndarray, shape (m, 3)
-        Angles of nutation, precession and spin since t = 0, in rad.
+        Total angles of nutation, precession and spin since t = 0, in rad.
     nu : ndarray, shape (m, 2)
         Least and largest cos theta, theta from the field to the body's axis.
     bodies : tuple of Body
@@ -102,10 +107,10 @@ class Drift:
 
 
 def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatArray) -> Drift:
-    """Return the `Drift` of a symmetric body at ``times``, see `atlas.drift`.
+    """Return the `Drift` of a symmetric body at ``times`` (m,), ascending from 0, see `atlas.drift`.
 
-    ``rates`` are the growth rates of field and potential (field, linear, quadratic), ``drag`` one rate, or two or
-    three.
+    ``rates`` are the growth rates of field and potential (field, linear, quadratic), ``drag`` an array of one rate,
+    two or three, in 1/time. Raises DomainError where the averaged motion cannot be followed.
     """
     from scipy.integrate import solve_ivp
 
@@ -152,7 +157,11 @@ def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatA
 
 
 def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
-    """Return the drag (across the axis, along it) in 1/time. Raises AtlasError for two rates across the axis."""
+    """Return the drag (across the axis, along it) in 1/time, two floats.
+
+    ``drag`` has one rate, two, or three along the principal axes. Raises AtlasError for two different rates across the
+    axis.
+    """
     order = _order(motion) if drag.shape == (3,) else [0, 0, 1]
     rates = np.broadcast_to(drag, (3,) if drag.shape == (3,) else (2,))[order]
     if rates[0] != rates[1]:
@@ -161,14 +170,14 @@ def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
 
 
 def _order(motion: Any) -> list[int]:
-    """Return the indices of the principal axes in cyclic order, the axis of symmetry last."""
+    """Return the indices 0, 1, 2 of the principal axes in cyclic order, the axis of symmetry last."""
     inertia = tuple(getattr(motion, "inertia", ()))
     last = next((i for i in (2, 0, 1) if inertia[i - 1] == inertia[i - 2]), 2) if len(inertia) == 3 else 2
     return [(last + 1) % 3, (last + 2) % 3, last]
 
 
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:
-    """Return the `Body`, the array (energy, M3, p), and nu at t = 0.
+    """Return (`Body`, array (energy, M3, p), nu = cos theta) of a motion at t = 0.
 
     Raises DomainError without a field, and where the axis is along it.
     """
@@ -196,7 +205,14 @@ def _start(motion: Any) -> tuple[Body, FloatArray, float]:
 
 
 class Averages:
-    """One nutation of given energy, M3 and p: nu at the nodes of the midpoint rule, and functions of nu there."""
+    """One nutation of a ``body`` with a given ``state`` (energy, M3, p), and its means over time.
+
+    `nu` and `weights` are cos theta at the nodes of the midpoint rule and their weights in time, `ends` its least
+    and largest value, `middle` the mean of these. `Omega3`, `axial` (Omega1 b1 + Omega2 b2) and `square` (Omega1^2
+    + Omega2^2) are arrays at the nodes; `period`, `action` and `rates` (nutation, precession, spin, in rad/time)
+    are floats. ``guess`` and ``deficit`` are those of `_turning_points`. Raises DomainError near a separatrix or a
+    pole.
+    """
 
     def __init__(self, body: Body, state: FloatArray, guess: float, deficit: float = MIN_WIDTH) -> None:
         self.body, self.state = body, state
@@ -239,15 +255,15 @@ class Averages:
         self.rates = 2 * np.pi / self.period, float(means[1]), self.mean(self.Omega3 - self.nu * turning)
 
     def mean(self, values: FloatArray) -> float:
-        """Return the mean over time of values at the nodes."""
+        """Return the mean over time of values (n,) at the nodes."""
         return float((values * self.weights).mean() / self.weights.mean())
 
 
 def _turning_points(Q: FloatArray, guess: float, deficit: float) -> tuple[float, float]:
     """Return the roots (low, high) of Q in [-1, 1] that enclose ``guess``, or are nearest; equal for a steady motion.
 
-    Raises DomainError where the maxima of Q in (-1, 1) are negative by more than ``deficit`` of its largest
-    coefficient.
+    Q (n,) are polynomial coefficients in nu, the highest power first. Raises DomainError where the maxima of Q in
+    (-1, 1) are negative by more than ``deficit`` of its largest coefficient.
     """
     roots = np.roots(Q)
     inside = np.sort(roots.real[(abs(roots.imag) < MIN_WIDTH) & (abs(roots.real) < 1 + MIN_WIDTH)].clip(-1.0, 1.0))

@@ -14,7 +14,8 @@ def _complex(x: str, y: str) -> str:
 def _in_plane(arguments: dict[str, Any]) -> tuple[dict[str, Any], Any]:
     """Return (arguments, turn): field and omega in axes in which the field is (0, B2, B3), rounded.
 
-    ``turn`` is the matrix (3, 3) about e3 to these axes; None where K1 is 0 and nothing is turned.
+    ``arguments`` are those of the family by name. ``turn`` is the matrix (3, 3) about e3 to these axes; None where
+    K1, the first component of the field, is 0 and nothing is turned.
     """
     import numpy as np
 

@@ -17,13 +17,17 @@ from atlas.arithmetic.numbers import Number, Vector, dot
 
 
 def splitting(moments: Vector, K: Vector, z: Number) -> Number:
-    """Return C/D^2, the squared frequency of small departures in the flow of H + (z/D) F/2, in 1/time^2."""
+    """Return C/D^2, the squared frequency of small departures in the flow of H + (z/D) F/2, in 1/time^2.
+
+    ``moments`` are I1, I2, I3, K is the field in the body (1/time), z the motion's parameter; C, D, H, F are those
+    of the module. Negative where neighbours leave the motion.
+    """
     x = places(moments, z)
     return split(moments, dot(K, K), dot(K, [k / q for k, q in zip(K, x, strict=True)]), z)
 
 
 def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
-    """Return C/D^2 for any K with sum K_i^2 = ``square`` and sum K_i^2/(z + D/I_i) = s, in 1/time^2."""
+    """Return C/D^2 of `splitting` for any K with K^2 = ``square`` and sum K_i^2/(z + D/I_i) = s, in 1/time^2."""
     D = moments[0] * moments[1] * moments[2]
     x, y, w = places(moments, z)
     P, lower_sum, second = x * y * w, x * y + y * w + w * x, 2 * (x + y + w)
@@ -31,6 +35,6 @@ def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
 
 
 def places(moments: Vector, z: Number) -> tuple[Number, ...]:
-    """Return z + D/I_i, i = 1, 2, 3, with D = I1 I2 I3."""
+    """Return the three numbers z + D/I_i, D = I1 I2 I3, in inertia^2."""
     D = moments[0] * moments[1] * moments[2]
     return tuple(z + D / I for I in moments)

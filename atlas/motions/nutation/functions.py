@@ -30,7 +30,7 @@ SECH_SCALE = 2.0**500
 
 
 class Steady:
-    """Basis of a steady motion: the single function 1.
+    """Basis of a steady motion: the single function 1. The arguments are not used.
 
     Each class of this module has the number `count` of its real functions of time, `weights` of a sum in these, a
     list of `count`, and `fill`, which writes the functions at N times into an array (count, N).
@@ -40,20 +40,23 @@ class Steady:
         self.count = 1
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a sum, a list of `count`."""
+        """Return the weights of the functions in a `Sum`, a list of one complex ball."""
         return [sum_.even[0]]
 
     def of_one(self, *_phase: float) -> list[float]:
-        """Return the functions at one time, a list of `count`."""
+        """Return the functions at one time, [1.0]."""
         return [1.0]
 
     def fill(self, rows: FloatArray, _t: FloatArray) -> None:
-        """Write the function 1 into ``rows`` (1, N)."""
+        """Write the function 1 into ``rows`` (1, N); the times are not used."""
         rows[0] = 1.0
 
 
 class Trigonometric:
-    """Basis sin v F^j, cos v F^j with F = 2 cos 2v, and 1 if one of the sums is constant, up to a common factor."""
+    """Basis sin v F^j, cos v F^j with F = 2 cos 2v, and 1 if one of the sums is constant, up to a common factor.
+
+    v = rate s is pi/T times the time since a turning point; ``sums`` are those of alpha and beta.
+    """
 
     def __init__(self, _found: Solution, sums: Sequence[Sum]) -> None:
         self.terms = max(_terms(sum_) for sum_ in sums)
@@ -61,14 +64,14 @@ class Trigonometric:
         self.count = 2 * self.terms + self.constant
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a sum, a list of `count`."""
+        """Return the weights of the functions in a `Sum`, a list of `count` complex balls."""
         if sum_.doubled:
             return [acb(0)] * (2 * self.terms) + [sum_.even[0]]
         pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
         return _powers(pairs, doubled=False) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
 
     def fill(self, rows: FloatArray, u: FloatArray) -> None:
-        """Write the basis functions into rows (count, N), from u = tan v: divided by cos v.
+        """Write the basis functions into rows (count, N), from u (N,) = tan v: divided by cos v.
 
         Where a sum is constant, u = tan(v/2), and the functions are multiplied by 1 + u^2.
         """
@@ -91,9 +94,9 @@ class Trigonometric:
             np.multiply(pairs[n - 1], factor, out=pairs[n])
 
     def of_one(self, half: float) -> list[float]:
-        """Return the functions at one time up to a common factor, a list of `count`.
+        """Return the functions at one time up to a common factor, a list of `count` floats.
 
-        ``half`` is half the phase in rad.
+        ``half`` is the angle whose tangent `fill` takes, in rad: v, or v/2 where a sum is constant.
         """
         v = 2 * half if self.constant else half
         sine, cosine = sin(v), cos(v)
@@ -104,7 +107,7 @@ class Trigonometric:
 
     @property
     def multiple(self) -> int:
-        """Ratio of 2v to the angle whose tangent `fill` takes."""
+        """Ratio, 2 or 4, of 2v to the angle whose tangent `fill` takes."""
         return 4 if self.constant else 2
 
     def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -119,7 +122,9 @@ class Trigonometric:
 class Hyperbolic:
     """tanh x and 1 times powers of W = cosh 2x/cosh 2X, X the largest x; and the same times sech x.
 
-    In one period x is proportional to v; on a separatrix, where there is none, to the time itself.
+    x is `rate` of the lattice times the time since a turning point: in one period proportional to the phase v, half the
+    period's, in rad; on a separatrix, where there is no period, a `line` in time. ``sums`` are those of alpha and beta;
+    sech x is for a doubled one.
     """
 
     def __init__(self, solution: Solution, sums: Sequence[Sum]) -> None:
@@ -142,7 +147,7 @@ class Hyperbolic:
         self.count = 2 * self.powers * (1 + self.sech)
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a sum, a list of `count`."""
+        """Return the weights of the functions in a `Sum`, a list of `count` complex balls."""
         none = [acb(0)] * (2 * self.powers)
         polynomial = (self._polynomials(sum_) + none)[: 2 * self.powers]
         if not self.sech:
@@ -152,13 +157,13 @@ class Hyperbolic:
         return none + polynomial if sum_.doubled else polynomial + none
 
     def _count_terms(self, weights: list[acb]) -> int:
-        """Return the number of powers of W that are not negligible, at least 1."""
+        """Return the number of powers of W that are not negligible, at least 1, from the `_polynomials` of a sum."""
         sizes = [float(abs(x).mid()) for x in weights]
         least = NEGLIGIBLE * max(sizes[:2])
         return max([1, *(j // 2 + 1 for j, size in enumerate(sizes) if size > least)])
 
     def _polynomials(self, sum_: Sum) -> list[acb]:
-        """Return the weights of tanh x W^j and of W^j, alternating: polynomials in 2 cosh 2x = W/part."""
+        """Return the weights of tanh x W^j and of W^j in a `Sum`, alternating for rising j, complex balls."""
         pairs = zip(sum_.odd, sum_.even, strict=True)
         powers = _powers(pairs, doubled=sum_.doubled)
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
@@ -209,7 +214,7 @@ class Linear:
         self.line = Line(solution.lattice.rate, solution.lattice.rate * solution.origin, saturates=False)
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a sum, two numbers."""
+        """Return the weights of the functions in a `Sum`, a list of two complex balls."""
         return [sum_.odd[0], sum_.even[0]]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
@@ -224,9 +229,9 @@ Functions: TypeAlias = Steady | Trigonometric | Hyperbolic | Linear
 
 
 class Line:
-    """x = slope t + start as the sum of two doubles, slope and start being exact.
+    """x = slope t + start as the sum of two doubles, slope and start being exact balls.
 
-    If the function of x `saturates`, times beyond `longest` need not be told apart.
+    If the function of x `saturates`, times beyond `longest` need not be told apart; otherwise `longest` is inf.
     """
 
     def __init__(self, slope: arb, start: arb, *, saturates: bool = True) -> None:
@@ -237,7 +242,7 @@ class Line:
         self.longest = (2 * MAX_EXPONENT + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
     def at(self, t: FloatArray, low: FloatArray | float) -> tuple[FloatArray, FloatArray]:
-        """Return (x, its rounding error) at times t + low."""
+        """Return (x, its rounding error), (m,) each, at times t + low; low is (m,) or a float."""
         upper = t * SPLITTER
         upper -= upper - t
         lower = t - upper
@@ -267,7 +272,10 @@ ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
 
 
 def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
-    """Return the weights of S F^j and C F^j, alternating for rising j, from those of S(k x) and C(k x) for rising k."""
+    """Return the weights of S F^j and C F^j, alternating for rising j, from pairs for S(k x) and C(k x), rising k.
+
+    S and C are sine and cosine or their hyperbolic counterparts, F = 2 C(2x); k is even if ``doubled``, else odd.
+    """
     total = list[acb]()
     for n, weights_of_k in enumerate(weights):
         total += [acb(0), acb(0)]
@@ -279,9 +287,9 @@ def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
 
 @cache
 def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
-    """Return pairs (j, coefficient of F^j) of the polynomial that makes the n-th function from the first one.
+    """Return pairs (j, coefficient of F^j) of the polynomial in F that makes the n-th function from the first one.
 
-    The functions are S for ``place`` 0, C for 1.
+    The functions are S for ``place`` 0, C for 1, see `_powers`.
     """
     before, polynomial = (pair[place] for pair in (ONE_EVEN if doubled else ONE_ODD))
     for _ in range(n):
@@ -290,7 +298,7 @@ def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
 
 
 def _terms(sum_: Sum) -> int:
-    """Return the number of terms of a trigonometric sum that are not negligible, at least 1."""
+    """Return the number of terms of a trigonometric `Sum` that are not negligible, at least 1; 1 for a constant."""
     if sum_.doubled:
         return 1
     terms = 1

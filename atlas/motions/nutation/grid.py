@@ -42,7 +42,10 @@ MIN_TIME_DIGIT = 2.0**-900
 
 
 def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) -> None:
-    """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
+    """Fill `out` (count, 3, 3) with R of one motion at the exact real numbers start + i step.
+
+    From `MIN_GRID_COUNT` times on, a fine grid is interpolated. Raises AtlasError for times that `rotation` refuses.
+    """
     count = len(out)
     if not count:
         return
@@ -64,17 +67,21 @@ class Grid:
     step: float
 
     def fill(self, evaluation: Evaluation, index: FloatArray, rows: FloatArray) -> None:
-        """Write R at start + i step into rows (m, 9) for i in `index` (m,), whose ends are its extremes."""
+        """Write R at start + i step into rows (m, 9) for i in `index` (m,), whose ends are its least and largest.
+
+        ``evaluation`` is that of the motion, with room for m times.
+        """
         times = moments(self.motion.pair.phases, self.start, self.step, index)
         combined(evaluation.products_at(*times), self.motion.entries, rows)
 
 
 def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
-    """Return (times start + i step as doubles, their low words or None) for ``index``, whose ends are its extremes.
+    """Return (times start + i step as doubles, (m,), their low words (m,) or None) for the indices i in ``index``.
 
-    A low word is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times few and the start
-    not far outside the grid, start and step are instead split at the last digit of a double twice as large as any time.
-    The high words are then exact, and the low words known to 2^-85 of the time; the time next to zero is evaluated
+    The first and last items of ``index`` are its extremes; ``phases`` are those of the motion. A low word is at
+    most half an ulp, and known to 2^-104 of the time. Where phases are short, times few and the start not far
+    outside the grid, start and step are instead split at the last digit of a double twice as large as any time. The
+    high words are then exact, and the low words known to 2^-85 of the time; the time next to zero is evaluated
     singly.
     """
     start_time, stop_time = (start + step * float(index[i]) for i in (0, -1))
@@ -105,7 +112,7 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
 
 
 def fill_each(grid: Grid, out: FloatArray, start_index: int = 0) -> None:
-    """Fill ``out`` with the grid's matrices time by time, from index ``start_index`` on."""
+    """Fill ``out`` (n, 3, 3) with the grid's matrices time by time, from index ``start_index`` on."""
     rows = out.reshape(len(out), 9)
 
     def fill(low: int, high: int) -> None:
@@ -119,9 +126,10 @@ def fill_each(grid: Grid, out: FloatArray, start_index: int = 0) -> None:
 
 @cache
 def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return (`NODES` nodes in 0 ... length - 1, matrix from values there to all values, matrix to two coefficients).
+    """Return (nodes (NODES,), matrix from values there to all values, matrix to two coefficients) for a window.
 
-    The nodes are Chebyshev's, with the ends, rounded to integers; the coefficients are the last two of his series.
+    A window has ``length`` times, 0 to length - 1. The nodes are Chebyshev's, with the ends, rounded to integers; the
+    matrices are (length, NODES) and (2, NODES), and the coefficients are the last two of his series.
     """
     half = (length - 1) / 2
     nodes = np.round(half - half * np.cos(np.pi * np.arange(NODES) / (NODES - 1)))
@@ -136,7 +144,7 @@ def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 class Windows:
-    """Matrices at the nodes of up to `size` windows of `length` times, and polynomials through them."""
+    """Matrices at the `NODES` nodes of up to `size` windows of `length` times each, and polynomials through them."""
 
     def __init__(self, grid: Grid, length: int, size: int) -> None:
         self.grid, self.length = grid, length
@@ -154,7 +162,10 @@ class Windows:
 
 
 def window(grid: Grid, count: int) -> int:
-    """Return the number of times that one polynomial may serve, judged by the first windows; 0 if too few."""
+    """Return the number of times, one of `LENGTHS`, that one polynomial may serve; 0 if a grid is not fine enough.
+
+    ``count`` is the number of the grid's times. It is judged by the first windows.
+    """
     angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.pair.frequencies)
     for length in LENGTHS:
         size = min(count // length, MAX_WINDOWS_TRIED)

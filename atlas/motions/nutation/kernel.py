@@ -29,7 +29,10 @@ Nutation = TypeVar("Nutation", bound=SingleMotion)
 
 
 class NutatingMotion(Motion[Nutation]):
-    """Motions R(t) whose axis nutates, with the numbers of a period: in arrays by blocks."""
+    """Motions R(t) whose axis nutates, with the numbers of a period; base of the classes of this folder.
+
+    Arrays are evaluated by blocks in double-double, see `Blocks`; other motions by a `SingleMotion` each.
+    """
 
     _in_arrays: Container[str] = ()
     """Names of the values that `_scalars` has for all motions at once; others are computed motion by motion."""
@@ -108,12 +111,24 @@ class NutatingMotion(Motion[Nutation]):
 
     @property
     def precession_rate(self) -> FloatOrArray:
-        """Mean rate of precession about the field, `precession_per_period`/`period`, in rad/time."""
+        """Mean rate of precession about the field, `precession_per_period`/`period`, in rad/time.
+
+        Raises
+        ------
+        DomainError
+            If one motion has no mean rate, as on a separatrix; an array has NaN there.
+        """
         return self._rate("precession")
 
     @property
     def spin_rate(self) -> FloatOrArray:
-        """Mean rate of rotation about the body's own axis, `spin_per_period`/`period`, in rad/time."""
+        """Mean rate of rotation about the body's own axis, `spin_per_period`/`period`, in rad/time.
+
+        Raises
+        ------
+        DomainError
+            If one motion has no mean rate, as on a separatrix; an array has NaN there.
+        """
         return self._rate("spin")
 
     @kept
@@ -180,7 +195,10 @@ class NutatingMotion(Motion[Nutation]):
         return self._in_body(np.asarray(finite(K, "K")))
 
     def _rate(self, name: str) -> FloatOrArray:
-        """Return a mean rate in rad/time: the angle per period over the period, else by the certified motion."""
+        """Return the mean rate of ``name``, "precession" or "spin", in rad/time: the angle per period over the period.
+
+        Where that is NaN the certified motion gives the rate.
+        """
         if not self.shape and not np.isfinite(self.period):
             return self._scalar(f"{name}_rate")
         rates = np.array(np.divide(getattr(self, f"{name}_per_period"), self.period))
@@ -190,7 +208,7 @@ class NutatingMotion(Motion[Nutation]):
         return values
 
     def _scalar(self, name: str) -> FloatOrArray:
-        """Return a scalar as a float, or as an array with NaN for motions that have none.
+        """Return the scalar ``name``, such as "period", as a float, or as an array with NaN for motions that have none.
 
         Raises DomainError for a single motion that has none.
         """
@@ -199,9 +217,10 @@ class NutatingMotion(Motion[Nutation]):
     def _of_all(
         self, name: str, value: Callable[[Any], Value], as_values: Callable[[Any], Any] = np.asarray
     ) -> Value | NDArray[Any]:
-        """Return value(exact) for each motion: itself, or an array (*shape, ...).
+        """Return value(exact), exact the certified motion, for each motion: itself, or an array (*shape, ...).
 
-        Values that arrays give with certainty are taken from `_scalars`, the others from the certified motions.
+        In arrays, values that `_scalars` has under ``name`` with certainty are taken from there, by ``as_values``,
+        the others from the certified motions.
         """
         if 0 < prod(self.shape) < self._min_array_scalars or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
@@ -225,9 +244,10 @@ class NutatingMotion(Motion[Nutation]):
 
 
 def scalar(exact: Any, name: str, *, strict: bool) -> float:
-    """Return the number ``name`` of a certified motion, rounded once; inf if it is infinite.
+    """Return the number ``name`` of a certified motion, rounded once; inf if the number is infinite.
 
-    A motion without it gives NaN, or, if ``strict``, raises DomainError, as does a number too large for a float.
+    A motion without it gives NaN, or, if ``strict``, raises DomainError. A number too large for a float raises
+    DomainError.
     """
     try:
         ball = enclosed(lambda: arb(getattr(exact, name)), BITS)
@@ -240,7 +260,7 @@ def scalar(exact: Any, name: str, *, strict: bool) -> float:
 
 
 class SymmetricMotion(NutatingMotion[Nutation]):
-    """Motions of bodies with I1 = I2, whose quartic is that of the third component of Omega, or of nu."""
+    """Motions of bodies with I1 = I2, whose quartic Q is that of Omega3, or, for tops, of nu = cos theta."""
 
     @kept
     def roots(self) -> tuple[float, ...] | FloatArray:
@@ -254,7 +274,12 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
     @kept
     def turning_points(self) -> tuple[FloatOrArray, FloatOrArray]:
-        """Least and largest Omega3 in rad/time, for tops nu = cos theta; on a separatrix one is only approached."""
+        """Tuple (least, largest) Omega3 in rad/time, for tops nu = cos theta.
+
+        Notes
+        -----
+        On a separatrix one of the two is approached and never reached.
+        """
         ends: Any = self._of_all(
             "turning_points", lambda exact: [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
         )
@@ -262,6 +287,6 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
 
 def padded(roots: list[Any]) -> Any:
-    """Return four complex roots, an array (4,), missing ones as inf."""
+    """Return the midpoints of at most four complex balls as an array (4,), filled up with inf."""
     finite_roots = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
     return np.array(finite_roots + [complex("inf")] * (4 - len(finite_roots)))

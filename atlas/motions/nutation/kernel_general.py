@@ -90,7 +90,10 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return (motion, principal axes as rows) of a symmetric body; None for a body with three moments."""
+        """Return (motion, principal axes as rows (..., 3, 3), the symmetry axis last) from a `Start`.
+
+        None for a body with three different moments.
+        """
         if not start.is_symmetric:
             return None
         body, axes, K, w = start.symmetric
@@ -169,7 +172,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 def field_components(field: Any) -> list[Any]:
     """Return the components [B2, B3] of a field, or [B1, B2, B3] if three are given or a `Field` has B1 != 0.
 
-    They are arrays, or `Given`. Raises AtlasError for another number of components.
+    They are arrays, or `Given`, in 1/time. Raises AtlasError for another number of components.
     """
     try:
         three = field.prime[0] != 0 if hasattr(field, "prime") else len(getattr(field, "values", field)) == len("123")

@@ -32,15 +32,18 @@ from atlas.surfaces.kernel import TopQuadric
 
 
 def balls(*row: float) -> Balls:
-    """Return the certified motion of I2, I3, k2, k3, n2, n3, three components of omega, linear, quadratic."""
+    """Return the certified `TopMotion` of eleven exact numbers.
+
+    They are I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear and quadratic.
+    """
     with workprec(FIRST_BITS):
         return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
 
 
 def _constants(*row: float) -> list[float]:
-    """Return [2 h, M3, p], h the energy over I2, each rounded once.
+    """Return [2 h, M3, p] of a top over I2, each rounded once: energy h, momenta M3 along the axis and p along n.
 
-    The row is I2, I3, k2, k3, n2, n3, linear, quadratic and omega.
+    The row is I2, I3, k2, k3, n2, n3, linear, quadratic, omega1, omega2, omega3.
     """
     with workprec():
         h, M3, p = map(nearest, balls(*row[:6], *row[8:], *row[6:8]).invariants)
@@ -48,9 +51,9 @@ def _constants(*row: float) -> list[float]:
 
 
 def _in_plane(*numbers: Number) -> tuple[Number, ...]:
-    """Return n2, n3, omega, and (cos, sin) of the rotation about e3 that makes n1 zero: seven numbers.
+    """Return n2, n3, omega, and (cos, sin) of the rotation about e3 that makes n1 zero: a tuple of seven numbers.
 
-    The ``numbers`` are n1, n2, n3, three components of omega, and 1.
+    The ``numbers`` are n1, n2, n3, omega1, omega2, omega3, and 1; the results have their type.
     """
     n1, n2, n3, w1, w2, w3, unity = numbers
     size = length(n1, n2)
@@ -272,7 +275,9 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @kept
     def stable(self) -> bool | NDArray[np.bool_]:
-        """True if a motion with constant theta is stable, theorem-top-nutation; None where theta varies.
+        """True if a motion with constant theta is stable, else False, theorem-top-nutation; None where theta varies.
+
+        For an array of tops it is an array of these.
 
         Notes
         -----
@@ -347,7 +352,10 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @classmethod
     def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
-        """Return (top, axes) from a `Start`; the rows of `axes` (..., 3, 3) are chosen so that n1 = 0."""
+        """Return (top, axes) from a `Start`; the rows of `axes` (..., 3, 3) are chosen so that n1 = 0.
+
+        ``parameters`` are the coupling and the potential; the field of the start is n.
+        """
         n, w = start.along(np.eye(3))
         axes: FloatArray = np.eye(3)
         if np.any(n[0]):
@@ -359,7 +367,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         return cls((plain(I[..., 1]), plain(I[..., 2])), direction=n[1:], omega=w, **parameters), axes
 
     def _inputs_of(self, i: int) -> Any:
-        """Return the `Inputs` of the i-th motion."""
+        """Return the `Inputs` of the i-th motion, see `of_top`."""
         from atlas.motions.nutation.derivatives_inputs import of_top
 
         return of_top(self._row(i))

@@ -33,18 +33,24 @@ class PseudoOscillator:
 
     @cached_property
     def integrals(self) -> Integrals:
-        """The `Integrals` E', K^2, c3, c5 of (36) to (41) of the initial data."""
+        """The `Integrals` E', K^2, c3, c5 of (36) to (41) of the initial data, each a float or an array of `shape`."""
         K = np.stack(np.broadcast_arrays(0.0, self.B2, self.B3), axis=-1)
         return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
 
     @kept
     def coefficients(self) -> tuple[Any, ...]:
-        """Coefficients (a0, a1, a2, a3) of the cubic, (48)."""
+        """Coefficients (a0, a1, a2, a3) of the cubic p, (48), the constant first: floats, or arrays of `shape`.
+
+        a_n is in 1/time^(3 - n). Raises DomainError if one is too large for a float.
+        """
         return self._of_integrals(cubic, "A coefficient of the cubic (47)")
 
     @kept
     def quartic_coefficients(self) -> tuple[Any, ...]:
-        """Coefficients (q0, ..., q4) of the first integral Q."""
+        """Coefficients (q0, ..., q4) of the first integral Q(u) = (du/dt)^2, the constant first: floats, or arrays.
+
+        q_n is in 1/time^(4 - n). Raises DomainError if one is too large for a float.
+        """
         return self._of_integrals(quartic, "A coefficient of the quartic")
 
     def _of_integrals(self, formula: Callable[..., tuple[Any, ...]], name: str) -> tuple[Any, ...]:
@@ -55,9 +61,9 @@ class PseudoOscillator:
         return values
 
     def acceleration(self, u: Any) -> Any:
-        """Return p(u) of (49), the acceleration of Omega3 = u, in 1/time^3; it does not cancel near the start.
+        """Return p(u) of (49), the acceleration of Omega3 = u, in 1/time^3: a float, or an array that u broadcasts to.
 
-        Raises DomainError if it is too large for a float.
+        It does not cancel near the start. Raises DomainError if it is too large for a float.
         """
         I, _, two_less = shape_factors(self.ratio)
         u, d, P, D, L = self._from_start(u)
@@ -66,7 +72,10 @@ class PseudoOscillator:
         return finite(plain(value), "The acceleration p(u)")
 
     def stiffness(self, u: Any) -> Any:
-        """Return the derivative p'(u) of the cubic (47): a constant solution is stable where it is negative."""
+        """Return the derivative p'(u) of the cubic (47), in 1/time^2: a constant solution is stable where negative.
+
+        The result is a float, or an array that u broadcasts to. Raises DomainError if it is too large for a float.
+        """
         _, a1, a2, a3 = self.coefficients
         u = self._met(u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -88,7 +97,7 @@ class PseudoOscillator:
             return finite(plain((self.omega1 * self.B2) ** 2 + d * constant_term), "The first integral Q(u)")
 
     def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
-        """Return (u, d = omega3 - u, P, D, L), the factors of (49) as arrays; see `quartic`."""
+        """Return (u, d = omega3 - u, P, D, L), the factors of (49), as arrays that broadcast; see `quartic`."""
         I, _, two_less = shape_factors(self.ratio)
         u = self._met(u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -99,7 +108,7 @@ class PseudoOscillator:
         return u, d, P, D, L
 
     def _met(self, u: Any) -> FloatArray:
-        """Return u as a float array. Raises AtlasError unless it broadcasts with the parameters."""
+        """Return u, in 1/time, as a float array. Raises AtlasError unless it broadcasts with the parameters."""
         array = real(u, "u")
         common_shape(self.shape, array.shape)
         return array

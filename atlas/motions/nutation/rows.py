@@ -32,9 +32,11 @@ MAX_RATE_TERMS = 16.0
 
 
 class Third(NamedTuple):
-    """Omega3 of m motions, in rad/time: `value` is the initial one, `size` and `weights` are those of `Change`.
+    """Omega3 of m motions, in rad/time, see `Change` for the formula.
 
-    `start` (2, m) are cos and sin of 2 y0; `reach` (m,) bounds |Omega3 - omega3|, whose error is some 2^-53 of that.
+    `value` (m,) is the initial one, `size` (m,) and `weights` (MAX_TERMS, m) are those of `Change`. `start` (2, m)
+    are cos and sin of 2 y0, y0 the phase of nutation at t = 0; `reach` (m,) bounds |Omega3 - omega3|, and Omega3
+    has an error of some 2^-53 of that.
     """
 
     value: FloatArray
@@ -45,7 +47,7 @@ class Third(NamedTuple):
 
 
 def _velocity(block: Block) -> tuple[Constants, Third]:
-    """Return the `Constants` of the angular velocity of a block, and the `Third` of its third component."""
+    """Return (`Constants` of the angular velocity, `Third` of its third component) of the motions of a block."""
     r = block.roots
     pair = SpherePair(block.means, sphere_of_velocity(r))
     constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
@@ -59,7 +61,7 @@ def _velocity(block: Block) -> tuple[Constants, Third]:
 
 
 class Rows:
-    """Constants of many motions as arrays in double-double, evaluated at times by the class ``motions``.
+    """Constants of many motions as arrays, made in double-double, evaluated at times by the class ``motions``.
 
     The last axis of each array counts the motions, in the order of ``blocks``.
     """
@@ -69,7 +71,10 @@ class Rows:
 
     @cached_property
     def field(self) -> tuple[Any, ...]:
-        """Tuple of the `Constants` of axis and field of all motions, and of what else their class evaluates."""
+        """Tuple of the `Constants` of axis and field of all motions, then what their class evaluates besides.
+
+        That is nothing for bodies in a field, `Swings` for tops, `Axes` for elliptic motions.
+        """
         return self._constants(self._motions.constants)
 
     @cached_property
@@ -78,7 +83,7 @@ class Rows:
         return self._constants(_velocity)
 
     def _constants(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
-        """Return what ``constants`` makes of each block, a tuple of named tuples, their arrays joined."""
+        """Return the named tuples that ``constants`` makes of each block, their arrays joined along the motions."""
         with np.errstate(all="ignore"):
             kinds = zip(*map(constants, self.blocks), strict=True)
             return tuple(
@@ -91,7 +96,7 @@ class Rows:
 
 
 class MotionsAtTimes:
-    """Motions paired with times: row k of each result is the motion ``index``[k] at its own time t[k].
+    """Motions paired with times: row k of each result is the motion ``index``[k] of ``rows`` at its own time t[k].
 
     After each method `extreme` holds the rows k that double-double does not hold for certain: what is written there is
     to be replaced by that of the single motion. `indices` are the motions' places among all.
@@ -126,13 +131,19 @@ class MotionsAtTimes:
             pair.turn_back(out)
 
     def quaternion(self, _: FloatArray, out: FloatArray) -> None:
-        """Write the unit quaternion (x, y, z, w) of each motion at its time into ``out`` (m, 4)."""
+        """Write the unit quaternion (x, y, z, w) of each motion at its time, of either sign, into ``out`` (m, 4).
+
+        The first argument, the times, is not used.
+        """
         pair = self._pair(*self._rows.field)
         pair.quaternion(out)
         pair.turn_back(out)
 
     def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
-        """Write K, the field along the body's axes in 1/time, of each motion at its time into ``out`` (m, 3)."""
+        """Write K, the field along the body's axes in 1/time, of each motion at its time into ``out`` (m, 3).
+
+        For tops it is the unit vector n in the body. The first argument, the times, is not used.
+        """
         pair = self._pair(*self._rows.field)
         pair.vector(out)
         pair.turn_back(out)
@@ -141,7 +152,7 @@ class MotionsAtTimes:
         """Write Omega, along the body's axes in rad/time, of each motion at its time into ``out`` (m, 3).
 
         It comes from the Cayley-Klein pair of (Omega2, Omega1, -sqrt(I) Omega3); rows where Omega3 changes by more than
-        `MAX_OMEGA3_CHANGE` sizes of Omega are added to `extreme`.
+        `MAX_OMEGA3_CHANGE` sizes of Omega are added to `extreme`. The first argument, the times, is not used.
         """
         constants, third = self._rows.velocity
         pair, third = self._pair(constants), self._selected(third)
@@ -151,7 +162,11 @@ class MotionsAtTimes:
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > MAX_OMEGA3_CHANGE * largest(out)))
 
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
-        """Return the `CayleyKleinAtTimes` of the selected motions; `extreme` becomes the indices not covered by it."""
+        """Return the `CayleyKleinAtTimes` of the selected motions, from constants of all.
+
+        `extreme` becomes the indices that need the scalar path. ``swings`` are left out where no selected motion is
+        twisted.
+        """
         selected = self._selected(swings) if swings and swings.twisted[self._index].any() else None
         pair = CayleyKleinAtTimes(self._selected(constants), self._times, selected)
         self.extreme = pair.extreme
@@ -174,7 +189,7 @@ class TopsAtTimes(MotionsAtTimes):
         """Write Omega, along the body's axes in rad/time, of each top at its time into ``out`` (m, 3).
 
         It is twice the vector part of the quaternion's logarithmic derivative; rows in which terms of the rates may
-        cancel are added to `extreme`.
+        cancel are added to `extreme`. The first argument, the times, is not used.
         """
         constants, swings = self._rows.field
         pair = self._pair(constants, swings)
@@ -185,13 +200,13 @@ class TopsAtTimes(MotionsAtTimes):
 
 
 class CayleyKleinAtTimes:
-    """alpha and beta of motions paired with times; `extreme` holds the indices that need the scalar path.
+    """alpha and beta of motions paired with times t (m,); `extreme` holds the indices that need the scalar path.
 
-    alpha and beta are known to 4 u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and
-    sin y, 1/2 u for a weight, 3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below
-    MAX_CANCELLATION times the length of (alpha, beta), each entry of R is within
-    2 sqrt(2) 4 u MAX_CANCELLATION + 10 u = 8.7e-15.
-    Of tops `swings` add the rotation by the integral of nu; `kappa` is its factor in Omega3.
+    `pair` (2, m) are alpha and beta up to a real factor, `square` (m,) is |alpha|^2 + |beta|^2. They are known to 4
+    u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and sin y, 1/2 u for a weight,
+    3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below MAX_CANCELLATION times the
+    length of (alpha, beta), each entry of R is within 2 sqrt(2) 4 u MAX_CANCELLATION + 10 u = 8.7e-15. Of tops
+    `swings` add the rotation by the integral of nu; `kappa` is its factor in Omega3.
     """
 
     def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None = None) -> None:
@@ -273,7 +288,7 @@ class CayleyKleinAtTimes:
         )
 
     def third(self, third: Third) -> FloatArray:
-        """Return Omega3 of each motion at its time, (m,), in rad/time."""
+        """Return Omega3 of each motion at its time, (m,), in rad/time, from the `Third` of the same motions."""
         count, (cos, sin), (c, s) = self.constants.terms.max(initial=1), self.turn, third.start
         product = third.size / self.square
         for start in ((cos, sin), (cos * c - sin * s, sin * c + cos * s)):

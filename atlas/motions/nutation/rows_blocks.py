@@ -72,7 +72,7 @@ class Block:
 
     @cached_property
     def means(self) -> Means:
-        """Arithmetic-geometric means of the block."""
+        """The `Means`, arithmetic-geometric, of the block: rate, moduli, nome and start of the nutation."""
         return Means(self.roots)
 
     @cached_property
@@ -88,7 +88,10 @@ class Block:
 
     @cached_property
     def swing_rate(self) -> DoubleDouble | None:
-        """Mean rate, in 1/time, that the integral of nu adds to the spin of tops; None for bodies in a field."""
+        """Mean rate (m,), in 1/time of the scaled unit, that the integral of nu adds to the spin of tops.
+
+        It is zero where kappa is, and None for bodies in a field.
+        """
         top = self.roots.top
         return chosen(top.twisted, top.kappa * self.swing.rate, top.kappa) if top and self.swing else top and top.kappa
 
@@ -152,14 +155,14 @@ def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, Floa
     """Return (words (2, ..., m), absolute error bounds (..., m)), both in half turns per time, of rates in rad/time.
 
     The words are a high and a low one. Both results are multiplied by 2^``exponents``, from the scaled unit to the
-    given.
+    given one.
     """
     turns = rates * PER_RADIAN
     return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 
 
 class Blocks:
-    """Motions I2, I3, B1, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
+    """Motions I2, I3, B1, B2, B3, omega1, omega2, omega3, which broadcast to a shape, iterated by `Block`.
 
     Results of a single block are cached; those of many would take too much memory.
     """
@@ -195,10 +198,13 @@ class Blocks:
 
 
 class TopBlocks(Blocks):
-    """Tops I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic, which broadcast to a shape, by blocks."""
+    """Tops I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic, iterated by `Block`.
+
+    The inputs broadcast to a shape.
+    """
 
     def each(self) -> Iterator[Block]:
-        """Yield a `Block` of tops after another, inputs divided by powers of two."""
+        """Yield the blocks of tops, in order, their inputs divided by powers of two."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
             batch = [part(x, slice(start, start + BLOCK)) for x in columns]
@@ -219,9 +225,10 @@ class TopBlocks(Blocks):
 
 
 def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
-    """Return an exponent for each column of tops' inputs, which makes sizes near one, and the exponents of the rates.
+    """Return (a list of exponents (m,) for each column of tops' inputs, the exponents of the rates).
 
-    Tops with inputs of ordinary size have exponents 0; if all are ordinary, the list is of None and the second 0.
+    Divided by these powers of two, sizes are near one. Tops with inputs of ordinary size have exponents 0; if all are
+    ordinary, the list is of None and the second is 0. ``columns`` are in the order of `TopBlocks`.
     """
     with np.errstate(all="ignore"):
         I2, _, k2, k3, n2, n3, *omega, linear, quadratic = columns
@@ -242,6 +249,9 @@ def _exponent(x: FloatArray, plain: Any) -> Any:
 
 
 def _alike(sizes: Sequence[Any]) -> Any:
-    """Return a mask of rows: the least nonzero number is at least `MIN_FREQUENCY_RATIO` of the largest."""
+    """Return a mask (m,): the least nonzero number is at least `MIN_FREQUENCY_RATIO` of the largest.
+
+    ``sizes`` are arrays (m,) of numbers >= 0.
+    """
     x = np.array(sizes)
     return np.where(x == 0, np.inf, x).min(axis=0) >= MIN_FREQUENCY_RATIO * x.max(axis=0)

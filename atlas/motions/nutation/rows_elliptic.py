@@ -33,12 +33,13 @@ PLANE_FACTOR = 1 + 1e-12
 
 @dataclass(frozen=True)
 class EllipticRoots(TurningPoints):
-    """The turning points of u + K_a, with further constants of the sphere of K, for rows (m,).
+    """The turning points of u + K_a, with further constants of the sphere of K, for rows (m,); see the module.
 
-    `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
-    `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i and of K_c, c the axis about
-    which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `transverse`, `axial`),
-    the third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
+    `turning` is u_t and `w` the square of the other roots in u, `K` the field at t = 0, `axial` K_a and
+    `transverse` its part across a, `b` its length; `torque` is that at both poles, `precession` (E_a - 1) b.
+    `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i and of K_c, c the axis
+    about which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `transverse`, `axial`), the
+    third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
     """
 
     turning: DoubleDouble
@@ -64,7 +65,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def discriminant(self) -> DoubleDouble:
-        """A quarter of the discriminant of the quartic's quadratic factor without turning points, (m,); negative."""
+        """A quarter of the discriminant of f, the quartic's quadratic factor without turning points, (m,); negative."""
         return self.f[2] * self.f[2] * self.w
 
     @property
@@ -102,7 +103,10 @@ class Pencil:
 
     @cached_property
     def order(self) -> Any:
-        """Rank of each e_i among the three, shape (3, m): 0 for the least, 1 for the middle one, 2 for the largest."""
+        """Rank of each e_i among the three, shape (3, m): 0 for the least, 1 for the middle one, 2 for the largest.
+
+        Equal ones have equal rank.
+        """
         sign, I, z = [np.sign(y.hi) for y in self.x], self.I, np.sign(self.z.hi)
         above = [
             sum((z * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
@@ -117,7 +121,7 @@ class Pencil:
         return chosen(axis == 0, K_b, chosen(axis == 1, K_c, third))
 
     def difference(self, i: Any, j: Any) -> DoubleDouble:
-        """Return e_j - e_i of axes i and j (0, 1, 2, or arrays of these) without cancellation.
+        """Return e_j - e_i, (m,), of axes i and j (0, 1, 2, or arrays (m,) of these) without cancellation.
 
         It is z (I_i - I_j) e_i e_j.
         """
@@ -217,7 +221,8 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
 def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
     """Return axes (3, 3, ...) turned about `axis` so that the transverse vector (x, y) lies along the second one.
 
-    x and y are the components along the two axes that follow `axis` in cyclic order.
+    `axis` is an array of 0, 1, 2; x and y are the components, over the length, along the two axes that follow it in
+    cyclic order. The axes are columns, `axis` the third one; ``shape`` is that of the motions.
     """
     axes = np.zeros((3, 3, *shape))
     for k in range(3):
@@ -264,7 +269,7 @@ class EllipticBlocks(Blocks):
 
 
 class EllipticScalars(Scalars):
-    """Scalars of elliptic motions in arrays, all computed in one pass."""
+    """Scalars of elliptic motions in arrays, each a `Rounded` by its name, all computed in one pass."""
 
     def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
         del name
@@ -272,7 +277,10 @@ class EllipticScalars(Scalars):
 
 
 def _scalars(block: Block) -> dict[str, Rounded]:
-    """Return scalars of a block by name: kind, period, moduli, nome, angles in a period, v and omega, as `Rounded`."""
+    """Return scalars of a block by name, as `Rounded`: those of `of_period`, kind, angles in a period, v and omega.
+
+    Angles are in rad, omega (3, m) in rad/time, v in inertia^3; kind is 0, for "elliptic".
+    """
     with np.errstate(all="ignore"):
         r, angles = cast("EllipticRoots", block.roots), block.pair.angles
         mean = angles[0] + angles[1] + r.precession.scaled(1)
@@ -315,12 +323,15 @@ class EllipticAtTimes(MotionsAtTimes):
         return block.constants, Axes(r.frame, np.array(rates))
 
     def _pair(self, constants: Constants, _: Any = None) -> CayleyKleinAtTimes:
-        """Return the pair; `extreme` becomes the indices of motions that the pair does not cover."""
+        """Return the `CayleyKleinAtTimes` of the selected motions, from the constants of all.
+
+        `extreme` becomes the indices that need the scalar path. The second argument, an `Axes`, is not used.
+        """
         return super()._pair(constants)
 
     @property
     def _frames(self) -> FloatArray:
-        """Matrices (m, 3, 3) of each time's motion: the axes of alpha and beta in the body, as columns."""
+        """Matrices (m, 3, 3) of the selected motions: the axes of alpha and beta in the body, as columns."""
         return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:

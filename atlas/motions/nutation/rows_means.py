@@ -23,7 +23,7 @@ Circle = tuple[DoubleDouble, DoubleDouble]
 
 @dataclass(frozen=True)
 class Level:
-    """Two means a >= g of one step, with difference a - g, product a g and sum a + g."""
+    """Two means a >= g of one step, arrays (m,), with difference a - g, product a g and sum a + g."""
 
     a: DoubleDouble
     g: DoubleDouble
@@ -43,7 +43,11 @@ class Level:
 
 
 class Means:
-    """Arithmetic-geometric means of m motions from their turning points: rate M = pi/T, moduli, nome, start."""
+    """Arithmetic-geometric means of m motions from their turning points: rate M = pi/T, moduli, nome, start.
+
+    T is the period of nutation. `N` and `S` are those of the module, in the scaled unit, `four` is the mask of
+    motions with four real roots of Q, and `levels` are the steps.
+    """
 
     def __init__(self, roots: TurningPoints) -> None:
         self.roots = roots
@@ -86,14 +90,14 @@ class Means:
 
     @cached_property
     def rate(self) -> DoubleDouble:
-        """Rate M = pi/T, T the period of nutation: the limit of the means."""
+        """Rate M = pi/T, (m,), in rad/time of the scaled unit, T the period of nutation: the limit of the means."""
         before = self.levels[-1]
         M = before.sum.scaled(-1)
         return DoubleDouble(M.hi, M.lo, M.rel + before.difference.hi / M.hi)
 
     @cached_property
     def moduli(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """Modulus k and complementary modulus k' of the elliptic functions."""
+        """Modulus k and complementary modulus k' of the elliptic functions, (m,) each."""
         top = self.levels[0]
         root = abs(self.D).sqrt()
         square = (self.S + root).scaled(-1)
@@ -102,7 +106,7 @@ class Means:
 
     @cached_property
     def nome(self) -> DoubleDouble:
-        """Magnitude of the nome of the theta functions, row by row, from the levels of the arithmetic-geometric mean.
+        """Magnitude of the nome of the theta functions, (m,), from the levels of the arithmetic-geometric mean.
 
         For four real roots it is the nome of the moduli, otherwise its square root.
         """
@@ -114,7 +118,11 @@ class Means:
 
     @cached_property
     def start(self) -> Circle:
-        """(cos, sin) of M t0, t0 the time at t = 0 since Omega3 was `low`: cot(2 M t0) = (c - a g/c)/2."""
+        """(cos, sin) of the phase M t0, (m,) each, t0 the time at t = 0 since the variable of Q was `low`.
+
+        With c of the means, cot(2 M t0) = (c - a g/c)/2 goes from each step to the next. The sine is negative where the
+        variable falls at t = 0.
+        """
         r = self.roots
         square, below = r.ends[0].scaled(-2) * r.high, -r.low
         scaled = self.N * below
@@ -137,19 +145,19 @@ class Means:
 
 
 def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
-    """Return (cos, sin) of the polar angle of the point (x, y)."""
+    """Return (cos, sin) of the polar angle of the points (x, y), arrays (m,)."""
     size = (x * x + y * y).sqrt()
     return x / size, y / size
 
 
 def _sum_of_angles(angle: Circle, increment: Circle) -> Circle:
-    """Return (cos, sin) of the sum of two angles."""
+    """Return (cos, sin) of the sum of two angles, which are given as (cos, sin)."""
     (a, b), (c, d) = angle, increment
     return a * c - b * d, a * d + b * c
 
 
 def _half(angle: Circle) -> Circle:
-    """Return (cos, sin) of half an angle between -pi and pi."""
+    """Return (cos, sin) of half an angle between -pi and pi, which is given as (cos, sin)."""
     cos, sin = angle
     larger = ((abs(cos) + ONE).scaled(-1)).sqrt()
     smaller = sin / larger.scaled(1)

@@ -29,7 +29,7 @@ NEGLIGIBLE = 2.0**-58
 class Zeros(NamedTuple):
     """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
 
-    `is_at_low` is where it is the former, `sense` the sign of y, `growth` is exp y.
+    `is_at_low` is true where the zero is at i y, `sense` the sign of y, `growth` is exp y. M = pi/T, T the period.
     """
 
     is_at_low: Any
@@ -38,9 +38,11 @@ class Zeros(NamedTuple):
 
 
 class Sums(NamedTuple):
-    """Weights of cos k y and i sin k y, (MAX_TERMS, 2, m), how many matter, and the sums at the start.
+    """Weights of cos k y and i sin k y, k = 1, 3, 5, ..., of alpha and beta, and the sums at the start.
 
-    `ends` are the sums where Omega3 is `low` and `high`, without i: those of `even`, and of `odd` with signs by turns.
+    `even` and `odd` are (MAX_TERMS, 2, m), `terms` (m,) is the number of terms that matter, `start` the pair of
+    sums (2, m) over cos and sin at t = 0. `ends` are the sums where Omega3 is `low` and `high`, (2, m) each,
+    without i: those of `even`, and of `odd` with alternating signs.
     """
 
     even: FloatArray
@@ -51,9 +53,11 @@ class Sums(NamedTuple):
 
 
 class Change(NamedTuple):
-    """Omega3 - omega3 is size S(M t) S(M t + 2 y0)/(|alpha|^2 + |beta|^2), S the sum of weights (MAX_TERMS, m) sin k y.
+    """Constants of Omega3 - omega3 = size S(M t) S(M t + 2 y0)/(|alpha|^2 + |beta|^2), S(y) a sum of sines.
 
-    Both zeros are real: so the change keeps its digits where Omega3 is small beside its largest values.
+    S is the sum of `weights` (MAX_TERMS, m) times sin k y, k = 1, 3, 5, ..., and `size` (m,) is in rad/time of the
+    scaled unit; y0 is the phase of nutation at t = 0. Both zeros are real: so the change keeps its digits where
+    Omega3 is small beside its largest values.
     """
 
     size: DoubleDouble
@@ -62,14 +66,20 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True)
 class SpherePair:
-    """Cayley-Klein parameters alpha and beta of m motions whose axis moves on a sphere, see `Sphere`."""
+    """Cayley-Klein parameters alpha and beta of m motions, for a vector that moves on a `sphere`, see `Sphere`.
+
+    `means` are the `Means` of the motions. Arrays (2, m) hold alpha, then beta.
+    """
 
     means: Means
     sphere: Sphere
 
     @cached_property
     def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
-        """(p^2, p after the first step, p - a after it), each (2, m): starts of the means for the third kind."""
+        """(p^2, p after the first step, p - a after it), each (2, m): starts for integrals of the third kind.
+
+        p is the distance of the module, a the arithmetic mean.
+        """
         m, k = self.means, self.sphere
         r, top = m.roots, m.levels[0]
         square = stacked(r.ends[0], r.ends[1]).scaled(-2) * abs(k.near_distance) / k.far_distance
@@ -83,7 +93,7 @@ class SpherePair:
 
     @cached_property
     def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """(Sum of Gauss's complete integrals of the third kind, exp of the depths of zeros), each (2, m)."""
+        """(Sum of Gauss's complete integrals of the third kind, exp of the depths |y| of the zeros), each (2, m)."""
         m, (square, p, d) = self.means, self._starts
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
         top = m.levels[0]
@@ -104,7 +114,7 @@ class SpherePair:
 
     @cached_property
     def angles(self) -> DoubleDouble:
-        """Twice the mean rates of alpha and beta, relative to their frame: shape (2, m), in 1/time."""
+        """Twice the mean rates of alpha and beta, relative to their frame: (2, m), in 1/time of the scaled unit."""
         k, width = self.sphere, self.means.roots.width
         angles = k.torques / k.far_distance * (width / abs(k.near_distance).scaled(1) * self._third[0] + ONE)
         return chosen(k.torques.hi == 0, k.torques, angles)
@@ -149,12 +159,12 @@ class SpherePair:
 
     @cached_property
     def _signs(self) -> list[Any]:
-        """Signs of the terms n = 0 ... MAX_TERMS - 1 of the theta sums, one array each."""
+        """Signs of the terms n = 0 ... MAX_TERMS - 1 of the theta sums, a list of an array (m,) of 1 and -1 each."""
         return [np.where(self.means.four, 1.0, (-1.0) ** (n * (n + 1) // 2)) for n in range(MAX_TERMS)]
 
     @cached_property
     def change(self) -> Change:
-        """`Change` of Omega3 from its initial value."""
+        """The `Change` of Omega3 from its initial value, for the sphere of the angular velocity."""
         r, square = self.means.roots, self.means.nome * self.means.nome
         weight, power = constant(1.0, square), constant(1.0, square)
         zero = constant(0.0, square)
@@ -179,7 +189,10 @@ class SpherePair:
 
     @cached_property
     def factors(self) -> tuple[Any, FloatArray]:
-        """(Complex factors F of the two sums, bounds on their relative errors), each (2, m)."""
+        """(Complex factors F of the sums of alpha and beta, bounds on their relative errors), each (2, m).
+
+        With these factors the sums have the values of the start.
+        """
         k, (x, y) = self.sphere, self.sums.start
         size = x * x + y * y
         error = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
@@ -188,7 +201,7 @@ class SpherePair:
 
     @property
     def _by_slopes(self) -> Any:
-        """Factors (2, m) of alpha and beta that vanish at the start, from their derivatives there."""
+        """Complex factors (2, m) of alpha and beta that vanish at the start, from their derivatives there."""
         cos, sin = (x.hi for x in self.means.start)
         terms = zip(range(1, 2 * MAX_TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
         slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
@@ -207,7 +220,11 @@ def multiples(cos: Any, sin: Any) -> Iterator[tuple[Any, Any]]:
 def _steps(
     levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
 ) -> tuple[DoubleDouble, DoubleDouble]:
-    """Return (sum of the terms after Q, factor of exp of the depth), (2, m) each, of steps from p = a + d on."""
+    """Return (sum of the terms after Q, factor of exp of the depth), (2, m) each, of steps from p = a + d on.
+
+    ``levels`` are the means of this step and the next ones, Q the term of Gauss's sum before, and x is (a - g)/d there,
+    which tends to zero. The function calls itself for the next level, with the rows that have not converged.
+    """
     m, after = levels[0], levels[1]
     denominator, above, increment = p * p + m.product, p + m.a, x + ONE
     Q = (Q * (d * above + m.a * m.difference) / denominator).scaled(-1)

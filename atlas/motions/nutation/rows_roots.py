@@ -34,8 +34,8 @@ ROUNDING = 2.0**-98
 class TurningPoints:
     """Turning points `low` <= 0 <= `high` of v, valid where `exact`, and the other factor f0 + f1 v + f2 v^2 < 0 of Q.
 
-    `poles` (2, m) are the v at which nu, the cosine of the angle between axis and field, is -1 and 1; `rate` is dv/dt
-    at v = 0.
+    `f` are f0, f1, f2; all are arrays (m,). `poles` (2, m) are the v at which nu, the cosine of the angle between
+    axis and field, is -1 and 1; `rate` is dv/dt at v = 0. v and Q are those of the module.
     """
 
     rate: DoubleDouble
@@ -46,7 +46,7 @@ class TurningPoints:
 
     @cached_property
     def exact(self) -> Any:
-        """Mask of rows where f is certainly negative between the turning points, so that these are the nearest to 0."""
+        """Mask (m,) of rows where f is certainly negative between the turning points: no other root is nearer to 0."""
         f1, f2 = self.f[1].hi, self.f[2].hi
         vertex, low, high = -f1 / (2 * f2), self.low.hi, self.high.hi
         margin = 1e-9 * (high - low) + 1e-12 * abs(vertex)
@@ -74,9 +74,9 @@ class TurningPoints:
 
     @cached_property
     def other_roots(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
-        """Roots (x, y, 0) of the other factor if they are real, else (real part, real part, imaginary part).
+        """Roots (x, y, 0) of f, the other factor of Q, if they are real, else (real part, real part, imaginary part).
 
-        (m,) each.
+        Each is an array (m,), in the unit of v.
         """
         f0, f1, f2 = self.f
         half, real = -f1.scaled(-1), self.discriminant.hi > 0
@@ -120,17 +120,17 @@ class Roots(TurningPoints):
 
     @cached_property
     def is_excluded(self) -> Any:
-        """Mask of rows without a field."""
+        """Mask (m,) of rows without a field."""
         return self.b.hi == 0
 
     @cached_property
     def ball(self) -> Any:
-        """Mask of balls, I = 1; false for tops."""
+        """Mask (m,) of balls, I = 1; false for tops."""
         return (self.less.hi == 0) & (self.top is None)
 
     @cached_property
     def starts_on_field(self) -> Any:
-        """Mask of rows whose axis starts along the field."""
+        """Mask (m,) of rows whose axis starts along the field, n2 = 0."""
         return self.n2.hi == 0
 
     @cached_property
@@ -140,7 +140,7 @@ class Roots(TurningPoints):
 
     @property
     def tilt(self) -> FloatArray:
-        """Cosine and sine of theta at the start, (2, m)."""
+        """Cosine and sine of theta, the angle from field to axis, at the start, (2, m)."""
         return np.array([(self.n3 / self.b).hi, abs(self.n2 / self.b).hi])
 
 
@@ -168,14 +168,15 @@ def roots_of(
     top: Top | None = None,
     plane: FloatArray | None = None,
 ) -> Roots:
-    """Return the `Roots` of bodies in a field n = (B2, B3), or of tops in the direction n.
+    """Return the `Roots` of bodies in a field n = (B2, B3), or of tops in the direction n, arrays (m,).
 
     In v = n3 - b nu, Omega3 - omega3 for a body in a field,
 
         Q(v) = (n2^2 + 2 n3 v - v^2)(g + 2 c v - A v^2) - (n2 M2 + M3 v)^2,    g = omega1^2 + M2^2,  c = a + A n3,
 
     where the terms of a rest in the field do not cancel. A = 0 leaves a cubic, whose fourth root is not asked for
-    anywhere. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K).
+    anywhere. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K); ``top`` holds the potential of
+    tops, ``plane`` is kept in the result.
 
         >>> I2, I3, B2, B3, *omega = (DoubleDouble(np.array([x])) for x in (1.0, 1.5, 1.0, 2.0, 0.3, 0.7, 0.2))
         >>> found = roots_of(I2, I3, (B2, B3), omega)
@@ -208,7 +209,10 @@ def from_start(
     a: Number | None = None,
     top: Any = None,
 ) -> tuple[Number, ...]:
-    """Return the coefficients of Q(v), the constant one first, see `roots_of`; `momenta` are M2 and M3."""
+    """Return the five coefficients of Q(v), the constant one first, see `roots_of`.
+
+    `momenta` are M2 and M3, n is (n2, n3); A, a and ``top`` are as in `Roots`, the last two None for a body in a field.
+    """
     (n2, n3), (w1, w2, w3), (M2, M3), (k_across, k_along) = n, omega, momenta, couplings
     square, coupling, rate, bend = n2 * n2, k_across * n2, w1 * n2, A * n3
     q1 = n3 * (w1 * w1 + w2 * (M2 + coupling)) - I * n2 * (w3 * (w2 + k_along * n2) + k_along * w2 * n3)
@@ -237,7 +241,7 @@ def in_plane(
 
 
 def poles_of(k_along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
-    """Return k + b and k - b, (2, m), k = `k_along`, both without cancellation; `square` is b^2 - k^2."""
+    """Return k + b and k - b, (2, m), k = `k_along`, both without cancellation; `square` is b^2 - k^2 >= 0."""
     up, longer = k_along.hi > 0, b + abs(k_along)
     shorter = -square / longer
     return stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer))
@@ -249,7 +253,10 @@ def plus(x: Number | None, y: Number) -> Number:
 
 
 def roots_of_tops(*inputs: DoubleDouble) -> Roots:
-    """Return the `Roots` of tops from I2, I3, k2, k3, n2, n3, three components of omega, linear and quadratic."""
+    """Return the `Roots` of tops from arrays (m,) of eleven inputs.
+
+    They are I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear and quadratic.
+    """
     I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = inputs
     twisted = (k3 * I2 - k2 * I3).hi != 0
     I, less, k, turn = I3 / I2, (I2 - I3) / I2, k2 / I2, k3 / I3
@@ -270,9 +277,10 @@ def roots_of_tops(*inputs: DoubleDouble) -> Roots:
 
 
 def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> DoubleDouble:
-    """Return A with the rows whose relative error is 1/2 or more computed anew from the inputs, exactly, to two words.
+    """Return A, (m,), with the rows whose relative error is 1/2 or more computed anew from the inputs, exactly.
 
-    The sign of A decides the number of roots. ``inputs`` are (I2, I3, k2, k3, n2, n3, ..., the quadratic term).
+    The result has two words. The sign of A decides the number of roots. ``inputs`` are (I2, I3, k2, k3, n2, n3, ...,
+    the quadratic term).
     """
     hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
     for i in np.flatnonzero(~(rel < 0.5)).tolist():
@@ -286,7 +294,10 @@ def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> 
 def turning(
     q: tuple[DoubleDouble, ...], poles: DoubleDouble
 ) -> tuple[DoubleDouble, DoubleDouble, tuple[DoubleDouble, DoubleDouble, DoubleDouble]]:
-    """Return turning points (low, high) and the other factor (f0, f1, f2) of quartics q0 + q1 v + ..."""
+    """Return turning points (low, high) and the other factor (f0, f1, f2) of quartics q0 + q1 v + ... + q4 v^4.
+
+    All are arrays (m,); ``poles`` (2, m) bound the turning points. Where v = 0 is a root, it is one of them.
+    """
     starts_flat = q[0].hi == 0
     words = np.array([np.broadcast_to(x.hi, q[0].hi.shape) for x in q])
     low = _refined(-_first_root(words * ALTERNATING, -poles.hi[1], starts_flat), q)
@@ -307,8 +318,9 @@ ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0, 1.0])[:, None]
 def _first_root(q: FloatArray, reach: FloatArray, starts_flat: Any) -> FloatArray:
     """Return the first root above 0, at most ``reach``, of polynomials q (5, m) positive before it, in doubles, (m,).
 
-    Where ``starts_flat``, 0 is a root, and the result if q is negative beyond. No step passes the root: each goes to
-    the root of a parabola below q, whose second derivative is the least of q between here and ``reach``.
+    q has the constant coefficient first. Where ``starts_flat``, 0 is a root, and the result if q is negative beyond. No
+    step passes the root: each goes to the root of a parabola below q, whose second derivative is the least of q between
+    here and ``reach``. After `MAX_ROOT_STEPS` steps the last point is returned.
     """
     q = np.where(starts_flat, np.concatenate([q[1:], 0 * q[:1]]), q)
     roots, rows = np.zeros_like(reach), np.arange(reach.size)
@@ -333,9 +345,9 @@ def _first_root(q: FloatArray, reach: FloatArray, starts_flat: Any) -> FloatArra
 
 
 def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:
-    """Return roots as `DoubleDouble` from doubles v (m,), by one Newton step of third order.
+    """Return roots of polynomials q as `DoubleDouble` from doubles v (m,), by one Newton step of third order.
 
-    Inf bounds if it is large.
+    Bounds are inf where the step is too large for that.
     """
     x = DoubleDouble(v)
     value = q[4]

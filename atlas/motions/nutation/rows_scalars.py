@@ -43,14 +43,17 @@ HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 
 
 
 class Rounded(NamedTuple):
-    """Values (..., m) of m motions, and a mask (m,) of those that are certainly the nearest doubles."""
+    """Values (..., m) of m motions as doubles, and a mask (m,) of those that are certainly the nearest doubles."""
 
     values: Any
     is_certain: Any
 
 
 class Scalars:
-    """Scalars of many motions by name, each a `Rounded`; a pass computes several at once."""
+    """Scalars of the motions of ``blocks`` by name, each a `Rounded`; a pass computes several at once.
+
+    Names and units are those of the public classes; "kind" is an index into KINDS or TOP_KINDS.
+    """
 
     def __init__(self, blocks: Blocks) -> None:
         self.blocks = blocks
@@ -79,7 +82,10 @@ class Scalars:
 
 
 def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
-    """Return numbers x of a block as `Rounded`; they are homogeneous of ``degree`` in the frequencies."""
+    """Return numbers x (m,) of a block as `Rounded`, in the given unit.
+
+    x is in the scaled unit and homogeneous of ``degree`` in the frequencies. Values of extreme size are not certain.
+    """
     values, is_sure = x.nearest()
     values = np.ldexp(values, degree * block.exponents)
     return Rounded(
@@ -88,7 +94,7 @@ def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
 
 
 def _scalars(block: Block) -> dict[str, Rounded]:
-    """Return kind, turning points, period, moduli, nome and, except of tops, roots of a block, by name."""
+    """Return kind, turning points, period, moduli, nome and, except of tops, roots of a block: `Rounded` by name."""
     with np.errstate(all="ignore"):
         r = block.roots
         is_field = r.top is None
@@ -110,7 +116,7 @@ def _of_tops(block: Block) -> dict[str, Rounded]:
 
 
 def of_period(block: Block) -> dict[str, Rounded]:
-    """Return period, modulus, complementary modulus and nome of a block, each a `Rounded` by name."""
+    """Return period (time), modulus, complementary modulus and nome of a block, each a `Rounded` (m,) by name."""
     means, nome = block.means, block.means.nome
     return {
         "period": rounded(HALF_TURN / means.rate, block, -1),
@@ -131,7 +137,10 @@ def _kinds(block: Block) -> dict[str, Rounded]:
 
 
 def _all_roots(block: Block) -> dict[str, Rounded]:
-    """Return the turning points (2, m) and the complex roots of Q (4, m), each a `Rounded` by name."""
+    """Return the turning points (2, m) and the complex roots of Q (4, m), in rad/time, each a `Rounded` by name.
+
+    Real roots come first, ascending; a root at infinity is inf.
+    """
     r = block.roots
     root_1, root_2, imaginary = r.other_roots
     low, high = (rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
@@ -147,7 +156,10 @@ def _all_roots(block: Block) -> dict[str, Rounded]:
 
 
 def _angles(block: Block) -> dict[str, Rounded]:
-    """Return precession and spin in one period of a block, in rad, each a `Rounded` by name."""
+    """Return the total angles of precession and spin in one period of a block, in rad, `Rounded` (m,) by name.
+
+    The names are "precession_per_period" and "spin_per_period".
+    """
     with np.errstate(all="ignore"):
         r = block.roots
         sphere, angles = block.pair.sphere, block.pair.angles

@@ -23,9 +23,10 @@ class Sphere:
     would be along the axis, so that alpha (the upper pole) or beta (the lower one) is zero; `torques` are those
     there: -Q is the square of a torque. `amplitudes` are cosine and sine of half the polar angle at the start;
     `meets` is the mask of vectors that start at a pole, and for these `slopes` are twice the time derivatives of
-    the one that is zero. `frames` are the rates of the frame that both are seen from. `azimuth` are cosine and
-    sine, (m,) each, of the vector's azimuth at the start, from the second axis to the first; `sizes` are the
-    factors from the unit sphere to the vector, across the axis and, with a sign, along it.
+    alpha or beta, whichever is zero. `frames` are the rates of the frame in which both are given. `azimuth` are
+    cosine and sine, (m,) each, of the vector's azimuth at the start, from the second axis to the first; `sizes` are
+    the factors from the unit sphere to the vector, across the axis and, with a sign, along it. Rates are in the
+    scaled unit.
     """
 
     roots: TurningPoints
@@ -57,7 +58,7 @@ class Sphere:
 
 
 def sphere_of_field(r: Roots) -> Sphere:
-    """Return the `Sphere` of K, or of n in the body, and of the axis: the poles are where nu is 1 and -1.
+    """Return the `Sphere` of K, or of n in the body, and of the axis: the poles are where nu = cos theta is -1 and 1.
 
     The torques are b [(M, n) - nu M3] there. The frame is Larmor's, with the turn (1-I) c3 about the axis.
     """

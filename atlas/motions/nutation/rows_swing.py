@@ -107,7 +107,7 @@ class Swings(NamedTuple):
     def half(self, phase: tuple[FloatArray, FloatArray], t: FloatArray) -> tuple[Extended, FloatArray]:
         """Return (half the oscillating part since t = 0 in rad, a bound on its error), (m,) each, at times t (m,).
 
-        ``phase`` is M t/2 in rad, in two words. A top without such a rotation has 0.
+        ``phase`` is M t/2 in rad, a high and a low word, (m,) each. A top without such a rotation has 0.
         """
         angle = 4 * (phase[0].astype(np.longdouble) + phase[1])
         (c, s), cos, sin = self.start, np.cos(angle), np.sin(angle)
@@ -135,7 +135,7 @@ class Swings(NamedTuple):
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
-    """Return the `SwingSums` of the tops of ``means``, from ``nu``, b times nu at t = 0, and A over b^2.
+    """Return the `SwingSums` of the tops of ``means``, from ``nu`` (b times nu at t = 0) and A over b^2, (m,) each.
 
     Where the sums do not end within MAX_TERMS, the errors of the rate and of the weights are inf.
     """
@@ -176,8 +176,8 @@ def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
 def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle:
     """Return the weights (of cos, of sin) of term n without the power of q, from cos and sin/sqrt(|A|) of n c.
 
-    ``size`` is sqrt(|A|), ``four`` the mask of tops with four real roots. Where two roots are complex, q stands for
-    i q, and the angle c is shifted.
+    ``circle`` is that pair, ``size`` is sqrt(|A|), ``four`` the mask of tops with four real roots. Where two roots are
+    complex, q stands for i q, and the angle c is shifted.
     """
     (cos, sin), sign = circle, np.where(four, (-1.0) ** n, (-1.0) ** ((n + 1) // 2))
     if n % 2:
@@ -186,7 +186,10 @@ def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle
 
 
 def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circle:
-    """Return (cos c, sin c/sqrt(|A|)) of the angle c at which nu is infinite; ``size`` is sqrt(|A|)."""
+    """Return (cos c, sin c/sqrt(|A|)), (m,) each, of the angle c at which nu is infinite; ``size`` is sqrt(|A|).
+
+    c is hyperbolic for A < 0: cos^2 + A sin^2 = 1 with the second number as sin.
+    """
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()
     roots = fourth * fourth
@@ -220,9 +223,9 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
 
 
 def _sum_of_angles(angle: Circle, increment: Circle, A: DoubleDouble) -> Circle:
-    """Return (cosine, sine) of the sum of two angles, each given so.
+    """Return (cosine, sine) of the sum of two angles, each given in this way.
 
-    Their sines are over sqrt(A), A may be negative.
+    Their sines are over sqrt(A); A may be negative.
     """
     (a, b), (c, d) = angle, increment
     return a * c - A * b * d, a * d + b * c

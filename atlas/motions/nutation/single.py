@@ -34,7 +34,10 @@ VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
 
 
 class SingleMotion:
-    """Evaluator of one motion whose axis nutates; ``exact`` is the certified motion with R(0) = 1."""
+    """Evaluator of one motion whose axis nutates; ``exact`` is the certified motion with R(0) = 1.
+
+    Methods take times t of any shape, an array or a number, and return arrays; t has to be finite.
+    """
 
     def __init__(self, exact: Nutating) -> None:
         self.exact = exact
@@ -68,7 +71,7 @@ class SingleMotion:
 
     @cached_property
     def field(self) -> FloatArray:
-        """Weights (10, 3) with which the ten products of (alpha, beta) sum to K."""
+        """Weights (10, 3) with which the ten products of (alpha, beta) sum to K in 1/time; for tops to unit n."""
         with workprec(2 * BITS):
             b = nearest(arb(self.exact.b))
         return np.asarray(b * VECTOR @ self.sides[1])
@@ -88,7 +91,7 @@ class SingleMotion:
         """
 
         def prepare(size: int) -> Any:
-            """Return the function that fills a block of times."""
+            """Return the function that writes quaternions (m, 4) at a block of m <= ``size`` times."""
             evaluation = Evaluation(self.pair, size, signed=True)
 
             def fill(times: FloatArray, rows: FloatArray) -> None:
@@ -102,13 +105,16 @@ class SingleMotion:
 
     @cached_property
     def _to_quaternion(self) -> FloatArray:
-        """Matrix (4, 4) that takes real and imaginary parts of alpha and beta to (x, y, z, w), with w >= 0 at t = 0."""
+        """Matrix (4, 4) that takes a row (Re alpha, Re beta, Im alpha, Im beta) to (x, y, z, w).
+
+        Its sign makes w >= 0 at t = 0.
+        """
         matrix = between(*self.sides)[[3, 0, 2, 1]]
         start = Evaluation(self.pair, 1, signed=True).components(np.zeros(1))[:, 0] @ matrix
         return np.asarray(-matrix if start[3] < 0 else matrix)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time.
+        """Return K(t) along the body's axes, shape t.shape + (3,), in 1/time; of a top the unit vector n in the body.
 
         ``out``, if given, is filled and returned.
         """
@@ -135,7 +141,7 @@ class SingleMotion:
             return out
 
         def prepare(size: int) -> Any:
-            """Return the function that fills a block of times."""
+            """Return the function that writes the combinations (m, ...) at a block of m <= ``size`` times."""
             evaluation = Evaluation(pair, size)
             return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
 
@@ -157,10 +163,10 @@ class SingleGeneral(SingleMotion):
 
     @cached_property
     def velocity(self) -> tuple[CayleyKlein, FloatArray, float, float]:
-        """The pair of (Omega2, Omega1, -sqrt(I) Omega3), weights of its products in Omega, and two sizes.
+        """The pair of (Omega2, Omega1, -sqrt(I) Omega3), the weights of its products in Omega, and two sizes.
 
-        The tuple is (`CayleyKlein`, (10, 3), sqrt(E'), sqrt(E'/I)): the sizes are the largest that Omega across and
-        along the axis could be, in rad/time.
+        The tuple is (`CayleyKlein`, array (10, 3), sqrt(E'), sqrt(E'/I)): the sizes are the largest that Omega
+        across and along the axis could be, in rad/time.
         """
         pair = CayleyKlein(lambda: self.exact.velocity)
         sizes = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
@@ -169,7 +175,7 @@ class SingleGeneral(SingleMotion):
         return pair, VECTOR @ turn, equatorial, axial
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), shape t.shape + (4,).
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t with w >= 0 at t = 0, shape t.shape + (4,).
 
         Components zero at all times are exactly zero. ``out``, if given, is filled and returned.
         """
@@ -192,9 +198,10 @@ class SingleGeneral(SingleMotion):
         return [i for i, (a, b) in enumerate(terms) if a * k == 0 and (b if i == 2 else b * k) == 0]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) along the axes of the body, shape (..., 3), in rad/time.
+        """Return Omega(t) along the axes of the body, shape t.shape + (3,), in rad/time.
 
-        ``out``, if given, is filled and returned.
+        ``out``, if given, is filled and returned. Where Omega3 is far below the largest value that it could have, it is
+        evaluated anew, see `_third`.
         """
         pair, weights, equatorial, axial = self.velocity
         Omega = self._linear(weights, t, (3,), out, pair)
@@ -242,7 +249,7 @@ class SingleTop(SingleMotion):
         kappa = nearest(self.exact.quartic.kappa) if self._sloping.swing else 0.0
 
         def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
-            """Return the function that fills a block of times."""
+            """Return the function that writes Omega (m, 3) at a block of m <= ``size`` times."""
             evaluation = Evaluation(self._sloping, size)
 
             def fill(times: FloatArray, rows: FloatArray) -> None:

@@ -24,18 +24,21 @@ class SingleElliptic(SingleMotion):
 
     @cached_property
     def sides(self) -> tuple[FloatArray, FloatArray]:
-        """Matrices (left, right), (3, 3) each, around the matrix of (alpha, beta), for axes in the order of moments."""
+        """Matrices (left, right), (3, 3) each: R = left R(alpha, beta) right, with axes in the order of the moments."""
         (left, right), axes = super().sides, np.eye(3)[list(self.exact.places)]
         return axes.T @ left, np.asarray(right @ axes)
 
     @cached_property
     def _rates(self) -> FloatArray:
-        """Factors E_i - frame, shape (3,): Omega_i = factor_i K_i along the principal axes."""
+        """Factors E_i - frame, shape (3,), without unit: Omega_i = factor_i K_i along the principal axes.
+
+        For a free body they are 1/I_i, and the angular momentum stands for K.
+        """
         rates = enclosed(lambda: [arb(E - self.exact.frame) for E in self.exact.E], BITS)
         return np.array([float(x.mid()) for x in rates])
 
     def accuracy(self, size: float) -> float:
-        """Return the bound on errors of entries of R, and of K and Omega relative to the rate `size`."""
+        """Return the bound on errors of entries of R, and of K and Omega relative to ``size``, a rate in rad/time."""
         return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -15,9 +15,9 @@ from atlas.motions.spectrum import Wheels, function_of, rodrigues
 
 
 def of_nutation(motion: Any, exact: Any) -> Wheels:
-    """Return the `Wheels` of a motion with one phase, of nutation, or none if it is steady.
+    """Return the `Wheels` of a motion with one phase, of nutation, or with none if it is steady.
 
-    Raises DomainError on a separatrix.
+    ``exact`` is its certified counterpart. Raises DomainError on a separatrix, and for a period beyond all floats.
     """
     (L, C), rates = motion._sides, enclosed(lambda: _rates(exact), BITS)  # noqa: SLF001  of a motion
     half, p, s = (float(x.mid()) for x in rates)
@@ -51,7 +51,7 @@ def of_nutation(motion: Any, exact: Any) -> Wheels:
 def _rates(exact: Any) -> list[arb]:
     """Return [half the period of nutation, rate about the field, rate about the body's axis] as balls.
 
-    For a steady motion the first is 1. Raises DomainError on a separatrix.
+    Rates are in rad/time. For a steady motion the first is 1. Raises DomainError on a separatrix.
     """
     solution = exact.solution
     if exact.is_steady:

@@ -41,11 +41,11 @@ MAX_LAST_DIGIT = 2.0**-54
 
 
 class Swing:
-    """Half the rotation of a top about its axis by the integral of nu, without its mean, in rad.
+    """Half the rotation of a top about its axis by kappa times the integral of nu, without its mean, in rad.
 
-    Numbers are of `type`, double or long double. `twist` is the part proportional to the time in a period, in radians
-    per half turn of v; `is_known` says whether all constants are accurate, `is_coarse` whether even long doubles lose
-    digits.
+    ``exact`` is the certified `Swing`. Numbers are of `type`, double or long double. `twist` is the part
+    proportional to the time in a period, in radians per half turn of v = rate s; `is_known` says whether all
+    constants are accurate, `is_coarse` whether even long doubles lose digits.
     """
 
     def __init__(self, exact: Exact) -> None:
@@ -88,14 +88,17 @@ class Swing:
         return max((n + 1 for n, x in enumerate(terms) if not x < NEGLIGIBLE * largest), default=1)
 
     def half_at(self, multiple: int, half: FloatArray, low: FloatArray) -> FloatArray:
-        """Return half the swing (m,), rounded once, at half phases with low words (m,); 2v = `multiple` half phases."""
+        """Return half the angle, (m,), in rad, rounded once, at ``half`` + ``low``, half phases in rad, (m,) each.
+
+        2v is `multiple` times that half phase. A long double is reduced by whole turns.
+        """
         v = multiple * self._sum(half, low)
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
 
     def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
         """Return half the whole angle (m,) of a motion without a period, in rad.
 
-        ``half`` is half the mean angle, x + ``low`` = rate s.
+        ``half`` (m,) is half the mean angle, x + ``low``, (m,) each, is rate s.
         """
         return half + self._rounded(self.of_line(self._sum(x, low)))
 
@@ -117,7 +120,7 @@ class Swing:
         return np.asarray(angle, dtype=np.float64)
 
     def of_circle(self, cos: Numbers, sin: Numbers) -> Numbers:
-        """Return half the turn from cos 2v and sin 2v, v = rate s: sums of multiples of 2v by Clenshaw."""
+        """Return half the angle, in rad, from cos 2v and sin 2v, v = rate s: sums of multiples of 2v by Clenshaw."""
         twice = cos + cos
         even, last_even, odd, last_odd = (np.zeros_like(cos) for _ in range(4))
         for a, b in zip(self.even[:0:-1], self.odd[:0:-1], strict=True):
@@ -126,7 +129,7 @@ class Swing:
         return self._turn(odd * sin, self.even[0] + cos * even - last_even)
 
     def of_line(self, x: Numbers) -> Numbers:
-        """Return half the turn from x = rate s, by hyperbolic or linear sums."""
+        """Return half the angle, in rad, from x = rate s, by hyperbolic or linear sums."""
         if self.form == "linear":
             return self._turn(self.odd[0] * x, np.full_like(x, self.even[0]))
         size = np.abs(x)
@@ -162,9 +165,9 @@ class Swing:
 
 
 class Crossing:
-    """Half the swing on the separatrix between n and -n, in rad.
+    """Half the swing, kappa times the integral of nu, on the separatrix between n and -n, in rad.
 
-    Its rate changes sign at the equator, x = slope s/2 = 0.
+    ``exact`` is the certified `Crossing`. The rate changes sign at the equator, x = slope s/2 = 0.
     """
 
     is_known, is_large = True, False

@@ -24,7 +24,10 @@ Branch = tuple[FloatArray, FloatArray]
 
 
 def halves(points: Any) -> tuple[int, int]:
-    """Return a number of points, at least 2, as two numbers for two branches; the first is not the smaller."""
+    """Return a number of points as two numbers that add up to it, for two branches; the first is not the smaller.
+
+    Raises AtlasError for fewer than two points.
+    """
     count = whole(points, "The number of points of two branches", 2)
     return count - count // 2, count // 2
 
@@ -36,9 +39,10 @@ BITS = 64
 class TopHyperbola(Shown):
     """The curve omega1 = 0 of `TopQuadric`: n3 w^2 - I n2 w v + n2^2 n3 D = 0, each point a steady precession.
 
-    The inputs are those of `TopMotion` without omega, of one top with n2 not zero; w, v and D as in `TopQuadric`. The
-    motion at omega2 is R(t) = R_n(k t) R_z(phi t), k = omega2/n2, phi = omega3 - n3 k: the paper's (85) for every top.
-    Its pole w = 0, omega2 = -n2 k3/I3, is left out. Raises DomainError for n2 = 0, AtlasError as `TopMotion` does.
+    The inputs are those of `TopMotion` without omega, of one top with n2 not zero; w, v and D as in `TopQuadric`;
+    here n is the unit vector and k the coupling over I2. The motion at omega2 is R(t) = R_n(k t) R_z(phi t), k =
+    omega2/n2, phi = omega3 - n3 k: the paper's (85) for every top. Its pole w = 0, omega2 = -n2 k3/I, is left out.
+    Raises DomainError for n2 = 0, AtlasError as `TopMotion` does.
     """
 
     made_by = "Hyperbola.of_top"
@@ -82,14 +86,15 @@ class TopHyperbola(Shown):
     def stability(self, omega2: Any) -> Any:
         """Square of the frequency of small nutations, in 1/time^2, theorem-top-nutation; unstable where negative.
 
-        Where it is zero see `stable`. DomainError at the pole; AtlasError for an input that is no number.
+        A float, or an array of the shape of omega2. Where it is zero see `stable`. Raises DomainError at the pole,
+        AtlasError for an input that is no number.
         """
         return self._over(top.stability, self._exact.stability, omega2)
 
     def stable(self, omega2: Any) -> Any:
-        """Whether the motion at omega2 is stable against nutation, decided exactly: True, or an array of booleans.
+        """Whether the motion at omega2 is stable against nutation, decided exactly: a boolean, or an array of booleans.
 
-        DomainError at the pole; AtlasError for an input that is no number.
+        Raises DomainError at the pole, AtlasError for an input that is no number.
         """
         values = real(omega2, "omega2", RATE)
         stable = np.array([self._exact.stable(float(x)) for x in values.flat], dtype=bool).reshape(values.shape)
@@ -97,10 +102,10 @@ class TopHyperbola(Shown):
 
     @property
     def unstable_bands(self) -> list[tuple[float, float]]:
-        """Intervals (low, high) of omega2, none to two, in which the motions are unstable, in rad/time, ends included.
+        """List of intervals (low, high) of omega2, at most two, where the motions are unstable, ends included.
 
-        Their ends are real roots of a quartic with exact coefficients, rounded once; `atlas.surfaces.certified_top` has
-        them as balls.
+        They are in rad/time. Their ends are real roots of a quartic with exact coefficients, rounded once;
+        `atlas.surfaces.certified_top` has them as balls.
         """
         ends = enclosed(lambda: self._exact.unstable_bands, BITS)
         return [(nearest(low), nearest(high)) for low, high in ends]
@@ -121,9 +126,10 @@ class TopHyperbola(Shown):
     def branches(self, points: int = 200, *, reach: float = 4.0) -> tuple[Branch, Branch]:
         """Return two pairs of arrays (omega2, omega3), the branch w > 0 first, even in the logarithm of |w|.
 
-        |w| runs from where |v| to where |w| is ``reach`` times b, the distance of the centre from rest or, if larger,
-        sqrt|D|. Each omega3 is that of the double omega2, rounded once. Raises DomainError where the curve is two
-        straight lines, n3 = 0 without a linear potential, AtlasError for fewer than two points.
+        Both are in rad/time, and ``points`` is the number of points of both branches together. |w| runs from where
+        |v| to where |w| is ``reach`` times b, the distance of the centre from rest or, if larger, sqrt|D|. Each
+        omega3 is that of the double omega2, rounded once. Raises DomainError where the curve is two straight lines,
+        n3 = 0 without a linear potential, AtlasError for fewer than two points.
         """
         I2, I3, _, _, n2, n3, a0, _ = self._top
         if n3 == 0 and a0 == 0:
@@ -138,17 +144,17 @@ class TopHyperbola(Shown):
         return self._branch(1, upper), self._branch(-1, lower)
 
     def _branch(self, sign: int, w: FloatArray) -> Branch:
-        """Return (omega2, omega3) at the distances w (m,) > 0 from the pole, on the side ``sign``."""
+        """Return (omega2, omega3), (m,) each, at the distances w (m,) > 0 from the pole, on the side ``sign``, +-1."""
         omega2 = sign * w + self.pole
         offset = np.nextafter(self.pole, sign * np.inf)
         omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, offset)
         return omega2, np.asarray(self.omega3(omega2))
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
-        """Return a formula at omega2, each result rounded once.
+        """Return a formula of `formula_top` at omega2, each result rounded once: a float or array, or a list of these.
 
-        ``degree`` is its power of rates, a sequence for several. ``exact`` is its certified counterpart at one omega2.
-        Raises DomainError at the pole.
+        ``degree`` is its power of rates, a sequence for several results. ``exact`` is its certified counterpart at
+        one omega2. Raises DomainError at the pole.
         """
         values, is_single = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
         return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=is_single)

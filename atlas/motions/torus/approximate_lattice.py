@@ -62,8 +62,10 @@ PAIRS = tuple(combinations(range(4), 2))
 class Lattice:
     """Periods of the torus, each a list [T_H, T_F, T_c] of complex balls in the unit of time; nothing of it is proved.
 
-    `real` are two that generate the real ones, `other_periods` two that complete them to a basis of all; the symplectic
-    basis is (a1, a2, b1, b2), `a` and `b` two each.
+    `real` are two that generate the real periods, `other_periods` two that complete them to a basis of all. The
+    symplectic basis is (a1, a2, b1, b2); `a` holds the first two, `b` the others. T_c is the time by which R turns
+    about the field by
+    -b T_c.
     """
 
     real: tuple[list[acb], list[acb]]
@@ -93,7 +95,8 @@ class Lattice:
 def lattice(motion: Integrals) -> Lattice:
     """Return the periods of a motion's torus as a `Lattice`, computed along paths with `BITS` digits, not proved.
 
-    Raises NotCertifiedError for a body too near a ball, and where periods cannot be distinguished.
+    ``motion`` are the `Integrals` of the motion. Raises NotCertifiedError for a body too near a ball, and where periods
+    cannot be distinguished.
     """
     if max(motion.moments) - min(motion.moments) < NEARLY_A_BALL * max(motion.moments):
         raise NotCertifiedError("not certified: the body is so nearly a ball that its slowest period is not found.")
@@ -110,7 +113,8 @@ def lattice(motion: Integrals) -> Lattice:
 def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
     """Return the `Lattice` that integrals along paths generate, with as few paths as possible, the best first.
 
-    Raises NotCertifiedError, with the last reason, if all paths do not suffice.
+    For ``paths_per_zero`` see `Curve.paths`. Raises NotCertifiedError, with the last reason, if all paths do not
+    suffice.
     """
     ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(paths_per_zero)
     for path in paths:
@@ -125,7 +129,7 @@ def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
 
 
 def _of_ways(ways: list[list[acb]]) -> Lattice:
-    """Return the `Lattice` that integrals [T_H, T_F, T_c] generate.
+    """Return the `Lattice` that integrals [T_H, T_F, T_c] along paths generate, without the ends of its paths.
 
     Raises NotCertifiedError unless they generate four periods with a polarization of type (1, 2).
     """
@@ -144,12 +148,12 @@ def _of_ways(ways: list[list[acb]]) -> Lattice:
 
 
 def _real(period: Sequence[acb]) -> list[arb]:
-    """Return T_H and T_F as four real numbers."""
+    """Return [Re T_H, Im T_H, Re T_F, Im T_F] of a period [T_H, T_F, T_c], balls in the unit of time."""
     return [period[0].real, period[0].imag, period[1].real, period[1].imag]
 
 
 def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the integer matrix (4, 4) that maps four periods to their complex conjugates.
+    """Return the integer matrix (4, 4) whose rows give the complex conjugates of four periods in terms of them.
 
     Raises NotCertifiedError if the periods are dependent, or the matrix is not integer within a tolerance.
     """
@@ -172,9 +176,9 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _real_first(conjugation: Whole) -> list[list[int]]:
-    """Return integer rows: a basis of the lattice whose first two rows span the real periods.
+    """Return four integer rows: a basis of the lattice whose first two rows span the real periods.
 
-    Raises NotCertifiedError unless there are two real periods.
+    ``conjugation`` is that of `_conjugation`. Raises NotCertifiedError unless there are two real periods.
     """
     rows = [
         [*(int(x) << RELATION_BITS for x in row), *(int(i == j) for j in range(4))]
@@ -190,7 +194,8 @@ def _real_first(conjugation: Whole) -> list[list[int]]:
 def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]:
     """Return integer weights (2, 2) of the two real periods that make them short and f1, f2 positive.
 
-    It is Gauss's reduction by Riemann's form zeta* (Im tau)^-1 zeta.
+    The first two of the four ``periods`` are the real ones; ``basis`` (4, 4) is symplectic, in integer rows. It is
+    Gauss's reduction by Riemann's form zeta* (Im tau)^-1 zeta; f1, f2 are the frequencies.
     """
     vectors = matrix_of(acb_mat(periods))[:, :2]
     a1, a2, _, _ = basis @ vectors
@@ -241,7 +246,10 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _symplectic(form: Whole) -> Whole:
-    """Return integer rows (a1, a2, b1, b2) in which an alternating form has type (1, 2) (Frobenius)."""
+    """Return integer rows (a1, a2, b1, b2), (4, 4), in which an alternating ``form`` (4, 4) has type (1, 2).
+
+    The method is that of Frobenius.
+    """
     rows, chosen = np.eye(4, dtype=int), list[tuple[Whole, Whole]]()
     while len(rows):
         E = rows @ form @ rows.T
@@ -266,7 +274,10 @@ def _symplectic(form: Whole) -> Whole:
 
 
 def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
-    """Return a symplectic basis (4, 4), integer rows, for which no single move makes det Im tau larger."""
+    """Return a symplectic basis (4, 4), integer rows, for which no single move makes det Im tau larger.
+
+    ``basis`` is the one to begin with, in terms of the four ``periods``; tau is the Riemann matrix.
+    """
     vectors = matrix_of(acb_mat(periods))[:, :2]
     if _riemann(vectors, basis)[0, 0].imag < 0:
         basis = basis * np.array([[1], [1], [-1], [-1]])
@@ -294,7 +305,7 @@ def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.comple
 def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
     """Return the symplectic ``basis`` (4, 4), integer rows in terms of the periods ``vectors``, with a small Im tau_12.
 
-    It is changed by at most MAX_REDUCTIONS single moves.
+    ``vectors`` (4, 2) are T_H and T_F. The basis is changed by at most MAX_REDUCTIONS single moves.
     """
     for _ in range(MAX_REDUCTIONS):
         Y = _riemann(vectors, basis).imag
@@ -311,7 +322,10 @@ def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
 
 
 def _shifted(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
-    """Return the symplectic basis with b1 and b2 shifted by a1 and a2 so that Re tau is small."""
+    """Return the symplectic basis (4, 4) with b1 and b2 shifted by a1 and a2 so that Re tau is small.
+
+    ``vectors`` (4, 2) are the periods' T_H and T_F, ``basis`` has integer rows.
+    """
     tau = _riemann(vectors, basis).real
     a1, a2, b1, b2 = basis
     x, y, z = round(tau[0, 0]), round(tau[0, 1] / 2), round(tau[1, 1] / 2)

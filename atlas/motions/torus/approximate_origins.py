@@ -40,7 +40,10 @@ class State:
 
 
 def origins(motion: Integrals) -> list[tuple[int, State]]:
-    """Return pairs (i, state): states with the integrals of a motion and M_i = K_i = 0, one for each symmetric four."""
+    """Return pairs (i, `State`): states with the integrals of a motion and M_i = K_i = 0, the smallest first.
+
+    There is one for each four that differ by signs only; N is []. i is 0, 1 or 2.
+    """
     states = list[tuple[int, State]]()
     I, D, b2, c = motion.moments, motion.D, motion.square, motion.c
     for i in range(3):
@@ -68,7 +71,8 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
 def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
     """Return Taylor coefficients, by time along the flow of H, of M, K and, if ``start`` has it, N.
 
-    They are nine or six lists, one for each component, of `TAYLOR_TERMS` + 1 numbers, the constant one first.
+    They are nine or six lists, one for each component, of `TAYLOR_TERMS` + 1 complex balls without radius, the
+    constant one first. ``moments`` are the principal moments of inertia.
     """
     rows = [[x] for x in start.components]
     A = [1 / I for I in moments]
@@ -91,14 +95,17 @@ def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
 
 
 def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
-    """Return the Cauchy product of two coefficient rows, sum of rows[x][n] back[y][n], where `back` is reversed."""
+    """Return the Cauchy product of coefficient rows x and y at their last index n, the sum over k of x_k y_(n-k).
+
+    ``back`` are the ``rows`` reversed.
+    """
     return sum(map(mul, rows[x], back[y]), acb(0))
 
 
 def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
     """Return `FIT_POINTS` pairs (t, `State`) of the flow of H from ``start``, complex times t on a circle about zero.
 
-    The circle's radius is a fixed fraction of that of the series' convergence, estimated from its last terms.
+    The circle's radius is a fixed fraction of the radius of convergence of the series, estimated from its last terms.
     """
     rows = series(moments, start)
     growth = max(
@@ -113,7 +120,10 @@ def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
 
 
 def fields(moments: Sequence[fmpq], state: Array) -> Array:
-    """Return the rates of M and K along the flows of H and of F/2, shape (..., 6, 2), for states (..., 6)."""
+    """Return the rates of M and K along the flows of H and of F/2, shape (..., 6, 2), for states (M, K) (..., 6).
+
+    ``moments`` are the three principal moments.
+    """
     I = np.array([int(x.p) / int(x.q) for x in moments])
     M, K = state[..., :3], state[..., 3:]
     J = -I.prod() / I

@@ -62,7 +62,10 @@ Array = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Integrals:
-    """The exact integrals of a motion, rationals: `moments`, H, F, c = (M, K) and `square` = K^2."""
+    """The exact integrals of a motion, rationals: `moments`, H, F, c = (M, K) and `square` = K^2.
+
+    H and F are those of theorem-clebsch, M = II (Omega + K).
+    """
 
     moments: tuple[fmpq, ...]
     H: fmpq
@@ -72,7 +75,7 @@ class Integrals:
 
     @classmethod
     def of_state(cls, moments: tuple[fmpq, ...], Omega: Sequence[fmpq], K: Sequence[fmpq]) -> Self:
-        """Return the integrals of a state Omega, K of a body with principal ``moments``, by theorem-clebsch."""
+        """Return the `Integrals` of a state Omega, K in the body, with principal ``moments``, by theorem-clebsch."""
         J = [moments[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
         H, F, c, square, _ = clebsch(*J, *Omega, *K)
         return cls(moments, H / 2, F, c, square)
@@ -85,7 +88,7 @@ class Integrals:
 
     @property
     def e2(self) -> fmpq:
-        """Sum of D/I_i over i, D = I1 I2 I3."""
+        """Sum of D/I_i over i, D = I1 I2 I3; that is I1 I2 + I1 I3 + I2 I3."""
         return sum((self.D / I for I in self.moments), fmpq(0))
 
     @property
@@ -105,7 +108,10 @@ class Integrals:
         return self.g * self.g - 4 * self.c * self.c * self.P if self.c else self.g
 
     def double_points(self) -> fmpq_poly:
-        """Return the polynomial whose roots are the z at which zeros of Psi coincide; constant if none do."""
+        """Return the polynomial whose roots are the z at which zeros of Psi coincide; constant if none do.
+
+        Psi is that of the module, g + 2 c v.
+        """
         twice = self.quartic.gcd(self.quartic.derivative())
         return twice if self.c else twice * self.g.gcd(self.P)
 
@@ -118,7 +124,10 @@ class Integrals:
 
 
 def real_periods(motion: Integrals) -> list[PeriodPair]:
-    """Return two approximate real periods (T_H, T_F), as short as can be; fewer where the paths are too long."""
+    """Return two approximate real periods (T_H, T_F), as short as can be, balls of radius 0 in the unit of time.
+
+    The list is shorter where integrals along paths do not generate two periods.
+    """
     with workprec(BITS):
         curve = Curve(motion)
         periods = [curve.along(*path) for path in curve.paths()]
@@ -127,10 +136,11 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
 
 
 class Curve:
-    """Zeros of Psi on the torus of u, and integrals along paths between them.
+    """Zeros of Psi on the torus of u, and integrals along paths between them; see the module for Psi, u and z.
 
-    `real` and `imaginary` are periods of z(u). If ``proven``, balls keep their radii, which grow; otherwise they are
-    replaced by their midpoints.
+    `real` and `imaginary` are periods of z(u), `zeros` the four zeros in the cell about 0, as complex balls. If
+    ``proven``, balls keep their radii, which grow; otherwise they are replaced by their midpoints. Raises
+    NotCertifiedError where the coefficients differ too much in size.
     """
 
     def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
@@ -148,12 +158,12 @@ class Curve:
         self.zeros = [self._place(z, v) for z, v in motion.zeros()]
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
-        """Return periods of the Weierstrass function as pairs (real, imaginary), up to `cells` cells each way."""
+        """Return periods of z(u) as pairs (real, imaginary) of complex balls, up to `cells` cells each way."""
         line = range(-cells, cells + 1)
         return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
 
     def at(self, u: acb) -> tuple[acb, acb]:
-        """Return z and v at u: z + D/I = (pi theta3 theta4 theta2(u)/theta1(u))^2 for the largest moment I.
+        """Return (z, v) at u, complex balls: z + D/I = (pi theta3 theta4 theta2(u)/theta1(u))^2, I the largest moment.
 
         There theta3 and theta4 stand for their values at zero; v is half the derivative of z.
         """
@@ -178,7 +188,7 @@ class Curve:
         return x if self.proven else centre(x)
 
     def paths(self, paths_per_zero: int = PATHS_PER_ZERO) -> list[tuple[acb, acb]]:
-        """Return straight paths (start, stop) between zeros, the most isolated first.
+        """Return straight paths (start, stop) between zeros, complex balls u, the most isolated paths first.
 
         At most `paths_per_zero` for each pair of zeros, and four times as many in all.
         """
@@ -199,7 +209,10 @@ class Curve:
         return [(start, stop) for _, start, stop in chosen[: 4 * paths_per_zero]]
 
     def distances(self, end: acb) -> Array:
-        """Return places of four zeros and the pole, each in 9 x 9 cells of periods, minus ``end``, shape (5, 81)."""
+        """Return places of four zeros and the pole, each in 9 x 9 cells of periods, minus ``end``, shape (5, 81).
+
+        A zero at ``end`` itself has exactly 0.
+        """
         sizes = float(self.real.mid()), float(self.imaginary.imag.mid())
         cells = np.arange(-ZERO_CELLS, ZERO_CELLS + 1)
         rows = []
@@ -212,11 +225,14 @@ class Curve:
         return np.array(rows)
 
     def _other_places(self, start: acb, stop: acb) -> tuple[Array, Array]:
-        """Return zeros and poles other than the ends of a path as fractions of it: from its start, from its stop."""
+        """Return zeros and poles other than the ends of a path as fractions of it: from its start, from its stop.
+
+        They are two complex arrays (n,), x and 1 - x.
+        """
         return _fractions(self.distances(start), self.distances(stop), complex_of(stop - start))
 
     def intervals(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
-        """Yield subintervals (low, high) of (0, 1) on a path whose ellipses hold no other zero or pole.
+        """Yield subintervals (low, high) of (0, 1) on a path whose ellipses hold no other zero or pole, in order.
 
         The unit is pi in s, u = start + (stop - start)(1 - cos s)/2. Raises NotCertifiedError where zeros are too
         close.
@@ -228,11 +244,11 @@ class Curve:
         return _intervals(starts[is_near], stops[is_near])
 
     def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
-        """Yield places s on a path, u = start + (stop - start)(1 - cos s)/2, and the weights of a rule in s.
+        """Yield pairs of balls: places s on a path, and the weights of a rule of integration in s from 0 to pi.
 
-        As sin s/eta is even and periodic in s, the rule of midpoints leaves out exp(-2 count rate), 2^-BITS. Where
-        another zero, or the pole of z, is so near that this takes more places, it is Gauss's on shorter parts: as many
-        as the distance has digits.
+        u = start + (stop - start)(1 - cos s)/2. As sin s/eta is even and periodic in s, the rule of midpoints
+        leaves out exp(-2 count rate), 2^-BITS. Where another zero, or the pole of z, is so near that this takes
+        more places, the rule is Gauss's on shorter parts: as many as the distance has digits.
         """
         intervals = list(self.intervals(start, stop))
         count = ceil(BITS * log(2) / (2 * _elliptic(*self._other_places(start, stop)).real.min()))
@@ -246,9 +262,10 @@ class Curve:
                 yield arb.pi() * low + half * (1 + x), half * weight
 
     def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
-        """Return -2i times the integrals of D, z and v du/eta along a path, three complex numbers: T_H, T_F, T_c.
+        """Return (T_H, T_F, T_c), -2i times the integrals of D, z and v du/eta along a path, as complex balls.
 
-        Raises NotCertifiedError where they lose all digits.
+        ``start`` and ``stop`` are zeros u; the balls have radius 0. The sign, which all three share, is arbitrary.
+        Raises NotCertifiedError where the integrals lose all digits.
         """
         way, g = stop - start, acb_poly(self.g)
         sum_D, sum_z, sum_v, before = acb(0), acb(0), acb(0), None
@@ -278,16 +295,16 @@ def _check_sizes(polynomial: fmpq_poly) -> None:
 
 @lru_cache(maxsize=4)
 def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
-    """Return nodes and weights of Gauss's rule on (-1, 1), from the left, in balls."""
+    """Return pairs (node, weight) of Gauss's rule on (-1, 1), from the left, balls of ``bits`` binary digits."""
     with workprec(bits):
         return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
 
 
 def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
-    """Yield subintervals of (0, 1) in order whose ellipses contain no singular point.
+    """Yield subintervals (low, high) of (0, 1) in order whose ellipses contain no singular point.
 
-    `starts` are the points as fractions from 0, `stops` as fractions from 1 backwards. Raises NotCertifiedError where
-    one is too near the path.
+    `starts` (n,) are the complex points as fractions from 0, `stops` as fractions from 1 backwards. Raises
+    NotCertifiedError where a point is too near the path.
     """
     if not starts.size:
         yield arb(0), arb(1)
@@ -299,7 +316,7 @@ def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
 
 
 def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
-    """Yield subintervals of (0, 1/2) in order whose ellipses contain none of the `places`.
+    """Yield subintervals (low, high) of (0, 1/2) in order whose ellipses contain none of the complex `places` (n,).
 
     Raises NotCertifiedError where one would be shorter than SHORTEST.
     """
@@ -319,7 +336,8 @@ def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
 def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
     """Return integer rows, weights of ``vectors``, whose sums generate all integer combinations of the vectors.
 
-    The relations are found by LLL; [] if a component is zero for all vectors.
+    ``vectors`` are rows of balls of equal length. The relations are found by LLL, not proved; [] if a component is
+    zero for all vectors, or there are none.
     """
     width = len(vectors[0]) if vectors else 0
     sizes = [max(abs(float(x[k].mid())) for x in vectors) for k in range(width)]
@@ -339,7 +357,7 @@ def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
 
 
 def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:
-    """Return integer combinations of vectors, one for each row of weights."""
+    """Return integer combinations of vectors, a list of lists, one for each row of weights."""
     return [
         [
             sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0])
@@ -360,7 +378,11 @@ def value(polynomial: fmpq_poly, z: acb) -> acb:
 
 
 def _fractions(from_start: Array, from_stop: Array, way: complex) -> tuple[Array, Array]:
-    """Return points other than the ends of a path as fractions of it: from its start, and from its stop backwards."""
+    """Return points other than the ends of a path as complex fractions of it: from its start, from its stop backwards.
+
+    ``from_start`` and ``from_stop`` are the points less the start and the stop, exactly 0 for an end; ``way`` is
+    stop less start.
+    """
     other_places = (from_start != 0) & (from_stop != 0)
     return from_start[other_places] / way, -from_stop[other_places] / way
 

@@ -40,8 +40,10 @@ ComplexPair = tuple[acb, acb]
 class ThetaMotion:
     """Theta functions of one motion: the forms `denominator`, `K`, `M` and `N`, and `start`, zeta at t = 0; not proved.
 
-    `l` and `w` are the quasi-periods of N, `misfit` the largest relative residual of the fits. If a ``neighbour`` is
-    given, the origin and the start nearest to its own are taken. Raises NotCertifiedError where they are not found.
+    ``motion`` are its integrals, ``W`` = Omega + K and ``K`` its state at t = 0 in the body, ``lattice`` its
+    periods. `l` and `w` are the quasi-periods of N, `misfit` the largest relative residual of the fits. If a
+    ``neighbour`` is given, the origin and the start nearest to its own are taken. Raises NotCertifiedError where
+    they are not found.
     """
 
     def __init__(
@@ -72,13 +74,19 @@ class ThetaMotion:
 
     @property
     def forms(self) -> list[Form]:
-        """Ten forms in (2 zeta_1, zeta_2): three of N without exp(i l (zeta - start)), the denominator, K and M."""
+        """List of ten `Form` in (2 zeta_1, zeta_2): N without exp(i l (zeta - start)), the denominator, K and M.
+
+        Vectors have three forms each, in the order N, denominator, K, M.
+        """
         shift = 2 * self.w[0], self.w[1]
         N = [Form(x.place, x.weights, shift) for x in self.N]
         return [*N, self.denominator, *self.K, *self.M]
 
     def zeta(self, T: Sequence[acb]) -> Vector:
-        """Return the arguments zeta = X^-1 T of the theta functions, from the times T = (T_H, T_F)."""
+        """Return the arguments zeta = X^-1 T of the theta functions, two complex balls, from the times T = (T_H, T_F).
+
+        T counts from the origin.
+        """
         zeta = self.X.solve(acb_mat([[T[0]], [T[1]]]))
         return [centre(zeta[0, 0]), centre(zeta[1, 0])]
 
@@ -123,9 +131,9 @@ class ThetaMotion:
         return denominator, forms[3:], forms[:3]
 
     def _form(self, pairs: list[list[ComplexPair]], values: Vector, places: Sequence[int]) -> Form:
-        """Return the form, of a place among ``places``, that fits ``values`` best.
+        """Return the `Form`, of a place among ``places``, whose values fit ``values`` best.
 
-        ``pairs`` are the theta functions at the same points. Raises NotCertifiedError for a residual above
+        ``pairs`` are the theta functions at the same points, see `pairs`. Raises NotCertifiedError for a residual above
         `MAX_RESIDUAL`.
         """
         tried = list[tuple[float, Form]]()
@@ -139,7 +147,7 @@ class ThetaMotion:
         return form
 
     def _place(self) -> Vector:
-        """Return zeta at the start, by Newton's method from the nearest points of a grid.
+        """Return zeta at the start, two complex balls, by Newton's method from the nearest points of a grid.
 
         Conjugation takes origins to origins, which are half a period apart: so the imaginary part of the times between
         them and the start is a fourth of that of a period. Raises NotCertifiedError where the start is not found.
@@ -162,9 +170,10 @@ class ThetaMotion:
         return np.asarray(matrix_of(self.X) @ [complex_of(x) for x in self.start])
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
-        """Return zeta at the start to all digits, by Newton's method from times T; less an even period if `reduced`.
+        """Return zeta at the start to all digits, two complex balls, by Newton's method from times T (2,).
 
-        Raises NotCertifiedError where the method does not converge.
+        If `reduced`, an even period is subtracted, see `_near_real`. Raises NotCertifiedError where the method does not
+        converge.
         """
         rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.components[:6]]))
         i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
@@ -191,7 +200,7 @@ class ThetaMotion:
         return zeta
 
     def _near_real(self, zeta: Vector) -> Vector:
-        """Return zeta less the even period of hat that brings it nearest to real times: all forms get one factor."""
+        """Return zeta less the even period of `hat` that brings it nearest to real times: all forms get one factor."""
         Y = matrix_of(self.hat).imag
         v = [2 * zeta[0], zeta[1]]
         m, n = (2 * round(float(x) / 2) for x in np.linalg.solve(Y, [complex_of(x).imag for x in v]))
@@ -199,7 +208,10 @@ class ThetaMotion:
         return [centre(first_component / 2), centre(second)]
 
     def _quasi_periods(self) -> tuple[Vector, Vector]:
-        """Return the characteristics l and w: N gets the factor exp(-i b T_c) under a period, up to whole turns."""
+        """Return the characteristics (l, w) of N, two complex balls each.
+
+        Under a period N gets the factor exp(-i b T_c), and l and w are determined up to whole turns.
+        """
         b = arb(self.motion.square).sqrt()
         angles = [-b * T[2] for T in (*self.lattice.a, *self.lattice.b)]
         tau, Y = self.tau, matrix_of(self.tau).imag
@@ -230,7 +242,7 @@ class ThetaMotion:
 
 
 def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, State]]) -> tuple[int, State]:
-    """Return the pair (axis, state) nearest to ``reference``, among ``states`` and their changes of sign.
+    """Return the pair (axis, `State`) nearest to ``reference``, among ``states`` and their changes of sign.
 
     Only states with the axis of the reference count.
     """
@@ -248,7 +260,7 @@ def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, St
 
 
 class Rough:
-    """M and K from the theta functions in doubles, at arrays of complex times."""
+    """M and K of a `ThetaMotion` from its theta functions in doubles, at arrays of complex times."""
 
     def __init__(self, motion: ThetaMotion) -> None:
         self.moments = motion.motion.moments
@@ -260,7 +272,10 @@ class Rough:
         self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), region)
 
     def states(self, times: Array) -> Array:
-        """Return M and K at pairs of complex times (m, 2), shape (m, 6); not finite where theta functions overflow."""
+        """Return M and K at pairs of complex times (T_H, T_F), (m, 2), from the origin: complex, shape (m, 6).
+
+        They are not finite where theta functions overflow.
+        """
         v = times @ self.to_arguments.T
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
@@ -269,7 +284,10 @@ class Rough:
             return np.asarray((np.array(values) / D).T)
 
     def times_near(self, times: Array, target: Array) -> Array | None:
-        """Return the times (2,) of the `target` state, by Newton's method from several starts; None if all fail."""
+        """Return the complex times (2,) of the `target` state (6,), by Newton's method from several starts (m, 2).
+
+        None if all starts fail.
+        """
         size, before = float(np.linalg.norm(target)), np.inf
         for _ in range(NEWTON_STEPS):
             states = self.states(times)
@@ -296,7 +314,7 @@ def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
 
 
 def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
-    """Return (least-squares solution of rows x = values, largest residual over the largest value)."""
+    """Return (least-squares solution x of rows x = values, a list; largest residual over the largest value)."""
     A, B = acb_mat(rows), acb_mat([[x] for x in values])
     adjoint = A.transpose().conjugate()
     solution = (adjoint * A).solve(adjoint * B)
@@ -307,7 +325,10 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
 
 
 def _null(rows: list[Vector]) -> tuple[Vector, float]:
-    """Return (vector orthogonal to all rows, residual); component 0 or 1, whichever fits better, is 1."""
+    """Return (vector orthogonal to all rows, residual) in the sense of least squares.
+
+    Component 0 or 1 of the vector, whichever fits better, is 1; the residual is over the largest value.
+    """
     vectors = list[tuple[float, Vector]]()
     for k in range(2):
         columns = [n for n in range(len(rows[0])) if n != k]

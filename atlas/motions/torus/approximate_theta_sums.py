@@ -51,7 +51,10 @@ Words: TypeAlias = tuple[list[int], FloatArray, FloatArray]
 
 @dataclass(frozen=True)
 class Form:
-    """n0 theta[0,e;0,d] + n1 theta[1,e;0,d] of v - shift, by the place of (e, d) among CHARACTERISTICS."""
+    """n0 theta[0,e;0,d] + n1 theta[1,e;0,d] of v - shift, a function of the complex pair v.
+
+    `place` is the index of (e, d) in CHARACTERISTICS, `weights` are (n0, n1), and `shift` is subtracted from v.
+    """
 
     place: int
     weights: tuple[acb, acb]
@@ -63,13 +66,17 @@ class Form:
         return n0 * at_zero + n1 * second
 
     def over(self, x: Any) -> "Form":
-        """Return the form divided by a number."""
+        """Return the form with its weights divided by x."""
         n0, n1 = self.weights
         return Form(self.place, (n0 / x, n1 / x), self.shift)
 
 
 def weights_at(forms: Sequence[Form], hat: acb_mat, origin: Sequence[acb], place: tuple[int, int]) -> list[acb]:
-    """Return for each form the coefficient of exp(i pi (P u_1 + Q u_2)) at v = origin + u, for ``place`` (P, Q)."""
+    """Return for each form the coefficient of exp(i pi (P u_1 + Q u_2)) at v = origin + u, for ``place`` (P, Q).
+
+    The list has one complex ball per form; ``hat`` (2, 2) is the matrix of the theta functions. A coefficient is
+    zero where Q has not the parity of the form's e.
+    """
     P, Q = place
     square = hat[0, 0] * (P * P) + 2 * hat[0, 1] * (P * Q) + hat[1, 1] * (Q * Q)
     shift, power, weights = None, acb(0), list[acb]()
@@ -83,10 +90,11 @@ def weights_at(forms: Sequence[Form], hat: acb_mat, origin: Sequence[acb], place
 
 
 class Sums:
-    """Forms at v = origin + x/pi, as functions of x (2, m) in doubles, over a common exponential.
+    """Forms at v = origin + x/pi, as functions of complex x (2, m) in doubles, over a common exponential.
 
-    `table` (forms, P, Q) are their weights; `region`, places x, tells which of them matter. The Q of a form are all
-    even or all odd, counted from the middle of the table: so forms of each parity are summed over half of them.
+    `table` (forms, P, Q) are their weights; `region` (2, n), places x, tells which of them matter. ``hat`` (2, 2)
+    is the matrix of the theta functions. The Q of a form are all even or all odd, counted from the middle of the
+    table: so forms of each parity are summed over half of them.
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
@@ -116,10 +124,10 @@ class Sums:
         self._words = dict[tuple[int, int], list[Words]]()
 
     def at(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
-        """Return the chosen forms at x + low_words (2, m): shape (forms, m). Low words are below an ulp.
+        """Return the chosen forms at x + low_words (2, m): complex, shape (forms, m). Low words are below an ulp.
 
-        The sum over Q is that of the upper words of weights and powers, exact, plus that of the lower words. The sum
-        over P is Horner's rule from both ends.
+        ``chosen_rows`` is a slice of the forms. The sum over Q is that of the upper words of weights and powers,
+        exact, plus that of the lower words. The sum over P is Horner's rule from both ends.
         """
         w = wave(x, low_words)
         w = np.concatenate([w, w[1:] * w[1:]])
@@ -145,7 +153,7 @@ class Sums:
         return values
 
     def at_one(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
-        """Return the chosen forms (forms,) at one place x + low_words (2,), by the operations of `at`."""
+        """Return the chosen forms, complex (forms,), at one place x + low_words (2,), by the operations of `at`."""
         w_1, w_2 = wave(x, low_words).tolist()
         square, inverse_1 = w_2 * w_2, inverse(w_1)
         powers = np.empty((2, 2, self.sizes.shape[1] // 4, 2), np.complex128)
@@ -186,9 +194,10 @@ class Sums:
         return words
 
     def words(self, rows: slice) -> list[Words]:
-        """Return `Words` for the even and for the odd powers: (indices of forms, upper weights, lower weights).
+        """Return two `Words`, for the even and for the odd powers: (indices of forms, upper weights, lower weights).
 
-        Upper weights multiply upper words of powers, lower weights the powers and their lower words. Cached.
+        ``rows`` is a slice of the forms. Upper weights multiply upper words of powers, lower weights the powers and
+        their lower words. Cached.
         """
         key = rows.start or 0, rows.stop or len(self.table)
         if key not in self._words:
@@ -214,10 +223,11 @@ class Sums:
 
     @property
     def steps(self) -> FloatArray:
-        """Units of 2^-53 by which each term is wrong relative to itself, sums included, (P, Q).
+        """Bounds, in units of 2^-53, on the error of each term relative to itself, sums included, (P, Q).
 
-        That is, if w_1 were exact, and w_2 the root of its square in doubles, by which the odd powers differ from
-        those of w_2 by half a product: by weights with the sum over Q, by powers, and by products and sums over P.
+        They hold if w_1 = exp(i x_1) were exact, and w_2 the root of its square in doubles, by which the odd powers
+        differ from those of w_2 by half a product. They count the weights with the sum over Q, the powers, and
+        products and sums over P.
         """
         n, k, odd = abs(self.P), abs(self.Q) // 2, abs(self.Q) % 2
         steps_of_P = n * (PRODUCT + 1) + n * ROUNDED * (self.P < 0) + 2
@@ -256,7 +266,7 @@ def two_sum(x: Any, y: Any) -> tuple[Any, Any]:
 
 
 def _halves(w: Any) -> tuple[Any, Any]:
-    """Return upper and lower halves of 26 digits each, by Veltkamp: products of upper halves are exact."""
+    """Return upper and lower halves of w, 26 digits each, by Veltkamp: products of upper halves are exact."""
     t = w * SPLITTER
     upper = t - (t - w)
     return upper, w - upper
@@ -267,7 +277,8 @@ def places_that_matter(
 ) -> NDArray[np.int64]:
     """Return integer places (P, Q), shape (k, 2), of the terms that matter at v = origin + x/pi, x (2, m) in a region.
 
-    ``left_out`` is the logarithm of the ratio of the largest term to the omitted ones.
+    ``hat`` is the matrix of the theta functions. ``left_out`` is the logarithm of the ratio of the largest term to the
+    omitted ones.
     """
     Y, shifts = matrix_of(hat).imag, np.array([[complex_of(x) for x in form.shift] for form in forms])
     v0 = np.array([complex_of(x) for x in origin])

@@ -50,8 +50,9 @@ GUARD_BITS = 48
 class OnTorus:
     """A certified motion on its torus, or on a closed curve where the torus degenerates.
 
-    Moments, field and times are divided by powers of two that make the largest of them near one; `rate` is that of
-    1/time.
+    It is made of moments (three different ones), Omega and K along the principal axes at t = 0. Moments, field and
+    times are divided by powers of two that make the largest of them near one; `rate` is the one of 1/time. `torus`
+    has the periods and the flows.
     """
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
@@ -85,7 +86,10 @@ class OnTorus:
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
-        """Return this motion as an `EllipticMotion` with a rational z, if it is one, otherwise None."""
+        """Return this motion as an `EllipticMotion` with a rational z, if it is one, otherwise None.
+
+        Its field is in the given unit, its moments are divided by the power of two.
+        """
         z_polynomial, (W, K) = self.torus.integrals.double_points(), (self.torus.W, self.field)
         M = [I * w for I, w in zip(self.moments, W, strict=True)]
         D = self.moments[0] * self.moments[1] * self.moments[2]
@@ -114,8 +118,8 @@ class OnTorus:
     def follow(self, times: Iterable[fmpq]) -> None:
         """Cache the states at times that only Taylor's series reaches, along one path in each direction of time.
 
-        At most `STATE_CACHE_SIZE` are cached; where the errors exceed their bounds, the other times are left to
-        `state`.
+        ``times`` are rationals in the given unit. At most `STATE_CACHE_SIZE` are cached; where the errors exceed
+        their bounds, the other times are left to `state`.
         """
         ascending = sorted({t * self.rate for t in times} - {t for t, _ in self._arrived}, key=abs)
         if len(self._arrived) + len(ascending) > STATE_CACHE_SIZE:
@@ -133,12 +137,18 @@ class OnTorus:
                 continue
 
     def _turn(self, t: fmpq) -> arb:
-        """Return the angle -|B'| t of Larmor's frame, a rotation about the field applied before the others, in rad."""
+        """Return the total angle -|B'| t in rad, a ball, of Larmor's frame, which rotates about the field.
+
+        t is in units of 1/`rate`.
+        """
         with workprec(ctx.prec + GUARD_BITS + _digits_before_point(t)):
             return -t * self.b
 
     def _without_periods(self, t: fmpq) -> str:
-        """Return the reason for which periods do not reduce time t, as a clause; "" if they do."""
+        """Return the reason for which periods do not reduce time t, as a clause; "" if they do.
+
+        t is in units of 1/`rate`.
+        """
         if not self.is_regular:
             return "the motion is one where two periods of its torus fall together"
         if abs(t) > MAX_FLOW_TIME:
@@ -167,9 +177,9 @@ class OnTorus:
             return arrival, n * r1.angle + m * r2.angle + turn
 
     def _directly(self, t: fmpq, why: str) -> Arrival:
-        """Return the state at t by Taylor's series from 0.
+        """Return the `Arrival` at t, in units of 1/`rate`, by Taylor's series from 0.
 
-        Raises NotCertifiedError, with the reason ``why``, beyond `MAX_FLOW_TIME`.
+        Raises NotCertifiedError, with the reason ``why`` there are no periods, beyond `MAX_FLOW_TIME`.
         """
         if abs(t) > MAX_FLOW_TIME:
             raise NotCertifiedError(
@@ -179,9 +189,9 @@ class OnTorus:
         return self._along_series(t, ctx.prec + 2 * GUARD_BITS)
 
     def _along_series(self, t: fmpq, bits: int) -> Arrival:
-        """Return the state at t by Taylor's series at ``bits`` binary digits, doubled as long as errors grow too much.
+        """Return the `Arrival` at t by Taylor's series, with ``bits`` doubled as long as errors grow too much.
 
-        Raises GrowthError beyond `MAX_GROWTH_PRECISION`.
+        t is in units of 1/`rate`. Raises GrowthError beyond `MAX_GROWTH_PRECISION`.
         """
         while True:
             try:
@@ -192,7 +202,7 @@ class OnTorus:
                 bits *= 2
 
     def _displaced(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
-        """Return a state after the flow of H for the tiny time H and that of F/2 for the tiny time F.
+        """Return an `Arrival` after the flow of H for the tiny time H and that of F/2 for the tiny time F, both balls.
 
         Raises NotCertifiedError unless the state moves by less than 2^-16.
         """
@@ -206,10 +216,11 @@ class OnTorus:
         return Arrival(state[:3], state[3:], rotated(arrival.q, V))
 
     def _series_at_zero(self, t: Any) -> list[list[arb]] | None:
-        """Return Omega, K and the three rows of R by the Taylor series about t = 0; None for |t| beyond NEAR.
+        """Return five lists of three balls, Omega, K and the rows of R, by the Taylor series about t = 0.
 
-        With W = Omega + K, W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k), and x' = [x, Omega] of K and of each row of R.
-        Since I_j - I_k < I_i, with s the largest |W_i| or |K_i|, |W_n|, |K_n| <= s (2s)^n and |R_n| <= (n+1) (2s)^n.
+        None where |t| `rate` is beyond NEAR; Omega and K are in units of `rate`, t in the given unit. With W =
+        Omega + K, W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k), and x' = [x, Omega] of K and of each row of R. Since
+        I_j - I_k < I_i, with s the largest |W_i| or |K_i|, |W_n|, |K_n| <= s (2s)^n and |R_n| <= (n+1) (2s)^n.
         """
         t = rational(t, "the time") * self.rate
         if not abs(t) <= NEAR:
@@ -273,8 +284,9 @@ def _digits_before_point(t: fmpq) -> int:
 class AsymmetricMotion:
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3), from omega.
 
-    `kind` says which case it is, decided on the exact inputs. Values are computed anew at the precision of the moment,
-    see `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for values that cannot be enclosed.
+    The field (1/time) and omega (rad/time) are along the principal axes at t = 0. `kind` says which case it is,
+    decided on the exact inputs. Values are computed anew at the precision of the moment, see
+    `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for values that cannot be enclosed.
     """
 
     def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
@@ -302,14 +314,18 @@ class AsymmetricMotion:
 
     @property
     def on_torus(self) -> OnTorus | None:
-        """Constants of a motion of kind "on a torus", in units that make them near one; None for other kinds."""
+        """The `OnTorus` of a motion of kind "on a torus", in units that make its constants near one.
+
+        None for other kinds.
+        """
         return self._motion if isinstance(self._motion, OnTorus) and self._motion.is_regular else None
 
     @property
     def elliptic(self) -> EllipticMotion | None:
-        """The motion in Jacobi's functions with this attitude; None where there is none.
+        """The `EllipticMotion` with this attitude; None where there is none.
 
-        For a free body, and for a spin about a principal axis, it is Euler's top: angular momentum in place of a field.
+        For a free body, and for a spin about a principal axis, it is an `EulerTop`, with the angular momentum in
+        place of a field.
         """
         if isinstance(self._motion, EllipticMotion):
             return self._motion
@@ -364,9 +380,9 @@ class AsymmetricMotion:
 
     @property
     def precession_rate(self) -> Real:
-        """Mean angular velocity about the momentum of a free body, or about B, in rad/time.
+        """Mean angular velocity about the momentum of a free body, or about B, in rad/time, a ball or a rational.
 
-        It is that of the body's axis about which the momentum, or K, goes. Raises DomainError for motions without a
+        It is the rate of the body's axis about which the momentum, or K, goes. Raises DomainError for motions without a
         period.
         """
         return self._nutating.precession_rate
@@ -375,7 +391,7 @@ class AsymmetricMotion:
     def spin_rate(self) -> Real:
         """Mean angular velocity of the body about its axis around which the momentum, or K, goes, in rad/time.
 
-        Raises DomainError for motions without a period.
+        It is a ball or a rational. Raises DomainError for motions without a period.
         """
         return self._nutating.spin_rate
 
@@ -392,7 +408,7 @@ class AsymmetricMotion:
 
     @property
     def frequencies(self) -> list[Real]:
-        """Angular frequencies (f1, f2, f3) of a motion on a torus, of a free body or of an elliptic motion.
+        """Angular frequencies [f1, f2, f3] in rad/time of a motion on a torus, of a free body or of an elliptic motion.
 
         M and K turn with f1 and f2, and R with f3 about B besides. On a torus it is a convention which basis f1, f2
         are, and f3 is one but for integer multiples of them: in a period the body turns by at most half a turn about B

@@ -57,9 +57,10 @@ ELLIPSE_BALLS, MIN_TURN_PART = 64, 2.0**-12
 
 
 def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
-    """Return, for each of the cycles a1, a2, b1, b2, the integrals [T_H, T_F, T_c, S] as balls.
+    """Return, for each of the cycles a1, a2, b1, b2, the integrals [T_H, T_F, T_c, S] as complex balls.
 
-    S is the action and dS = T_H dH + T_F d(F/2) + T_c dc. Raises NotCertifiedError where an integral is not proved.
+    S, the integral of eta du, is 2 pi times an action, and dS = T_H dH + T_F d(F/2) + T_c dc. Which paths make a
+    cycle is taken from the ``lattice``, unproved. Raises NotCertifiedError where an integral is not proved.
     """
     with workprec(int(ctx.prec) + GUARD_BITS):
         curve, rough = Curve(motion, proven=True), Curve(motion)
@@ -71,7 +72,7 @@ def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
 
 
 def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
-    """Return the Riemann matrix tau (2, 2) of a basis of cycles, see `cycles`.
+    """Return the Riemann matrix tau (2, 2), complex balls, of a basis of cycles a1, a2, b1, b2, see `cycles`.
 
     Raises NotCertifiedError where the periods have too few digits.
     """
@@ -83,11 +84,11 @@ def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
 
 
 def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
-    """Return the action of a real period of the torus as a ball, from the integrals over a ``basis`` of cycles.
+    """Return the action of a real period of the torus, a ball in inertia/time, from a ``basis`` of cycles.
 
-    ``c`` is (M, K), ``b`` the length of the field. Cycles that go otherwise round the pole of eta du, where its residue
-    is c/b, turn by n whole turns more about the field, and have n c/b more: T_c tells n. Raises NotCertifiedError where
-    it is not certain which cycle the period is.
+    For the basis see `cycles`. ``c`` is (M, K), ``b`` the length of the field. Cycles that go otherwise round the
+    pole of eta du, where its residue is c/b, turn by n whole turns more about the field, and have n c/b more: T_c
+    tells n. Raises NotCertifiedError where it is not certain which cycle the period is.
     """
     places = np.array([[f(complex_of(x)) for x in row[:2] for f in (np.real, np.imag)] for row in basis])
     times = np.array([float(period.H.mid()), 0.0, float(period.F.mid()), 0.0])
@@ -107,10 +108,11 @@ def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
 
 
 def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> list[acb]:
-    """Return four balls: -2i times the integrals of (D, z, v) du/eta and eta du between the zeros next to two places.
+    """Return four complex balls: -2i times the integrals of (D, z, v) du/eta and eta du between two zeros.
 
-    Their sign is that for which the first is nearer to ``like`` than to its negative. Raises NotCertifiedError where an
-    integrand has no bound.
+    The zeros are those next to the places ``start`` and ``stop``; ``rough`` is the same curve without radii. The
+    sign of all four is the one for which the first is nearer to ``like`` than to its negative. Raises
+    NotCertifiedError where an integrand has no bound.
     """
     start_zero, stop_zero, D, c = _zero_at(curve, start), _zero_at(curve, stop), curve.motion.D, curve.motion.c
     g, dg, dP = curve.g, curve.g.derivative(), curve.motion.P.derivative()
@@ -155,15 +157,18 @@ def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> 
 
 
 def _root(square: acb) -> acb:
-    """Return a square root, continuous across the negative real axis, where the library has its cut."""
+    """Return a square root of a complex ball, continuous across the negative real axis.
+
+    There the library's root has its cut; the cut of this one is elsewhere.
+    """
     return square.sqrt() if square.real > 0 else acb(0, 1) * (-square).sqrt()
 
 
 def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX_HALVINGS) -> acb:
-    """Return the root of r^2 at `to`, a ball, continued along the straight path from its value `root` at `place`.
+    """Return the root r of r^2 at `to`, a complex ball, continued along the straight path from its value at `place`.
 
-    ``forms`` returns (numerators, r^2) at a place. Raises NotCertifiedError where the root changes too fast for so many
-    ``halvings`` of the path.
+    ``root`` is that value, and ``forms`` returns (numerators, r^2) at a place. Raises NotCertifiedError where the root
+    changes too fast for so many ``halvings`` of the path.
     """
     here = forms(place)[1]
     if (forms(place.union(to))[1] / here).real > 0:
@@ -181,9 +186,10 @@ def _zero_at(curve: Curve, place: acb) -> acb:
 
 
 def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
-    """Return bounds on the four forms divided by r on the ellipse about an interval of a path, a list of balls.
+    """Return bounds on the four forms divided by r on the ellipse about an interval of a path, a list of four balls.
 
-    ``middle`` and ``half`` are the interval's midpoint and half its length. None if r may be zero there.
+    ``forms`` returns (numerators, r^2); ``middle`` and ``half`` are the interval's midpoint and half its length.
+    None if r may be zero there.
     """
     most, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2

@@ -81,8 +81,9 @@ Place = tuple[int, int]
 def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
     """Return proven bounds (3,) on |M|, |K| and |N| of theta functions minus motion, at all phases of a cell.
 
-    The cell reaches from -HALF_TURN to HALF_TURN of both periods, from the start. Where errors might grow too much on
-    the way from there, the way begins at the nearest of 4, 9 or 25 other states, to which Taylor's series goes. Raises
+    ``periods`` are the two proven ones of ``torus``, and all is in its scaled units. The cell reaches from
+    -HALF_TURN to HALF_TURN of both periods, from the start. Where errors might grow too much on the way from there,
+    the way begins at the nearest of 4, 9 or 25 other states, to which Taylor's series goes. Raises
     NotCertifiedError where there is no bound.
     """
     _check_characteristics(theta)
@@ -110,7 +111,8 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
 def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Sequence[Period]) -> Floats:
     """Return proven bounds (3,) on the error of M, K and N, at all phases, by rounding the proved periods.
 
-    Raises NotCertifiedError for an error beyond `MAX_DISTANCE`.
+    ``rounded_periods`` are used in the place of ``periods``; phases reach to `TURNS` turns. Raises
+    NotCertifiedError for an error beyond `MAX_DISTANCE`.
     """
     with workprec(BITS + SPARE_BITS):
         arc, turn = np.zeros(3), 2 * arb.pi()
@@ -125,7 +127,11 @@ def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Seque
 
 
 class Cell:
-    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF_TURN, and their remainders."""
+    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF_TURN, and their remainders.
+
+    x (2,) are the phases, in turns, of both ``periods``; `forms` are the ten of D, K, M, N, and `to_v` (2, 2) takes
+    phases to pi v.
+    """
 
     def __init__(self, theta: ThetaMotion, periods: Sequence[Period]) -> None:
         self.theta, inverse = theta, theta.X.inv()
@@ -192,7 +198,8 @@ class Cell:
     def _defects(self) -> tuple[Floats, Floats, Floats]:
         """Return places S (n, 2), logarithms of coefficient bounds there (n, 6), and of the bounds on all others (6,).
 
-        The six columns are M, K and N along each of the two flows; the last array bounds sums anywhere in the cell.
+        The six columns are M, K and N along the flow of H, then along that of F/2; the last array bounds sums
+        anywhere in the cell.
         """
         low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
         sizes_found, beyond, divisions = [], [], np.array([0.0, 0.0, 0.5] * 2)
@@ -216,29 +223,35 @@ class Cell:
         return np.concatenate([x for x, _ in sizes_found]), np.concatenate([x for _, x in sizes_found]), all_beyond
 
     def _peaks(self, height: float) -> Floats:
-        """Return the places (4, 2), real numbers, of the largest term of a form at the corners of the cell."""
+        """Return the places (4, 2), real numbers, of the largest term of a form at the corners of the cell.
+
+        ``height`` is the part of the form's shift that counts: 0 for D, K and M, 1/2 for products with N.
+        """
         return np.asarray(-2 * np.linalg.solve(self.Y, self._heights(height)).T)
 
     def _heights(self, height: float) -> Floats:
-        """Return Im v (2, 4) at the corners of the cell, less ``height`` times the imaginary shift."""
+        """Return Im v (2, 4) at the corners of the cell, less ``height`` times the imaginary part of the shift of N."""
         return np.asarray(self._imaginary(height)[:, None] + self.corners.imag / np.pi)
 
     def _highest(self, height: float) -> float:
         """Return the logarithm of the maximum of |exp(i pi (n hat n/4 + n v))| over real n and v in the cell.
 
-        It is pi (y, Y^-1 y), y = Im v, but for the power of the middle, which is taken out: convex, so largest in a
-        corner.
+        v is less ``height`` times the shift of N. It is pi (y, Y^-1 y), y = Im v, but for the power of the middle,
+        which is taken out: convex, so largest in a corner.
         """
         y = self._heights(height)
         quadratic = np.pi * np.einsum("ik,ik->k", y, np.linalg.solve(self.Y, y))
         return float(np.max(quadratic + self.middle @ self.corners.imag))
 
     def _imaginary(self, height: float) -> Floats:
-        """Return Im(origin - height shift), shape (2,)."""
+        """Return Im(origin - height shift), shape (2,), shift that of N."""
         return np.array([complex_of(v - height * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
 
     def _size(self, S: Floats, height: float) -> Floats:
-        """Return log |g_S|, the logarithm of the magnitude of the coefficient at places S (..., 2), shape (...)."""
+        """Return log |g_S| of the module, the logarithm of a coefficient's size, at places S (..., 2): shape (...).
+
+        The shift of N counts by the part ``height``.
+        """
         square = np.einsum("...i,ij,...j->...", S, self.Y, S)
         return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(height)))
 
@@ -268,9 +281,10 @@ class Cell:
                 yield [x - sum(less, acb(0)) for x, *less in zip(changes, *divisions, strict=True)]
 
     def _products(self, S: tuple[int, ...]) -> list[acb_mat]:
-        """Return three matrices of coefficients at S, of products of any two functions f and g.
+        """Return three matrices (10, 7) of coefficients at S, of products of two forms f (row) and g (column).
 
-        They are those of f g, of f' g - f g' along the flow of H, and of the same along that of F/2.
+        They are those of f g, of f' g - f g' along the flow of H, and of the same along that of F/2. Rows are D, K,
+        M, N, columns D, K, M.
         """
         places = self._places(np.array(S) / 2)
         lefts = list(zip(*(self._terms(place) for place in places), strict=True))
@@ -282,12 +296,12 @@ class Cell:
         return products
 
     def _places(self, middle: Floats) -> list[Place]:
-        """Return indices (P, Q) of the terms that are not negligible, near ``middle`` or near ``middle`` + `away`."""
+        """Return indices (P, Q) of the terms that are not negligible, near ``middle`` (2,) or that plus `away`."""
         near_places = places_near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
         return [(int(P), int(Q)) for P, Q in near_places]
 
     def _left_out(self, S: Floats, height: float) -> float:
-        """Return a bound on the contribution of omitted terms to a coefficient at S.
+        """Return a bound on the contribution of omitted terms to a coefficient at S (2,), ``height`` as in `_size`.
 
         Beyond LEFT_OUT a sum of exp(-q), q = pi/2 (p, Y p), is one of exp(-q/10) times exp(-9/10 LEFT_OUT); a tenth of
         that goes for the factor p of a rate.
@@ -317,8 +331,9 @@ def _check_characteristics(theta: ThetaMotion) -> None:
 def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
     """Return integer points n (k, 2), at least those with (n - p, Y (n - p)) < ``most`` for a p in a parallelogram.
 
-    Its corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). They are the points near a net of points of it,
-    from one of which no other point is farther than half the diagonal of a mesh.
+    Y (2, 2) is positive. The corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). The result holds the
+    points near a net of points of the parallelogram, from one of which none of its points is farther than half the
+    diagonal of a mesh.
     """
     sides = corners[2] - corners[0], corners[1] - corners[0]
     lengths = [float(np.sqrt(side @ Y @ side)) for side in sides]
@@ -332,14 +347,17 @@ def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
 def _beyond(arc: float, narrow: float) -> float:
     """Return a bound on the sum of exp(-q(n - p)) over integer points n with q >= ``arc``, for any p.
 
-    q(n) >= ``narrow`` n^2. The bound is exp(-9/10 arc) times the sum of exp(-q/10), a square of a sum over a line,
-    which is below its largest term and the integral.
+    q is a quadratic form of two variables, q(n) >= ``narrow`` n^2. The bound is exp(-9/10 arc) times the sum of
+    exp(-q/10), a square of a sum over a line, which is below its largest term and the integral.
     """
     return float(np.exp(-0.9 * arc) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
 
 
 def _deviation(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
-    """Return bounds (3,) on the distances of M, K and N of theta functions from the motion after flow times (H, F)."""
+    """Return bounds (3,) on the distances of M, K and N of theta functions from the motion after flow times (H, F).
+
+    The times (2,) count from the start; the motion goes there by the Taylor series of ``torus``.
+    """
     H, F = map(rational, times.tolist())
     way = theta.zeta([acb(H), acb(F)])
     zeta = [x + y for x, y in zip(way, theta.start, strict=True)]
@@ -362,7 +380,10 @@ def _deviation(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
 
 
 def _sizes(theta: ThetaMotion) -> Floats:
-    """Return bounds (3,) on |M|, |K| and |N|, from |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment."""
+    """Return bounds (3,) on |M|, |K| and |N|, both of the motion and of theta functions near it.
+
+    |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment, and |N|^2 = 2.
+    """
     motion = theta.motion
     K, most = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
     M = np.sqrt(float(arb(motion.F).upper()) + most * K * K)
@@ -384,7 +405,7 @@ def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
 
 
 def _exponential(growth: Floats) -> Floats:
-    """Return the exponential of a matrix (3, 3) with elements >= 0, by Taylor's series and squaring."""
+    """Return the exponential of a matrix (3, 3) with elements >= 0, by Taylor's series and squaring, in doubles."""
     halvings = max(0, int(np.ceil(np.log2(growth.sum())))) if growth.any() else 0
     term = total = np.eye(3)
     for n in range(1, 30):

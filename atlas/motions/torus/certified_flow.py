@@ -79,7 +79,10 @@ PRODUCTS = (
 
 @dataclass(frozen=True)
 class Arrival:
-    """State after a flow, as balls: W = Omega + K, K, and the quaternion q = (w, x, y, z) of the rotation S."""
+    """State after a flow, as balls: W = Omega + K, K, and the quaternion q = (w, x, y, z) of the rotation S.
+
+    W and K are three balls each along the body's axes, in the unit of the flow; q has length 1 up to its radius.
+    """
 
     W: list[arb]
     K: list[arb]
@@ -91,7 +94,12 @@ class GrowthError(NotCertifiedError):
 
 
 class _Way:
-    """Integration of a flow in progress: the current state in integers, and the bound on its error."""
+    """Integration of a flow in progress: the current state in integers, and the bound on its error.
+
+    ``rates`` are those of `Flow.rates`, ``start`` the six numbers W, K in units of 2^-``bits``, and ``w_rates`` the
+    first step that is tried, in parts of the way. `state` has W, K and q, ten integers, `remaining` the part of the
+    way not gone, in `PARTS`. Without ``proven`` no errors are bounded.
+    """
 
     def __init__(self, rates: Rates, start: list[int], bits: int, w_rates: int, *, proven: bool) -> None:
         self.rates, self.bits, self.proven = rates, bits, proven
@@ -135,7 +143,7 @@ class _Way:
         self.guess = max(1, min(PARTS, int(self.guess * scale)))
 
     def _scaled_rates(self, h: fmpq) -> tuple[list[int], ...]:
-        """Return the rates times h, as integers in units of 2^-bits."""
+        """Return the three rows of rates times h, lists of three integers in units of 2^-bits."""
         return tuple([_units(h * x, self.bits) for x in row] for row in self.rates)
 
     def _series(self, h: fmpq) -> Series:
@@ -153,7 +161,7 @@ class _Way:
         return rows[:10]
 
     def _account(self, rows: Series, h: fmpq) -> None:
-        """Add the errors of a step h to the bounds `X`, `w` and `q_error`.
+        """Add the errors of a step h with the Taylor coefficients ``rows`` to the bounds `X`, `w` and `q_error`.
 
         Raises NotCertifiedError for a step too long, GrowthError for errors that grow too much.
         """
@@ -186,9 +194,9 @@ class _Way:
         self.X, self.w = Q, 1.01 * edges + ROUNDING * edges.max()
 
     def _sizes(self, rows: Series, h: fmpq) -> tuple[float, float, float, float, float]:
-        """Return bounds: |W| and |K| in the step, h max|V_i/W_i|, the Lipschitz constant and second derivatives.
+        """Return five bounds: |W| and |K| in the step, h max|V_i/W_i|, the Lipschitz constant and second derivatives.
 
-        The last two are of the right-hand side times h.
+        The last two are of the right-hand side times h, the length of the step; ``rows`` are its Taylor coefficients.
         """
         size = [_float(sum(map(abs, row)), self.bits) for row in rows[:6]]
         W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
@@ -196,7 +204,10 @@ class _Way:
         return W, K, most, 2 * w_rates * W + 2 * second * K + most * (W + K), 2 * (w_rates + second + most)
 
     def _defect(self, rows: Series, h: fmpq, W: float, K: float) -> tuple[float, float]:
-        """Return bounds in units on p' - h f(p) over the step, of (W, K) together and of q."""
+        """Return two bounds, in units of 2^-bits, on p' - h f(p) over the step: of (W, K) together, and of q.
+
+        p are the polynomials with coefficients ``rows``, h is the length of the step, W and K bound |W| and |K| there.
+        """
         b = self.bits
         V, w_rates, second = self._scaled_rates(h)
         p = [fmpz_poly(row) for row in rows]
@@ -230,7 +241,7 @@ class _Way:
         return X.sum(axis=0), 1.01 * defect * spread + ROUNDING * float(sizes_X.sum())
 
     def arrival(self) -> Arrival:
-        """Return the current state as an `Arrival`, without radii unless `proven`."""
+        """Return the current state as an `Arrival`, with radius 0 unless `proven`."""
         error = abs(self.X) @ self.w * 1.01
         errors = [*(error * self.proven).tolist()] + [self.q_error * 1.01 * self.proven] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
@@ -245,7 +256,10 @@ class _Way:
 
 
 class Flow:
-    """Flows of H and F/2 from a state (W, K) with rational components, of a body with rational moments."""
+    """Flows of H and F/2 from a state (W, K) with rational components, of a body with rational moments.
+
+    W = Omega + K and K are along the principal axes.
+    """
 
     def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
         self.moments = list(moments)
@@ -272,7 +286,7 @@ class Flow:
         return float(max(abs(x) for row in self.rates(a, g) for x in row)) * float(sum(abs(x) for x in self.start))
 
     def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
-        """Return the state of the flow of a H + g F/2 at time 1 as an `Arrival`, without radii unless ``proven``.
+        """Return the state of the flow of a H + g F/2 at time 1 as an `Arrival`, with radius 0 unless ``proven``.
 
         ``bits`` is the number of binary digits. Raises NotCertifiedError where that would take too many steps, or
         digits, or the error cannot be bounded.
@@ -309,9 +323,10 @@ class Flow:
 
 
 def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
-    """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, each from the last coefficients of `rows`.
+    """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, lists of integers, from the coefficients of `rows` so far.
 
-    In blocks longer than ``least``, the contribution of the first half to the second is one product of polynomials.
+    The caller appends a coefficient to each row after each item. In blocks longer than ``least``, the contribution
+    of the first half to the second is one product of polynomials.
     """
     size = least
     while size < count:
@@ -344,8 +359,8 @@ def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
 def jacobian(state: Matrix, V: Matrix, w_rates: Matrix, second: Matrix) -> Matrix:
     """Return the Taylor coefficients (terms, 6, 6) of the derivative of the right-hand side, times h, by (W, K).
 
-    ``state`` (6, terms) are those of W and K in the step, whose length h is contained in ``V``, ``w_rates`` and
-    ``second``, three factors each.
+    ``state`` (6, terms) are the coefficients of W and K in a step of length h. ``V``, ``w_rates`` and ``second``, (3,)
+    each, are the three rows of `Flow.rates` times h.
     """
     W, K = state[:3], state[3:]
     J = np.zeros((state.shape[1], 6, 6))
@@ -395,7 +410,7 @@ def _float(x: int, bits: int) -> float:
 
 
 def _size(polynomial: fmpz_poly, bits: int) -> float:
-    """Return the sum of magnitudes of the coefficients, in units of 2^bits, rounded up."""
+    """Return the sum of magnitudes of the coefficients of a polynomial, in units of 2^bits, rounded up."""
     return float((sum(abs(int(x)) for x in polynomial) >> bits) + 1)
 
 

@@ -58,8 +58,9 @@ def transposed(M: Sequence[Sequence[Any]]) -> list[list[Any]]:
 class PlacedMotion:
     """Motion of a body from the attitude of a quaternion (x, y, z, w), in the field B' of the laboratory.
 
-    ``inertia`` are principal moments (3,), or six elements I11 I22 I33 I12 I13 I23 of a tensor. Quantities such as `H`
-    are attributes, see `__getattr__`.
+    ``inertia`` are principal moments (3,), or six elements I11 I22 I33 I12 I13 I23 of a tensor; ``omega`` (rad/time) is
+    along the body's given axes. The quaternion may have any length but zero. Quantities such as `H` are attributes, see
+    `__getattr__`.
     """
 
     def __init__(self, inertia: Any, field: Any, omega: Any, attitude: Any = (0, 0, 0, 1)) -> None:
@@ -99,9 +100,10 @@ class PlacedMotion:
         return self._bodies[bits]
 
     def _sizes(self, t: arb) -> tuple[arb, arb, arb, arb]:
-        """Return bounds for both bodies until time t: least moment, largest moment, |W| and |K|.
+        """Return bounds for both bodies, four balls, until time t: least moment, largest moment, |W| and |K|.
 
-        Raises NotCertifiedError where the moments differ too much in size.
+        The two are the given body and the one near it of the module. Raises NotCertifiedError where the moments
+        differ too much in size.
         """
         motion, _, distance = self._body(LEAST_BITS)
         I3, I2, I1 = sorted(motion.inertia)
@@ -117,9 +119,10 @@ class PlacedMotion:
         return arb(I3 / MARGIN), arb(I1 * MARGIN), squared.sqrt() + spin, arb(dot(K, K)).sqrt()
 
     def _deviation(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
-        """Return (motion along principal axes, these axes as rows, ball about 0 of Omega's error, of R's) until time t.
+        """Return (motion along principal axes, these axes as rows, error of Omega, error of R's entries) until time t.
 
-        Raises NotCertifiedError where the bounds grow beyond `MAX_BITS` bits.
+        The errors are balls about 0, in rad/time and without unit. Raises NotCertifiedError where the bounds grow
+        beyond `MAX_BITS` bits.
         """
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
@@ -140,7 +143,7 @@ class PlacedMotion:
         return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by * size).upper())
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t) as three rows of balls."""
+        """Return R(t) as three rows of balls or rationals; R(0) is the given attitude."""
         motion, axes, _, error = self._deviation(t)
         R = product(self.attitude, product(transposed(axes), product(motion.rotation(t), axes)))
         return R if self.is_diagonal or rational(t, "the time") == 0 else [[x + error for x in row] for row in R]
@@ -154,10 +157,11 @@ class PlacedMotion:
         return Omega if self.is_diagonal else [x + error for x in Omega]
 
     def __getattr__(self, name: str) -> Any:
-        """Return a quantity of `OF_STATE` or `OF_MOMENTS` by name.
+        """Return a quantity of `OF_STATE` or `OF_MOMENTS` by name: of the first also for a tensor that is not diagonal.
 
-        Of a tensor that is not diagonal only one of `OF_STATE`. Raises DomainError for a quantity of principal moments
-        if the tensor is not diagonal, AttributeError for other names.
+        `H`, `MK`, `energy` and `F` are rationals, `kind` and `mode` strings, the others balls, as in
+        `AsymmetricMotion`. Raises DomainError for a quantity of principal moments if the tensor is not diagonal,
+        AttributeError for other names.
         """
         if name in OF_STATE and not self.is_diagonal:
             J = [x for row in self.tensor for x in row]

@@ -34,7 +34,7 @@ CYCLE_BITS = 64
 
 
 class SpectralCurve:
-    """Spectral curve of one motion; `record(digits)` returns its data as strings.
+    """Spectral curve of one certified motion, in the given units; `record(digits)` returns its data as strings.
 
     Raises DomainError for a motion that is not on a torus.
     """
@@ -50,8 +50,8 @@ class SpectralCurve:
     def periods(self) -> list[list[arb]]:
         """Two lists [T_H, T_F, angle] of balls: times of the flows of H and F/2 that together bring M and K back.
 
-        R is then rotated about B by the angle, in rad, in Larmor's frame. Raises NotCertifiedError where none are
-        proved.
+        R is then rotated about B by the angle, in rad, in Larmor's frame. T_H is in time, T_F in time/inertia. Raises
+        NotCertifiedError where no periods are proved.
         """
         periods = self.torus.periods(int(ctx.prec) + 32)
         return [[p.H / self.rate, p.F / (self.rate * self.unit), p.angle] for p in periods]
@@ -64,7 +64,7 @@ class SpectralCurve:
 
     @property
     def actions(self) -> list[arb]:
-        """(J1, J2, J3), whose rates are the frequencies, in the unit of inertia by that of time; J3 = (M, B)/|B|.
+        """List [J1, J2, J3] of balls in inertia/time, the actions whose rates are the `frequencies`; J3 = (M, B)/|B|.
 
         J1 and J2 are integrals of eta du over cycles, see `atlas.motions.torus.certified_cycles`. Raises
         NotCertifiedError where they are not proved.
@@ -138,7 +138,7 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
 
 
 def _matrix(tau: acb_mat, digits: int) -> list[list[list[str]]]:
-    """Return entries [real, imaginary] of a matrix as strings of `digits` digits; entries below 10^-digits are "0"."""
+    """Return the entries of a matrix as [real, imaginary], strings of `digits` digits; "0" below 10^-digits."""
     least = arb(10) ** -digits
 
     def text(x: arb) -> str:

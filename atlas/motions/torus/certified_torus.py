@@ -52,7 +52,7 @@ class Period:
     """A period of a `Torus`: after the flow of H for a time and then that of F/2 for another, M and K are back.
 
     `H` and `F` are these times, which the two flows have in units of their own; `angle` is the angle in rad by which
-    the rotation S = R_B(bt) R has then turned about the field. All three are balls.
+    the rotation S = R_B(bt) R has then turned about the field, known up to whole turns. All three are balls.
     """
 
     H: arb
@@ -66,7 +66,10 @@ class Period:
 
 
 class Torus:
-    """The torus of all motions with the same integrals as a state (W, K), W = Omega + K, of a body; all is rational."""
+    """The torus of all motions with the same integrals as a state (W, K), W = Omega + K, of a body; all is rational.
+
+    ``moments``, W and K are three numbers each along the principal axes, of size one or so.
+    """
 
     def __init__(self, moments: tuple[fmpq, ...], W: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         self.moments, self.W, self.K = moments, W, K
@@ -98,7 +101,7 @@ class Torus:
             return False
 
     def periods(self, bits: int) -> tuple[Period, Period]:
-        """Return two proved periods to ``bits`` binary digits; cached.
+        """Return two proved `Period` that are independent, to ``bits`` binary digits; cached.
 
         Raises NotCertifiedError where none are proved.
         """
@@ -129,7 +132,10 @@ class Torus:
 
     @cached_property
     def pushed(self) -> list[tuple[float, float]] | None:
-        """Periods (T_H, T_F) of the two small oscillations next to a stable spin, approximate; None elsewhere."""
+        """Approximate periods (T_H, T_F) of the two small oscillations next to a stable spin, a list of two pairs.
+
+        None elsewhere, and next to an unstable spin.
+        """
         if self.spin is None:
             return None
         state = np.array([[float(x) if i % 3 == self.spin else 0.0] for i, x in enumerate((*self.W, *self.K))])
@@ -173,9 +179,9 @@ class Torus:
         return self._starts
 
     def _starts_of_proof(self) -> list[tuple[fmpq, fmpq]]:
-        """Return two approximate periods (T_H, T_F), rational.
+        """Return two approximate periods (T_H, T_F), a list of pairs of rationals.
 
-        Raises NotCertifiedError where one is too long for a proof.
+        Raises NotCertifiedError where none are found, or one is too long for a proof.
         """
         starts = self._approximate()
         if any(self.flow.length(*start) > 2 * MAX_STEPS for start in starts):
@@ -211,21 +217,22 @@ class Torus:
         return self._proven(r, bits, self._coordinates())
 
     def _improved(self, r: tuple[fmpq, fmpq], precision: int) -> tuple[tuple[fmpq, fmpq], float]:
-        """Return ((T_H, T_F) after a step of Newton's method, size of the step)."""
+        """Return ((T_H, T_F) after a step of Newton's method from r, size of the step), to ``precision`` bits."""
         with workprec(precision + GUARD_BITS):
             step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, self._coordinates())
             H, F = (x.mid() for x in step)
             return (r[0] + H.fmpq(), r[1] + F.fmpq()), max(float(abs(H)), float(abs(F)))
 
     def _coordinates(self) -> tuple[int, int]:
-        """Return the indices of the two components of the state that best determine its position on the torus."""
+        """Return the indices, 0 to 5, of the two components of (W, K) that best determine its position on the torus."""
         X, Y = ([float(arb(x).mid()) for x in row] for row in self.fields(self.W, self.K))
         return max(combinations(range(6), 2), key=lambda p: abs(X[p[0]] * Y[p[1]] - X[p[1]] * Y[p[0]]))
 
     def _newton(self, arrival: Arrival, W: Vector, K: Vector, chosen: tuple[int, int]) -> tuple[arb, arb]:
-        """Return the Newton step, times along H and F/2, that takes an arrival y back to the start x.
+        """Return the Newton step, times (along H, along F/2) as balls, that takes an arrival y back to the start x.
 
-        It solves the equations of the two components ``chosen``: -(X_H, X_F)^-1 (y - x).
+        It solves the equations of the two components ``chosen``, -(X_H, X_F)^-1 (y - x), with the flows' rates X at
+        W and K.
         """
         X, Y = self.fields(W, K)
         i, j = chosen
@@ -282,7 +289,7 @@ class Torus:
 
 
 def _signed(periods: list[tuple[fmpq, fmpq]]) -> list[tuple[fmpq, fmpq]]:
-    """Return two periods (T_H, T_F) with the signs that make the frequencies f1 and f2 positive."""
+    """Return two periods (T_H, T_F), rationals, with the signs that make the frequencies f1 and f2 positive."""
     (H_1, F_1), (H_2, F_2) = periods
     area = H_1 * F_2 - H_2 * F_1
     signs = (1 if rate * area >= 0 else -1 for rate in (F_2, -F_1))
@@ -290,7 +297,10 @@ def _signed(periods: list[tuple[fmpq, fmpq]]) -> list[tuple[fmpq, fmpq]]:
 
 
 def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
-    """Return f1, f2 of M and K, and f3 about the field of magnitude b, in rad/time, from two periods."""
+    """Return [f1, f2, f3], balls in rad/time: f1, f2 of M and K, and f3 about the field of magnitude b.
+
+    ``periods`` are two independent ones; f3 depends on the whole turns in their angles.
+    """
     (period_1, period_2), turn = periods, 2 * arb.pi()
     area = period_1.H * period_2.F - period_1.F * period_2.H
     line = period_2.F / area, -period_1.F / area
@@ -298,9 +308,9 @@ def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
 
 
 def rotated(q: list[arb], V: list[arb]) -> list[arb]:
-    """Return a unit quaternion (w, x, y, z) after unit time at the angular velocity V along the body's axes.
+    """Return a unit quaternion q = (w, x, y, z) after unit time at the angular velocity V along the body's axes.
 
-    V is three balls about 0; the result encloses all of these rotations.
+    V is three small balls about 0; the result, four balls, encloses all of these rotations.
     """
     most = arb(0, sum((abs(x) for x in V), arb(0)).upper())
     w, *vector = (x + most for x in q)  # wherever it is on the way

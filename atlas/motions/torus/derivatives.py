@@ -49,9 +49,10 @@ GROUPS = (0, 1, 2), (3, 4, 5, 6, 7, 8)
 
 
 class TorusVaried:
-    """Derivatives of one motion on a torus in some of nine inputs.
+    """Derivatives of one motion on a torus in some of nine inputs, with ``exact`` its certified counterpart.
 
-    ``places`` are their indices in (moments, field, omega).
+    ``places`` are the indices of the inputs in (moments, field, omega), three each; ``kernel`` evaluates the
+    motion. Raises DomainError as `Neighbours.slopes` does.
     """
 
     def __init__(self, exact: Any, kernel: ThetaKernel, places: Sequence[int]) -> None:
@@ -70,24 +71,25 @@ class TorusVaried:
 
     @property
     def of_frequencies(self) -> FloatArray:
-        """Derivatives of the frequencies f1, f2 and f3, in rad/time, in each of the inputs: shape (inputs, 3).
+        """Derivatives of the frequencies f1, f2 and f3 (rad/time) in each of the inputs: shape (inputs, 3).
 
-        Of f3 it is that of the least angles of the periods.
+        f3 is the frequency for which the angles of the periods are least.
         """
         turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
         return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
 
     def weighted(self, *_: Any) -> None:
-        """Return None: nothing is cached for combinations of inputs."""
+        """Return None: nothing is prepared for combinations of inputs; the arguments are not used."""
 
     def vectors(
         self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, *_: Any,
         certified: bool,  # noqa: ARG002  floats have the digits, or the derivatives are refused
     ) -> list[FloatArray]:  # fmt: skip
-        """Return [v], or [v, R dOmega/dp] if ``slopes``, at times t (m,), shape (m, names, 3), in the laboratory.
+        """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
-        v is the rotation vector with dR/dp = [v]x R; ``names`` (names, inputs) are weights of the inputs, ``turns``
-        (names, 3) are added to v. Raises DomainError where the field is too weak for derivatives in floats.
+        v is the rotation vector in the laboratory with dR/dp = [v]x R; ``to_laboratory`` (3, 3) takes vectors
+        there. ``names`` (N, inputs) are weights of the inputs, ``turns`` (N, 3) are added to v. Raises DomainError
+        where the field is too weak for derivatives in floats.
         """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
@@ -146,9 +148,10 @@ class TorusVaried:
 class Neighbours:
     """Constants of a motion on a torus, and their derivatives in nine inputs: three moments, field K and omega.
 
-    `values` are the inputs; `constants` are four flat complex arrays: weights of the theta sums over the largest of
-    the denominator, ways (coefficients of the half angles f1 t/2 and f2 t/2 in the sums' phases), frequencies f1,
-    f2, f3 and frame. The sums' terms have the `orders` P, Q, shape (2, terms), counted from the centre of the sums.
+    `values` are the inputs, rationals in the units of the torus; `constants` are four flat complex arrays: weights
+    of the theta sums over the largest of the denominator, ways (coefficients of the half angles f1 t/2 and f2 t/2
+    in the sums' phases), frequencies f1, f2, f3 and frame. The sums' terms have the `orders` P, Q, shape (2,
+    terms), counted from the centre of the sums.
     """
 
     def __init__(self, exact: Any, kernel: ThetaKernel) -> None:
@@ -167,9 +170,9 @@ class Neighbours:
         """Return [weights, ways, frequencies, frame]: their derivatives in the inputs at ``places``, (places, n) each.
 
         ``places`` are indices in `values`; the derivatives are by the caller's units of inertia and of 1/time. They
-        are difference quotients; that in the largest input of a group, if all of it is asked for, follows from the
-        others by homogeneity. Raises DomainError where a neighbour has no theta functions, or those of another
-        form.
+        are difference quotients. Where ``places`` hold all inputs of a group, moments or rates, the derivative in
+        the largest of them follows from the others by homogeneity. Raises DomainError where a neighbour has no
+        theta functions, or those of another form.
         """
         # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
         to_laboratory = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
@@ -184,8 +187,8 @@ class Neighbours:
     def _by_step(self, place: int) -> list[Array]:
         """Return the derivatives [weights, ways, frequencies, frame], (n,) each, in the scaled input at ``place``.
 
-        They are difference quotients; in a weak field the step in a component of it is shorter. Raises DomainError as
-        `slopes` does.
+        They are difference quotients; in a weak field the step in one of its components is shorter. Raises
+        DomainError as `slopes` does.
         """
         field = max(map(abs, self.sizes[3:6]))
         weak = min(max(round(-2 * np.log2(field)), 0), WEAK_FIELD_BITS)
@@ -194,10 +197,10 @@ class Neighbours:
         return _slopes(self.exact, self._tables(values_there), step)
 
     def _by_scale(self, place: int, slopes_by_place: Mapping[int, Sequence[Array]]) -> list[Array]:
-        """Return four arrays of derivatives in one input from those in the others of its group, by homogeneity.
+        """Return the derivatives [weights, ways, frequencies, frame], (n,) each, in one input, by homogeneity.
 
-        If all rates are scaled, K, W and the frequencies grow and the frame shrinks; if all moments are, nothing
-        changes.
+        ``slopes_by_place`` has those in the others of its group. If all rates are scaled, K, W and the frequencies
+        grow and the frame shrinks; if all moments are, nothing changes.
         """
         weights, ways, frequencies, frame = self.constants
         count = len(self.box)
@@ -213,7 +216,7 @@ class Neighbours:
         ]
 
     def _tables(self, constants: Constants) -> list[list[Any]]:
-        """Return four flat lists: theta coefficients divided by the denominator's largest, ways, frequencies, frame.
+        """Return four flat lists of balls: theta coefficients over the denominator's largest, ways, frequencies, frame.
 
         Raises DomainError where that largest coefficient is zero.
         """
@@ -229,7 +232,7 @@ class Neighbours:
 
 
 def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
-    """Return the `Constants` of the motion with the input number ``place`` larger by 2^-``step``.
+    """Return the `Constants` of the motion with the input number ``place`` of ``values`` larger by 2^-``step``.
 
     ``here`` is the motion itself, ``rate`` the unit of 1/time. Raises DomainError where the neighbour has no theta
     functions.
@@ -247,7 +250,7 @@ def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: 
 
 
 def _followed(lattice: Lattice, like: Lattice) -> Lattice:
-    """Return a ``lattice`` in the basis whose periods are nearest to those of ``like``.
+    """Return a ``lattice`` in the basis whose periods are nearest to those of ``like``, a neighbour's.
 
     Raises DomainError where no combination with whole coefficients is near.
     """
@@ -270,7 +273,10 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
 
 
 def _slopes(here: list[list[Any]], row_there: list[list[Any]], step: int) -> list[Array]:
-    """Return four arrays of difference quotients, (there - here) 2^step. Raises DomainError for a large change."""
+    """Return difference quotients (there - here) 2^step, a complex array (n,) for each of four lists of constants.
+
+    Raises DomainError where a constant changes more than the step explains.
+    """
     slopes: list[Array] = []
     for row_here, second in zip(here, row_there, strict=True):
         change = np.array([complex_of(acb(y - x)) for x, y in zip(row_here, second, strict=True)], dtype=complex)

@@ -17,7 +17,7 @@ from atlas.motions.torus.theta import ThetaKernel
 
 
 def of_euler(exact: AsymmetricMotion) -> Inputs:
-    """Return the `Inputs` of `sensitivity` for a free body with three moments: I1 to I3, omega1 to omega3."""
+    """Return the `Inputs` of a free body with three moments: I1, I2, I3, omega1, omega2, omega3."""
     size, J = size_of(*exact.omega), floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "omega1", "omega2", "omega3"), (*exact.inertia, *exact.omega), (*exact.inertia, *[size] * 3),
@@ -27,7 +27,11 @@ def of_euler(exact: AsymmetricMotion) -> Inputs:
 
 @dataclass(frozen=True)
 class OnTorus(Inputs):
-    """The inputs of a motion on a torus."""
+    """The `Inputs` of a motion on a torus: I1, I2, I3, K1, K2, K3, omega1, omega2, omega3.
+
+    `kernel` evaluates the motion, `exact` is its certified counterpart, `cached` holds evaluators by the names of
+    inputs.
+    """
 
     kernel: ThetaKernel = field(kw_only=True)
     exact: AsymmetricMotion = field(kw_only=True)
@@ -46,7 +50,7 @@ class OnTorus(Inputs):
 
 
 def of_asymmetric(single: Any) -> Inputs:
-    """Return the `Inputs` of a body with three moments: `OnTorus`, or without a field those of Euler's top.
+    """Return the `Inputs` of a `SingleAsymmetric`: `OnTorus`, or without a field those of Euler's top.
 
     Raises DomainError for a motion in a field without theta functions.
     """

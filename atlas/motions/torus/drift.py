@@ -69,7 +69,7 @@ class AsymmetricDrift:
     frequencies : ndarray, shape (m, 3)
         Mean rates f1, f2, f3, in rad/time; of a free body f2 = 0.
     phases : ndarray, shape (m, 3)
-        Angles of f1, f2 and f3 since t = 0, in rad.
+        Total angles of f1, f2 and f3 since t = 0, in rad.
     inertia : ndarray, shape (3,)
         Principal moments.
     momentum : ndarray, shape (m, 3)
@@ -108,9 +108,11 @@ class AsymmetricDrift:
 
 
 class Torus:
-    """Grid of states on the torus of one motion, (6, n1, n2), which follows its integrals; of a free body n2 = 1.
+    """Grid of states (M, K) on the torus of one motion, (6, n1, n2), which follows its integrals.
 
-    Times are in units of 1/`rate`, moments in units of `unit`: powers of two.
+    `states` is the grid, n2 = 1 for a free body; `integrals` are H, F and, in a field, c = (M, K) and K^2; `angles`
+    (1 or 2,) are the angles in rad about the field, or M, in each period. Times are in units of 1/`rate`, moments
+    in units of `unit`: powers of two. Raises DomainError for a motion without a torus in closed form.
     """
 
     def __init__(self, motion: AsymmetricMotion) -> None:
@@ -161,9 +163,9 @@ class Torus:
         return gradients, np.array(flows)
 
     def _projected(self, y: FloatArray, x: FloatArray, tolerance: float) -> FloatArray:
-        """Return states x moved, by Newton's method, to the torus of the integrals y, to a relative ``tolerance``.
+        """Return states x (6, n1, n2) moved to the torus of the integrals y (r,), to a relative ``tolerance``.
 
-        Raises LostTorusError where the method does not converge.
+        The method is Newton's. Raises LostTorusError where it does not converge.
         """
         size = abs(y[0]) * np.array([1.0, 2 * self.I.max(), 2.0, 1.0][: len(y)])
         size[2:] += y[3:] * [self.I.max(), 1.0][: len(y) - 2]
@@ -187,7 +189,7 @@ class Torus:
     def _times(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return (times a along the flows per unit of each angle, det a), (angles, flows, n1, n2) and (n1, n2).
 
-        Raises LostTorusError where the flows are parallel.
+        x (6, n1, n2) are the states. Raises LostTorusError where the flows are parallel.
         """
         flows = np.moveaxis(self._flows(x)[1], (0, 1), (-1, -2))
         slopes = np.fft.ifft2(1j * _waves(x)[: flows.shape[-1], None] * np.fft.fft2(x)).real
@@ -199,9 +201,9 @@ class Torus:
         return np.moveaxis(a, (-1, -2), (0, 1)), np.linalg.det(a)
 
     def _evened(self, y: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return states on the torus y at equal steps of both phases, from states near it, and their times.
+        """Return states on the torus y at equal steps of both phases, and their times as in `_times`.
 
-        Raises LostTorusError where the grid folds.
+        x (6, n1, n2) are states near that torus. Raises LostTorusError where the grid folds.
         """
         x = self._projected(y, x, NEAR_TORUS)
         a, density = self._times(x)
@@ -218,7 +220,7 @@ class Torus:
         return x, a
 
     def _flowed(self, x: FloatArray, times: FloatArray) -> FloatArray:
-        """Return states moved along the flows by small times (flows, n1, n2), by one step of Runge and Kutta."""
+        """Return states x (6, n1, n2) moved along the flows by small times (flows, n1, n2), by one Runge-Kutta step."""
 
         def slope(x: FloatArray) -> FloatArray:
             return np.asarray((self._flows(x)[1] * times[:, None]).sum(0))
@@ -230,13 +232,16 @@ class Torus:
 
     @staticmethod
     def _change_by_half(x: FloatArray, axis: int) -> float:
-        """Return the relative change of the means of M_i^2, K_i^2 and M_i K_i if half the nodes of an axis are used."""
+        """Return the largest relative change of the means of M_i^2, K_i^2 and M_i K_i if half the nodes are used.
+
+        Every second node along ``axis``, 0 or 1, of the grid x is left out.
+        """
         products = np.concatenate([x * x, x[:3] * x[3:]])
         whole, half = (y.mean((1, 2)) for y in (products, products[:, :, ::2] if axis else products[:, ::2]))
         return float(abs(half - whole).max() / abs(whole).max())
 
     def follow(self, y: FloatArray) -> None:
-        """Move the grid to the torus of the integrals y: from the last torus, or, if that fails, from the stored one.
+        """Move the grid to the torus of the integrals y (r,): from the last torus, or else from the stored one, `held`.
 
         Raises LostTorusError if both fail.
         """
@@ -246,9 +251,9 @@ class Torus:
             self._follow(y, self.held)
 
     def _follow(self, y: FloatArray, states: FloatArray) -> None:
-        """Move the grid ``states`` to the torus of the integrals y, and change its nodes until means converge.
+        """Move the grid ``states`` to the torus of the integrals y (r,), and change its nodes until means converge.
 
-        Raises LostTorusError beyond `MAX_NODES`.
+        The results are stored in `states`, `x`, `a` and `angles`. Raises LostTorusError beyond `MAX_NODES`.
         """
         x, a = self._evened(y, states)
         while True:
@@ -266,13 +271,16 @@ class Torus:
         self.states, self.angles = x, self._turns()
 
     def change(self, growth: float, drag: FloatArray) -> FloatArray:
-        """Return the mean rates of the integrals, shape (r,), for a growth of the field and a drag (3,)."""
+        """Return the mean rates of the integrals, (r,), in scaled units, for a growth rate of the field and a drag.
+
+        The drag (3,) has the rates along the principal axes.
+        """
         M, K = np.split(self.x, 2)
         push = np.concatenate([-drag[:, None, None] * (M - self.I * K), growth * K])
         return np.asarray((self._gradients(self.x)[0] * push).sum(1).mean((1, 2)))
 
     def _turns(self) -> FloatArray:
-        """Return the angle in rad of the body about the field in each period, nearest to the previous angles.
+        """Return the angle in rad of the body about the field in each period, (1 or 2,), nearest to the angles before.
 
         For a free body it is the angle about M, in the one period.
         """
@@ -300,9 +308,10 @@ class Torus:
 
 
 def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatArray) -> AsymmetricDrift:
-    """Return the `AsymmetricDrift` at times t, see `atlas.drift`; ``drag`` (3,) in 1/time, ``field`` the growth rate.
+    """Return the `AsymmetricDrift` at times t (m,), see `atlas.drift`.
 
-    Raises DomainError at a separatrix, and where the motion has no torus to average over.
+    ``field`` is its relative growth rate and ``drag`` (3,) the rates along the principal axes, all in 1/time. Raises
+    DomainError at a separatrix, and where the motion has no torus to average over.
     """
     from scipy.integrate import DOP853
 
@@ -362,12 +371,15 @@ def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatA
 
 
 def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the vector products of vectors (3, ...)."""
+    """Return the vector products [a, b] of vectors (3, ...), the components along the first axis."""
     return a[[1, 2, 0]] * b[[2, 0, 1]] - a[[2, 0, 1]] * b[[1, 2, 0]]
 
 
 def _waves(x: FloatArray) -> FloatArray:
-    """Return the wave numbers (integers) along both angles, (2, n1, n2), with 0 for the Nyquist wave."""
+    """Return the wave numbers (integers) of a grid x (6, n1, n2) along both angles, (2, n1, n2).
+
+    The Nyquist wave has 0.
+    """
     numbers = [np.fft.fftfreq(n, 1 / n) * (abs(np.fft.fftfreq(n)) < 0.5) for n in x.shape[1:]]
     return np.array(np.meshgrid(*numbers, indexing="ij"))
 
@@ -379,7 +391,7 @@ def _smoothed(x: FloatArray) -> FloatArray:
 
 
 def _doubled(x: FloatArray, axis: int) -> FloatArray:
-    """Return a grid with twice the nodes along ``axis``, by Fourier interpolation."""
+    """Return a grid (6, n1, n2) with twice the nodes along ``axis``, 1 or 2, by Fourier interpolation."""
     from scipy.signal import resample
 
     return np.asarray(resample(x, 2 * x.shape[axis], axis=axis))

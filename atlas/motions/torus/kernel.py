@@ -54,7 +54,7 @@ MAX_TERM = 4
 
 
 def in_basis_near(frequencies: list[float], near: list[float]) -> list[float]:
-    """Return [f1, f2, f3] of a torus in the basis in which they are nearest to ``near``, those of another torus."""
+    """Return [f1, f2, f3] of a torus in the basis nearest to ``near``, the three frequencies of another torus."""
     f1, f2, f3 = frequencies
     integers = np.arange(-MAX_TERM, MAX_TERM + 1)
     a, b = (x.ravel() for x in np.meshgrid(integers, integers))
@@ -67,7 +67,11 @@ def in_basis_near(frequencies: list[float], near: list[float]) -> list[float]:
 
 
 class SingleAsymmetric:
-    """Evaluator of one motion: the closed form if available, else balls rounded once."""
+    """Evaluator of one motion: the closed form if available, else balls rounded once.
+
+    ``exact`` is the certified motion, `size` the largest component of field and omega, in 1/time, 1 if all are zero.
+    Methods take times of any shape.
+    """
 
     def __init__(self, exact: Balls) -> None:
         self.exact = exact
@@ -76,7 +80,10 @@ class SingleAsymmetric:
 
     @cached_property
     def _candidate(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
-        """The closed form if there is one, not yet compared, else None; and its proof status, or why there is none."""
+        """Tuple (closed form, not yet compared, or None; its proof status, or why there is none, a string).
+
+        The string is empty for theta functions, whose status `_choice` finds.
+        """
         elliptic = self.exact.elliptic
         if elliptic is not None:
             return self._elliptic(elliptic)
@@ -87,7 +94,7 @@ class SingleAsymmetric:
 
     @cached_property
     def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
-        """Tuple (closed form if proved or in agreement with the certified counterpart, else None; its proof status)."""
+        """Tuple (closed form if proved or in agreement with the balls, else None; its proof status, a string)."""
         closed, status = self._candidate
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, status
@@ -129,7 +136,7 @@ class SingleAsymmetric:
         return single, f"proved for this motion, at all times; rounding adds {adds:.1e} at most{balls}"
 
     def _difference(self, closed: ThetaKernel, t: float) -> float:
-        """Return the largest difference of R, K and Omega, rates over `size`, between closed form and twin at t."""
+        """Return the largest difference of R, K and Omega, rates over `size`, between closed form and balls at t."""
         pairs = (
             (x.rotation(t), x.field_in_body(t) / self.size, x.angular_velocity(t) / self.size)
             for x in (closed, self.certified)
@@ -190,7 +197,7 @@ class SingleAsymmetric:
         return self._started("column", (3,), lambda: IDENTITY[j - 1], t, out, j)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4).
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t with w >= 0 at t = 0, shape t.shape + (4,).
 
         ``out``, if given, is filled and returned.
         """
@@ -214,8 +221,9 @@ class SingleAsymmetric:
         self, name: str, shape: tuple[int, ...], start: Callable[[], FloatArray], t: Any, out: FloatArray | None,
         *column_number: int,
     ) -> FloatArray:  # fmt: skip
-        """Return the named function at times t, exactly start() at t = 0; from balls without a closed form.
+        """Return the function ``name`` at times t, shape t.shape + ``shape``, exactly start() at t = 0.
 
+        The values are those of the closed form, else of balls. ``column_number`` is the first argument of "column".
         ``out``, if given, is filled and returned.
         """
         times = real(t, "The time")
@@ -469,7 +477,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return J, J, 0.0, 0.0
 
     def _wheels(self) -> Wheels:
-        """Return the `Wheels` of one motion, its rotations at uniform rates. Raises DomainError where it has none."""
+        """Return the `Wheels` of one motion: with two phases on a torus, else with one or none.
+
+        Raises DomainError for a motion without a closed form.
+        """
         from atlas.motions.elementary.kernel_ball import BallMotion
         from atlas.motions.nutation.kernel_general import GeneralMotion
         from atlas.motions.nutation.spectrum import of_nutation

@@ -39,7 +39,7 @@ class Certified:
         self.exact, self.size = exact, size
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape (..., 3, 3), each entry proved and rounded once.
+        """Return R(t), body to laboratory, shape t.shape + (3, 3), each entry proved and rounded once.
 
         ``out``, if given, is filled and returned.
         """
@@ -53,9 +53,10 @@ class Certified:
         return self._filled(lambda t: self.exact.column(j, t), t, (3,), 1.0, out)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t: its sign is that of an integration, (..., 4).
+        """Return the quaternion (x, y, z, w) of R(t), shape t.shape + (4,), continuous in t, with w = 1 at t = 0.
 
-        Raises NotCertifiedError for times beyond its reach. ``out``, if given, is filled and returned.
+        Its sign is that of an integration. Raises NotCertifiedError for times beyond the reach of that. ``out``, if
+        given, is filled and returned.
         """
         times = real(t, "The time")
         if times.size and not np.abs(times).max() * self.size <= MAX_STEPPED_PHASE:
@@ -69,7 +70,10 @@ class Certified:
         return out
 
     def _followed(self, times: FloatArray) -> FloatArray:
-        """Return quaternions (m, 4) at times (m,) by Runge-Kutta steps from t = 0: only their signs are used."""
+        """Return quaternions (x, y, z, w), (m, 4), at times (m,) by Runge-Kutta steps from t = 0.
+
+        They are rough: only their signs are used.
+        """
         inertia, K, Omega = map(floats, (self.exact.inertia, self.exact.field, self.exact.omega))
         quaternions = np.empty((times.size, 4))
         for side in (times >= 0, times < 0):
@@ -103,7 +107,7 @@ class Certified:
     def _filled(
         self, function: Callable[[Any], Any], t: Any, shape: tuple[int, ...], size: float, out: FloatArray | None
     ) -> FloatArray:
-        """Return function(t) at times of any shape as an array t.shape + ``shape``.
+        """Return function(t) at times of any shape as an array t.shape + ``shape``, proved and rounded once.
 
         Radii are below 2^-52 ``size`` or so. Raises AtlasError for times whose phases exceed MAX_PHASE. ``out``, if
         given, is filled and returned.
@@ -131,7 +135,10 @@ class Certified:
 
 
 def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
-    """Return (K, Omega, quaternion), shape (10,), after a Runge-Kutta step h of the equations of motion."""
+    """Return (K, Omega, quaternion), shape (10,), after a Runge-Kutta step h in time of the equations of motion.
+
+    y (10,) is that state before, with the quaternion as (x, y, z, w); ``inertia`` is (3, 3).
+    """
 
     def rate(y: FloatArray) -> FloatArray:
         K, Omega, q = y[:3], y[3:6], y[6:]

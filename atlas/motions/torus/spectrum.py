@@ -15,9 +15,9 @@ from atlas.motions.torus.theta import ThetaKernel
 
 
 def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:
-    """Return the `Wheels` of a motion on a torus, with two phases.
+    """Return the `Wheels` of a motion on a torus, with two phases and the turn f3 about the field.
 
-    L and C are the constant rotations of `Motion._sides`.
+    ``exact`` is the certified motion, ``kernel`` its evaluator; L and C are the constant rotations of `Motion._sides`.
     """
     f = np.array([float(x.mid()) for x in enclosed(lambda: exact.frequencies, BITS)])
     n = L @ kernel.axis
@@ -32,9 +32,10 @@ def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: Flo
 
 
 def _actions(exact: Any, kernel: ThetaKernel, J: FloatArray) -> list[float]:
-    """Return the actions of the two phases of a torus, in inertia/time, as means over the torus.
+    """Return the actions [J1, J2] of the two phases of a torus, in inertia/time, as means over the torus.
 
-    Each is the work along the flows of H and F/2 for a period, and back about the field.
+    J (3,) are the principal moments. Each action is the work along the flows of H and F/2 for a period, and back
+    about the field, over 2 pi.
     """
     actions_of_cycles, unit = [], nearest(exact.inertia[0] / exact.on_torus.moments[0])
     for i, period in enumerate(kernel.periods):

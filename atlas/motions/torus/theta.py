@@ -67,8 +67,9 @@ SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
 class Constants:
     """Constants of a motion to some forty digits: `forms` of N, D, K and W, `ways` (3, 2), `frequencies`, `frame`.
 
-    `ways` times half the phases gives the two arguments of the forms and the angle by which N turns; `frequencies` are
-    f1, f2, f3 in rad/time. `frame` are e_x, e_y and B'/b^2: R is the sum of their products with Re N, Im N and K.
+    `ways` times half the phases gives the two arguments of the forms and the angle by which N turns; `frequencies`
+    are f1, f2, f3 in rad/time. `frame` are e_x, e_y and B'/b^2: R is the sum of their products with Re N, Im N and
+    K. ``rate`` is the unit of 1/time of ``theta`` and ``torus``; `b` and `periods` are in that unit.
     """
 
     def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq) -> None:
@@ -98,9 +99,9 @@ class Constants:
 class ThetaKernel:
     """R, K and W = II^-1 M of one motion at arrays of times, by theta functions.
 
-    `rate` is the unit of 1/time, `size` the largest rate in that unit. `accuracy` bounds rounding errors, `proved` the
-    errors of the formulas without rounding, at any time: None where there is no proof. Both are computed when first
-    asked for.
+    ``theta`` are its functions, ``torus`` proves its periods. `rate` is the unit of 1/time, `size` the largest rate
+    in that unit. `accuracy` bounds rounding errors, `proved` the errors of the formulas without rounding, at any
+    time: None where there is no proof. Both are computed when first asked for.
     """
 
     def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
@@ -134,7 +135,7 @@ class ThetaKernel:
 
     @property
     def fits(self) -> bool:
-        """Whether the misfit of the integrals behind the constants is below `MAX_MISFIT`."""
+        """Whether the misfit of the linear fits behind the constants is below `MAX_MISFIT`."""
         return self.made_of[0].misfit < MAX_MISFIT
 
     @cached_property
@@ -165,7 +166,7 @@ class ThetaKernel:
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return column j = 1, 2 or 3 of R(t), the body's axis j in the laboratory, shape t.shape + (3,).
 
-        It is written into ``out``, if given. Raises DomainError for times that are not finite numbers.
+        ``out``, if given, is filled and returned. Raises DomainError for a time that is not finite.
         """
         return self._evaluate(ATTITUDE, self.entries[:, j - 1 :: 3], t, (3,), out)
 
@@ -252,14 +253,14 @@ class ThetaKernel:
         return np.concatenate([N.real, N.imag, functions])
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4).
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t with w >= 0 at t = 0, shape t.shape + (4,).
 
-        ``out``, if given, is filled and returned.
+        ``out``, if given, is filled and returned. Raises NotCertifiedError where the sign is not decided.
         """
         return evaluate(real(t, "The time"), (4,), out, lambda _: self._fill_quaternions)
 
     def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
-        """Write the quaternions of R(t) into rows (m, 4), with signs continuous over the torus."""
+        """Write the quaternions (x, y, z, w) of R(t) at times t (m,) into rows (m, 4), continuous over the torus."""
         table, steps = self._lift
         half, low_word, turns = self._phases(t)
         quaternions = self._quaternions(half, low_word)
@@ -275,14 +276,15 @@ class ThetaKernel:
         return of_matrix(R.reshape(-1, 3, 3))
 
     def _turn(self, half: FloatArray) -> FloatArray:
-        """Return the quaternions (m, 4) of the turn about the field by twice the angles (m,)."""
+        """Return the quaternions (x, y, z, w), (m, 4), of turns about the field by twice the angles ``half`` (m,)."""
         return np.append(np.outer(np.sin(half), self.axis), np.cos(half)[:, None], axis=-1)
 
     @cached_property
     def _lift(self) -> tuple[FloatArray, FloatArray]:
-        """Table of continuous quaternions over half the phases, and which of the three turns change their sign.
+        """Tuple (table of continuous quaternions (n, n, 4) over half the phases, signs of three turns).
 
-        Raises NotCertifiedError where the sign is not decided on the finest table.
+        Half the phases reach from -pi/2 to pi/2. The second is an integer array (3, 1): 1 for a turn that changes the
+        quaternion's sign, else 0. Raises NotCertifiedError where the sign is not decided on the finest table.
         """
         for size in SIZES:
             line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
@@ -313,7 +315,7 @@ def _joined(q: FloatArray) -> FloatArray:
 
 
 def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
-    """Return the `ThetaKernel` of a motion on a torus whose largest rate is ``size``.
+    """Return the `ThetaKernel` of a motion on a torus whose largest rate is ``size``, in 1/time.
 
     Raises NotCertifiedError, with the reason, where theta functions are missing or rounding would be too large.
     """

@@ -49,11 +49,12 @@ CORNERS = np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
 def quotients(
     value: Array, slopes: Sequence[Array], bends: FloatArray, by_phases: Array, half: float
 ) -> tuple[Array, list[Array], FloatArray, FloatArray]:
-    """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and the largest change of y.
+    """Return the quotients y of forms by D in the middle of m cells, G, the least |D|, and the largest change of y.
 
-    `value` (n, m) are the forms, `slopes` two of these by exponents, which are `by_phases`
-    (2, 2) @ phases, `bends` bounds on the sums of second derivatives by phases. A negative least |D| means that D may
-    vanish in the cell: y has no bound there.
+    `value` (n, m) are the forms, D the fourth of them, and `slopes` two of these by exponents, which are
+    `by_phases` (2, 2) @ phases; `bends` (n, m) bound the sums of second derivatives by phases, and ``half`` is half
+    a cell's side in rad. G are the two slopes less y times those of D, as in the module. A negative least |D| means
+    that D may vanish in the cell: y has no bound there.
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]
@@ -67,9 +68,10 @@ def quotients(
 
 @dataclass(frozen=True)
 class Rounding:
-    """Inputs of the error bounds: forms of N, D, K and W, b = |B'|, and the largest rate.
+    """Inputs of the error bounds of a motion by theta functions: forms of N, D, K and W, b = |B'|, the largest rate.
 
-    Their places are `to_v` @ half phases, and N turns by the angle `turning` @ half phases.
+    `sums` are the forms, `b` and `size`, the largest rate, are in the scaled unit. The places of the forms are `to_v`
+    (2, 2) @ half phases, and N turns by the angle `turning` (2,) @ half phases, in rad.
     """
 
     sums: Sums
@@ -124,9 +126,9 @@ class Rounding:
         return [self.sums.P - p[0], self.sums.Q - p[1]]
 
     def _error_bounds(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
-        """Return error bounds (m,) for ``cells`` (2, m), with the exponents of theta terms counted from p.
+        """Return error bounds (m,), in units of 2^-53, for ``cells`` (2, m), with exponents of terms counted from p.
 
-        There the terms are largest.
+        There the terms are largest. ``half`` is half the side of a cell, in rad; a bound is inf where D may vanish.
         """
         P, Q = self._places(p)
         count = np.array([P[:, None] + 0 * Q, 0 * P[:, None] + Q])
@@ -157,7 +159,11 @@ class Rounding:
         return np.where(least > 0, errors, np.inf)
 
     def _of_quotients(self, error: FloatArray, shifts: FloatArray, y: FloatArray) -> FloatArray:
-        """Return error bounds (m,) from errors of forms over |D|, shifts by errors of exponentials, and quotients y."""
+        """Return error bounds (m,), in units of 2^-53, from the errors of the forms and of their quotients.
+
+        ``error`` are the errors of forms over |D|, ``shifts`` those of quotients by errors of exponentials, and y
+        the sizes of the quotients, of N, D, K, W and, except for ``error``, Omega along the first axis.
+        """
         summed_errors = error + shifts[: len(error)]
         attitude = np.hypot(summed_errors[:3], summed_errors[4:7] / self.b).max(axis=0) + error[D]
         turn_factor = EXPONENTIAL + PHASE * (1 + abs(self.turning).sum()) + INVERSE + 2 * PRODUCT + COMBINED
