@@ -82,7 +82,10 @@ class Motion(Shown, Generic[Single]):
     """Whether formulas of the class have R(0) = 1 and Omega(0) without rounding."""
 
     def __new__(cls, *inputs: Any, **arguments: Any) -> Self:
-        """Raise TypeError for a keyword that only another class takes, with the name of that class."""
+        """Return a new motion; raise TypeError for a keyword of `OTHERS` that this class does not take.
+
+        The message names the class or function that takes the keyword.
+        """
         code = cls.__init__.__code__
         known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
         for name in arguments.keys() - set(known) & OTHERS.keys():
@@ -162,7 +165,7 @@ class Motion(Shown, Generic[Single]):
 
     @cached_property
     def _unplaced(self) -> Self | None:
-        """Motion along the axes of its class; None if the motion is already given along them."""
+        """Motion along the axes of its class, with R(0) = 1; None if the motion is already given along them."""
         if self._placement is None:
             return None
         own = type(self)(**self._placement.arguments)
@@ -333,11 +336,17 @@ class Motion(Shown, Generic[Single]):
         return np.stack(np.broadcast_arrays(*map(np.asarray, omega)), -1)
 
     def _in_body(self, v: FloatArray) -> FloatArray:
-        """Return components along the axes of the body from components v (..., 3) along the axes of the class."""
+        """Return components (..., 3) along the given axes of the body from components v (..., 3) along the class's.
+
+        That is v itself without a placement.
+        """
         return v if self._placement is None else self._placement.vectors(v)
 
     def _along_class(self, v: FloatArray) -> FloatArray:
-        """Return components along the axes of the class from components v (..., 3) along the axes of the body."""
+        """Return components (..., 3) along the axes of the class from components v (..., 3) along the given axes.
+
+        The given axes are the body's. That is v itself without a placement.
+        """
         return v if self._placement is None else self._placement.along_class(v)
 
     def _momentum_of(self, factors: Callable[[FloatArray], FloatArray], t: Any, name: str = "m") -> FloatArray:

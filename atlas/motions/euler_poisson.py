@@ -79,12 +79,18 @@ def momentum_rate(inertia: Any, B: Any, R: Any, m: Any) -> FloatArray:
 
 
 def energy(inertia: Any, Omega: Any) -> FloatArray:
-    """Kinetic energy (Omega, I Omega)/2, the E of (33), shape (...); a magnetic field does no work on it."""
+    """Kinetic energy (Omega, I Omega)/2, the E of (33), shape (...), in inertia/time^2.
+
+    Omega (..., 3) is along the axes of the tensor I, ``inertia``. A magnetic field does no work on the body.
+    """
     return np.asarray(np.vecdot(Omega, np.matvec(inertia, Omega)) / 2)
 
 
 def momentum_along_field(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Return (K, I (Omega + K)), |B'| times the canonical momentum along B: conserved for every body."""
+    """Return (K, I (Omega + K)), shape (...): |B'| times the canonical momentum along B, conserved for every body.
+
+    K is the field in the body, I the tensor ``inertia``; the unit is inertia/time^2.
+    """
     return np.asarray(np.vecdot(K, np.matvec(inertia, np.add(Omega, K))))
 
 

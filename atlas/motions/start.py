@@ -90,7 +90,7 @@ class Start:
 
     @property
     def omega(self) -> FloatArray:
-        """Angular velocity at t = 0 along the axes of the body, rounded, shape (..., 3), in rad/time."""
+        """Angular velocity at t = 0 along the given axes of the body, rounded, shape (..., 3), in rad/time."""
         w = joined_columns(self.w)
         return np.asarray(np.vecmat(w, self.R)) if self.outside else w
 
@@ -194,14 +194,21 @@ def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
 
 
 def _copied(value: Any) -> Any:
-    """Return an argument with its arrays copied: later changes by the user leave the motion unchanged."""
+    """Return an argument with its arrays copied, also those in tuples and lists.
+
+    Later changes by the user then leave the motion unchanged.
+    """
     if isinstance(value, tuple | list):
         return [*map(_copied, value)] if isinstance(value, list) else tuple(map(_copied, value))
     return frozen(value.copy()) if isinstance(value, np.ndarray) else value
 
 
 def body_of(inertia: Any) -> Body:
-    """Return the `Body` of a ratio, of moments or of a tensor. Raises DomainError for values that no body has."""
+    """Return the `Body` of a ratio, a SymmetricBody, three moments or tensors (..., 3, 3).
+
+    Raises DomainError for values that no body has and for an array of which some bodies are symmetric, AtlasError for
+    another shape.
+    """
     if isinstance(inertia, SymmetricBody):
         I2, I3 = moments(inertia)
         return of_moments((I2, I2, I3), inertia.axes)._replace(exact=inertia)

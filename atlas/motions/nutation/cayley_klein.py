@@ -200,9 +200,9 @@ class Products:
 
 
 def _entries() -> FloatArray:
-    """Return the coefficients (10, 3, 3) of the products `PAIRS` in R: R_ij is the sum over p of [p, i, j].
+    """Return the coefficients (10, 3, 3) of the products `PAIRS` in R: R_ij is the sum of [p, i, j] times product p.
 
-    Product p is that of a pair of (Re alpha, Re beta, Im alpha, Im beta), of which the squares must sum to one.
+    The products are of two of (Re alpha, Re beta, Im alpha, Im beta), the squares of which must sum to one.
     """
     w, x, y, z = QUATERNION
     table = np.zeros((4, 4, 3, 3))

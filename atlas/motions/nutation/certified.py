@@ -40,12 +40,18 @@ class Nutating:
 
     @property
     def sphere(self) -> Sphere:
-        """The `Sphere` of the field at the current working precision."""
+        """The `Sphere` on which the field moves in the body, at the current working precision.
+
+        Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant: R(t) is then a product of two uniform rotations."""
+        """Whether theta is constant: R(t) is then a product of two uniform rotations.
+
+        Raises NotImplementedError in the base.
+        """
         raise NotImplementedError
 
     def steady_rates(self) -> tuple[Real, Real]:
@@ -116,10 +122,7 @@ class Nutating:
 
     @property
     def _half(self) -> arb:
-        """Half the period of a small nutation, as a ball, where theta is constant.
-
-        Infinite if that motion is unstable.
-        """
+        """Half the period of a small nutation, a ball in time, where theta is constant; infinite if unstable."""
         square = -arb(self.quartic.curvature) / 2
         return arb.pi() / square.sqrt() if square > 0 else arb("inf")
 
@@ -199,7 +202,7 @@ class Nutating:
         return self._moduli()[1]
 
     def _periods(self) -> tuple[arb, arb]:
-        """Return (half the real period, half the imaginary period) as balls.
+        """Return (half the real period, half the imaginary period) of nutation, balls in time.
 
         Raises DomainError if both are infinite, except where a steady motion is unstable.
         """
@@ -319,6 +322,9 @@ class Nutating:
         return turned_back(self.omega, c, s)
 
     def turning_rate(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes, three balls, from the quaternion's logarithmic derivative."""
+        """Return Omega(t) along the body's axes, three balls in rad/time.
+
+        It is twice the vector part of the quaternion's logarithmic derivative.
+        """
         a, b, da, db = self.solution.parameters(t)
         return turning_rate(self.from_frame(a, b), self.from_frame(da, db))

@@ -64,7 +64,10 @@ class Lattice:
 
     @property
     def reach(self) -> arb:
-        """Largest |rate s| at which a hyperbolic sum is evaluated; zero for other forms and for a single term."""
+        """Largest |rate s| at which a hyperbolic sum is evaluated, a ball without unit, with s up to half a period.
+
+        It is zero for other forms and for a single term.
+        """
         return self.rate * self.half if self.form == "hyperbolic" and not infinite(self.half) else arb(0)
 
 
@@ -119,7 +122,7 @@ class Sum:
 
     @property
     def derivative(self) -> "Sum":
-        """The derivative by s, as a sum of the same form, with the `bound` of this sum."""
+        """The derivative by s, a `Sum` of the same form, with the `bound` of this sum, not one of its own."""
         rate, sign = self.lattice.rate, -1 if self.lattice.form == "trigonometric" else 1
         if self.lattice.form == "linear":
             return Sum(self.lattice, (acb(0),), (self.odd[0] * rate,), arb(0), self.doubled)
@@ -290,7 +293,8 @@ class Solution:
     def parameters(self, t: Any, *, turning: bool = True) -> tuple[acb, acb, acb, acb]:
         """Return (alpha, beta, dalpha/dt, dbeta/dt) at time t up to one common factor, complex balls.
 
-        Unless ``turning``, the derivatives lack the rate at which `swing` rotates the body about its own axis.
+        t is a rational, or a number that equals one. Unless ``turning``, the derivatives lack the rate at which
+        `swing` rotates the body about its own axis.
         """
         t = rational(t, "the time")
         return self._parameters(t, self.in_cell(arb(t) + self.origin), turning=turning)
@@ -330,16 +334,20 @@ class Solution:
         return arb("nan") if periods is None else s - self.period * periods
 
     def _whole_periods(self, s: arb) -> fmpz | None:
-        """Return the number of whole periods between s and its cell; None if the radius of s leaves two.
+        """Return the number of whole periods between s and its cell; None if the radius of s leaves several.
 
-        It is 0 in forms whose functions are periodic, and without a period.
+        s is the time since the turning point; the cell is half a period either way. The number is 0 in forms whose
+        functions are periodic, and without a period.
         """
         if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
             return fmpz(0)
         return ((s / self.period).mid() + 0.5).floor().unique_fmpz()
 
     def is_flipped(self, t: Any) -> bool:
-        """Whether `parameters` at time t have the opposite sign of the continuous alpha and beta."""
+        """Whether `parameters` at time t have the opposite sign of alpha and beta continued from t = 0.
+
+        False also where the number of periods is not known.
+        """
         periods = self._whole_periods(arb(t) + self.origin)
         return periods is not None and int(periods) % 2 == 1 and self.alternates
 
@@ -359,7 +367,10 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
 
 
 def quaternion(R: Sequence[Sequence[Any]], doubles: Sequence[float]) -> list[arb]:
-    """Return the unit quaternion (x, y, z, w) of a rotation matrix, four balls, with the sign of nearby ``doubles``."""
+    """Return the unit quaternion (x, y, z, w), four balls, of a rotation matrix R, three rows.
+
+    ``doubles`` are a rough quaternion (x, y, z, w), which gives the sign.
+    """
     i = max(range(4), key=lambda i: abs(doubles[i]))
     row = quaternion_products([[arb(x) for x in row] for row in R])[i]
     size = (-2 if doubles[i] < 0 else 2) * row[i].sqrt()

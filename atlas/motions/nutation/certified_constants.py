@@ -109,7 +109,7 @@ class Nutation:
         self.turnings = dict[int, TurningPoint]()
 
     def solution(self) -> Solution:
-        """Return the `Solution`: all constants of alpha and beta."""
+        """Return the `Solution`: all constants of alpha and beta; some are stored in this object."""
         if all(root.multiplicity == 2 for root in self.roots):
             return self._heteroclinic()
         self.start = self._start()

@@ -224,7 +224,7 @@ class Groups:
     def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
         """Whether derivatives agree over two successive steps, relative to the largest of their group.
 
-        ``ups`` and ``downs`` are the changes over the steps on both sides of ``middle``.
+        ``ups`` and ``downs`` are the changes over the steps on both sides of ``middle``, three rows of balls.
         """
         size, up, down = (sizes_of(x) for x in (middle, ups, downs))
         bend = sizes_of(_combined((ups, downs), (1, -1)))
@@ -272,7 +272,7 @@ def _scaled(row: Row, factor: arb) -> Row:
 
 
 def sizes_of(row: Row) -> FloatArray:
-    """Return the magnitudes of the balls in a row as a float array."""
+    """Return the magnitudes of the midpoints of the balls in a row, a float array (n,)."""
     return np.array([float(abs(x).mid()) for x in row])
 
 

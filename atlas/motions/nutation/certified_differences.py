@@ -41,7 +41,10 @@ class Differences:
         self._make_neighbours(STEP_BITS + 20)
 
     def _make_neighbours(self, bits: int) -> None:
-        """Set `here` and `neighbours`: for each input, motions that differ by 2^-``bits`` of its scale."""
+        """Store in `here` the motion and in `neighbours` the result of `_neighbours` for each input.
+
+        Neighbours differ by 2^-``bits`` of the input's scale.
+        """
         self.bits = bits
         with workprec(8 * bits):
             self.here = self.make(*self.values)
@@ -84,7 +87,7 @@ class Differences:
         raise DomainError("The motion is too near to a case of its own for derivatives.")
 
     def _state(self, motion: Any, t: fmpq) -> Row:
-        """Return the nine entries of R, by rows, then the three of Omega, as balls."""
+        """Return twelve balls: the nine entries of R(t), by rows, then the three of Omega(t), of one motion."""
         return [*chain.from_iterable(motion.rotation(t)), *motion.angular_velocity(t)]
 
     def _derivative(

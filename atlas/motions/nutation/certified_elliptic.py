@@ -98,7 +98,7 @@ class EllipticMotion(Nutating):
 
     @property
     def splitting(self) -> fmpq:
-        """C/D^2, the squared frequency of small departures in 1/time^2, theorem-splitting: negative if unstable."""
+        """Squared frequency C/D^2 of small departures, exact, in 1/time^2, theorem-splitting: negative if unstable."""
         square: fmpq = splitting(self.inertia, self.field, self.z)
         return square
 
@@ -106,7 +106,8 @@ class EllipticMotion(Nutating):
     def stability(self) -> str:
         """Name "stable" if all motions that start near stay near the curve of K and M, else "unstable" or "undecided".
 
-        At rest and at Omega = -2 K the curve is that of the flow of F, along which neighbours drift slowly.
+        It is decided exactly. At rest and at Omega = -2 K the curve is that of the flow of F, along which
+        neighbours drift slowly.
         """
         C, stays = self.splitting, self._change() >= 0 if self.is_steady else self.kind != "separatrix"
         if self._rests or (C > 0 and stays):
@@ -145,7 +146,7 @@ class EllipticMotion(Nutating):
 
     @property
     def omega(self) -> list[Real]:  # type: ignore[override]  # a root of the inputs
-        """Angular velocity at t = 0 along the principal axes, three numbers in rad/time."""
+        """Angular velocity at t = 0 along the principal axes, a list of three rationals or balls in rad/time."""
         return self.rate_of(self.field)
 
     @property
@@ -251,17 +252,17 @@ class EllipticMotion(Nutating):
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession about B, in rad/time, of the axis around which K goes.
+        """Mean rate of precession about B, in rad/time, of the axis around which K goes: a ball or a rational.
 
-        Raises DomainError on a separatrix.
+        0 at rest. Raises DomainError on a separatrix and for the spin about the middle axis.
         """
         return self._mean_rates()[0]
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate, in rad/time, of rotation about the axis around which K goes.
+        """Mean rate, in rad/time, of rotation about the axis around which K goes: a ball or a rational.
 
-        Raises DomainError on a separatrix.
+        0 at rest. Raises DomainError on a separatrix and for the spin about the middle axis.
         """
         return self._mean_rates()[1]
 
@@ -286,7 +287,7 @@ class EllipticMotion(Nutating):
         return (arb(1), arb("inf")) if self.is_steady else super()._periods()
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = (E - 1) K(t) along the body's axes, three balls in rad/time."""
+        """Return Omega_i(t) = (E_i - `frame`) K_i(t) along the body's axes, three balls in rad/time."""
         return self.rate_of(self.field_in_body(t))
 
     def angular_momentum(self, t: Any) -> list[Real]:
@@ -340,7 +341,10 @@ class EulerTop(EllipticMotion):
 
 
 def check_moments(moments: tuple[fmpq, ...]) -> None:
-    """Raise DomainError unless three moments are positive and the largest is at most the sum of the others."""
+    """Raise DomainError unless three moments are positive and the largest is at most the sum of the others.
+
+    The largest may exceed that sum by the part `ROUNDING`.
+    """
     listed = ", ".join(map(str, map(nearest, moments)))
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {listed}: all three are positive.")

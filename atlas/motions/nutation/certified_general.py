@@ -87,7 +87,10 @@ class GeneralMotion(Nutating):
 
     @by_precision
     def velocity(self) -> Solution:
-        """The `Solution` of the pair from which Omega follows, see `atlas.motions.nutation.certified_spheres`."""
+        """The `Solution` of the pair from which Omega follows, at the current working precision.
+
+        See `atlas.motions.nutation.certified_spheres`.
+        """
         sphere = self._velocity_sphere
         if self.is_steady:
             return steady(sphere.tilt, fmpq(0), self._steady_turn(), self._half)
@@ -165,12 +168,18 @@ class GeneralMotion(Nutating):
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession, see `Nutating`; of a free body k, about its momentum."""
+        """Mean rate of precession, in rad/time, see `Nutating`.
+
+        For a free body it is k of `steady_rates`, about its momentum.
+        """
         return self.steady_rates()[0] if self.quartic.K2 == 0 else super().precession_rate
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of the body's turn about its axis, see `Nutating`; of a free body phi."""
+        """Mean rate of the body's turn about its axis, in rad/time, see `Nutating`.
+
+        For a free body it is phi of `steady_rates`.
+        """
         return self.steady_rates()[1] if self.quartic.K2 == 0 else super().spin_rate
 
     @property

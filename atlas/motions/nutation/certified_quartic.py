@@ -50,7 +50,7 @@ class Root:
 
     @property
     def is_infinite(self) -> bool:
-        """Whether the root is at infinity: the leading coefficient is zero."""
+        """Whether the root is at infinity, where the quartic's leading coefficients are zero."""
         return bool(self.value.real > 0) and not self.value.real.is_finite()
 
 
@@ -101,7 +101,7 @@ class Quartic:
 
     @property
     def curvature(self) -> Real:
-        """Q''(u) at t = 0, a rational or a ball."""
+        """Second derivative Q''(u) at t = 0, a rational or a ball, in the unit of Q over that of u squared."""
         return evaluated(derivative(derivative(self.polynomial)), self.u).value
 
     @property
@@ -131,7 +131,7 @@ class Quartic:
 
     @cached_property
     def _factors(self) -> list[tuple[Polynomial, int]]:
-        """Square-free factors, each with the multiplicity of its roots; empty for a constant."""
+        """Square-free factors of Q as pairs (polynomial, multiplicity of its roots in Q); [] for a constant."""
         return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:

@@ -153,7 +153,10 @@ def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
 
 
 def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
-    """Return the `Crossing` of the motion between n and -n that passes the equator at time -``origin``."""
+    """Return the `Crossing` of the motion between n and -n that passes the equator at time -``origin``.
+
+    ``quartic`` is that of the top.
+    """
     return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
 
 

@@ -143,7 +143,7 @@ class TopMotion(Nutating):
         return replace(solution, swing=swing(nutation, self.quartic))
 
     def steady_rates(self) -> tuple[Real, Real]:
-        """Return (k about n, phi about the body's axis) in rad/time where theta is constant."""
+        """Return (k about n, phi about the body's axis) in rad/time, rationals or balls, where theta is constant."""
         q, (_, w2, w3) = self.quartic, self.omega
         if q.transverse.is_zero:
             return fmpq(0), w3

@@ -139,10 +139,10 @@ class CayleyKlein:
         return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
 
     def _phases(self) -> Phases:
-        """Return the `Phases` of the motion; with hyperbolic functions, the period's own is reduced by half turns.
+        """Return the `Phases` of `frequencies` and `origins`; a hyperbolic form's own is reduced by half turns.
 
-        Their argument has a large slope, as has the swing of a top in a slow nutation: so that phase is reduced as if
-        it were long, without any loss.
+        The hyperbolic functions' argument has a large slope, as has the swing of a top in a slow nutation: so that
+        phase is reduced as if it were long, without any loss.
         """
         hyperbolic = self.periodic and isinstance(self.functions, Hyperbolic)
         rounder = np.array([EVEN, EVEN, ROUNDER])[:, None] if hyperbolic else EVEN
@@ -200,7 +200,7 @@ def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
 
 
 def _reducible(turns: list[arb], origin: arb) -> bool:
-    """Whether frequencies and origin are finite and accurate enough for the reduction of phases."""
+    """Whether frequencies and origin, all in turns, are finite and accurate enough for the reduction of phases."""
     if not all(x.is_finite() for x in turns):
         return False
     scale = max(abs(x) for x in turns)

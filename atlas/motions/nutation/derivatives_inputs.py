@@ -47,7 +47,10 @@ class Inputs:
 
     @property
     def rate(self) -> float:
-        """Scale of the rates, the first scale of an angular velocity, a field or a Larmor frequency, in 1/time."""
+        """Scale of the rates in 1/time.
+
+        It is the first of `scales` that belongs to an angular velocity, a field or a Larmor frequency.
+        """
         sizes = zip(self.names, self.scales, strict=True)
         return next(float(floats([size])[0]) for name, size in sizes if name.startswith(("omega", "K", "larmor")))
 

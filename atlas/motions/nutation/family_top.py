@@ -12,7 +12,7 @@ def _rates(motion: Any) -> Any:
 
 
 def _stability(motion: Any) -> str:
-    """Return "stable", "unstable", or "not steady" for a motion in which theta varies."""
+    """Return "stable", "unstable", or, for a motion in which theta varies, "not steady"."""
     return {True: "stable", False: "unstable", None: "not steady"}[motion.stable]
 
 

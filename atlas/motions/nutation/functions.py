@@ -111,7 +111,7 @@ class Trigonometric:
         return 4 if self.constant else 2
 
     def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return (cos 2v, sin 2v) from the argument u of `fill`."""
+        """Return (cos 2v, sin 2v), (N,) each, from the argument u (N,) of `fill`."""
         if self.constant:
             u = 2 * u / (1.0 - u * u)
         square = u * u
@@ -207,7 +207,10 @@ class Hyperbolic:
 
 
 class Linear:
-    """The functions x and 1, both divided by the larger of |x| and 1; x is the time since the turning point."""
+    """The functions x and 1, both divided by the larger of |x| and 1; x is the time since the turning point.
+
+    They are for a triple root of Q, where alpha and beta are linear in x.
+    """
 
     def __init__(self, solution: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 2

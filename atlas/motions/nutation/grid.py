@@ -153,7 +153,10 @@ class Windows:
         self.values = np.empty((NODES * size, 9))
 
     def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
-        """Return (matrices (j - i, NODES, 9) at the nodes of windows i ... j - 1, whether polynomials suffice)."""
+        """Return (matrices (j - i, NODES, 9) at the nodes of windows i ... j - 1, whether polynomials suffice).
+
+        The matrices are overwritten by the next call.
+        """
         index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
         values = self.values[: index.size]
         self.grid.fill(self.evaluation, index.reshape(-1), values)

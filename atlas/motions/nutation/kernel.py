@@ -53,7 +53,7 @@ class NutatingMotion(Motion[Nutation]):
 
     @cached_property
     def _scalars(self) -> Scalars:
-        """`Scalars` of all motions: quantities that do not depend on time, each an array by its name."""
+        """`Scalars` of all motions: quantities that do not depend on time, each a `Rounded` by its name."""
         return self._scalars_of(self._blocks)
 
     @cached_property
@@ -144,12 +144,24 @@ class NutatingMotion(Motion[Nutation]):
 
     @kept
     def complementary_modulus(self) -> FloatOrArray:
-        """Complementary modulus sqrt(1 - k^2) of the elliptic functions, accurate next to a separatrix."""
+        """Complementary modulus sqrt(1 - k^2) of the elliptic functions, accurate next to a separatrix.
+
+        Raises
+        ------
+        DomainError
+            At a triple root of one motion, where k has no limit; an array has NaN there.
+        """
         return self._scalar("complementary_modulus")
 
     @kept
     def nome(self) -> FloatOrArray:
-        """Nome q = exp(-pi K'/K) of the elliptic functions."""
+        """Nome q = exp(-pi K'/K) of the elliptic functions: 0 for elementary nutation, 1 on a separatrix.
+
+        Raises
+        ------
+        DomainError
+            At a triple root of one motion, where q has no limit; an array has NaN there.
+        """
         return self._scalar("nome")
 
     def angular_velocity(self, t: RealArrayLike) -> FloatArray:
@@ -231,13 +243,16 @@ class NutatingMotion(Motion[Nutation]):
         return np.asarray(rows.reshape(self.shape + rows.shape[1:]))
 
     def _wheels(self) -> Wheels:
-        """Return the `Wheels` of one motion, its rotations at uniform rates."""
+        """Return the `Wheels` of one motion: two turns at uniform rates, and one phase unless theta is constant.
+
+        Raises DomainError on a separatrix.
+        """
         from atlas.motions.nutation.spectrum import of_nutation
 
         return of_nutation(self, self._single().exact)
 
     def _fill_grid(self, single: Nutation, start: float, step: float, out: FloatArray) -> None:
-        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step."""
+        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step; ``single`` is its evaluator."""
         from atlas.motions.nutation.grid import fill_grid
 
         fill_grid(single, start, step, out)

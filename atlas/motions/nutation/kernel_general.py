@@ -25,7 +25,7 @@ CONSTANTS = (*NAMES[:4], "(M,B')")
 
 
 def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
-    """Return the `SingleGeneral` of moments, field and angular velocity in the body at t = 0, eight exact numbers."""
+    """Return the `SingleGeneral` of eight exact numbers, I2, I3, K1, K2, K3, omega1, omega2, omega3 at t = 0."""
     with workprec(FIRST_BITS):
         return SingleGeneral(Balls.at_state(Moments(I2, I3), state[3:], state[:3]))
 
@@ -157,14 +157,17 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
     @kept
     def _constants(self) -> Any:
-        """E', K^2, c3, c5 and (M, B')/I2 of the inputs, a list of five floats or arrays, each rounded once."""
+        """E', K^2, c3, c5 and (M, B')/I2 of the inputs, a list of five floats or arrays, each rounded once.
+
+        c3 is in 1/time, the others are in 1/time^2.
+        """
         if not self.shape:
             return [nearest(x) for x in self._single().exact.invariants.values()]
         I2, I3, *state = self._inputs
         return over(constants, I2, I3, *state[3:], *state[:3], unit=slice(2, None), degree=(2, 2, 1, 2, 2))
 
     def _momentum(self, Omega: FloatArray) -> FloatArray:
-        """Return (Omega1, Omega2, I Omega3) for angular velocities (..., 3)."""
+        """Return the momenta (Omega1, Omega2, I Omega3), (..., 3), over I2, for angular velocities (..., 3)."""
         I = shape_factors(self.ratio)[0]
         return np.asarray(Omega * np.stack(np.broadcast_arrays(1.0, 1.0, I), -1))
 

@@ -346,7 +346,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @staticmethod
     def _body_of(inertia: Any) -> Body:
-        """Return the `Body` with the moments (I2, I2, I3) along the axes of the class."""
+        """Return the `Body` with the moments (I2, I2, I3) along the axes of the class; ``inertia`` is (I2, I3)."""
         I2, I3 = components(inertia, ("I2", "I3"), "The inertia", INERTIA)
         return of_moments((I2, I2, I3), np.eye(3))
 

@@ -178,11 +178,14 @@ class MotionsAtTimes:
 
 
 class TopsAtTimes(MotionsAtTimes):
-    """Tops paired with times, as `MotionsAtTimes`."""
+    """Tops paired with times, as `MotionsAtTimes`; `field_in_body` gives the unit vector n in the body."""
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the tuple (`Constants`, `Swings`) of a block of tops; the latter is that of the integral of nu."""
+        """Return the tuple (`Constants`, `Swings`) of a block of tops.
+
+        The `Swings` are of the turn about the axis by kappa times the integral of nu.
+        """
         return block.constants, block.swings
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
@@ -241,7 +244,10 @@ class CayleyKleinAtTimes:
             self.extreme = np.flatnonzero(~is_good)
 
     def column(self, j: int, out: FloatArray) -> None:
-        """Write the column R_j, j = 1, 2, 3, of each motion at its time into ``out`` (m, 3), before `turn_back`."""
+        """Write the column R_j, j = 1, 2, 3, of each motion at its time into ``out`` (m, 3).
+
+        Components are along axes with the field in the e2-e3 plane; `turn_back` takes them to the given ones.
+        """
         x, y, z = (self._entry(i, j - 1) for i in range(3))
         (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
         side_1, third = (side, 1.0) if j == 3 else (1.0, side)

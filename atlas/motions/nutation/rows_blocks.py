@@ -32,14 +32,14 @@ WEIGHT_RADIUS = 2.0**-57
 
 
 class Constants(NamedTuple):
-    """Constants of the Cayley-Klein pairs of m motions, the last axis over motions.
+    """Constants of the Cayley-Klein pairs of m motions, the last axis over motions; see the module for the formula.
 
-    `words` (2, 3, m) are the frequencies l of alpha and beta, and M, in half turns, in two words; `frequency_error` (3,
-    m) bounds their errors; `rates` (3, m) are the frequencies in radians. `even` and `odd` (MAX_TERMS, 2, m), of which
-    `terms` matter, are weights, `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| +
-    |beta|. `tilt` (2, m) are cos and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`;
-    `plane` (2, m) are cos and sin of a rotation about e3, see `Roots`. `is_certain` marks the motions for which all
-    this is accurate.
+    `words` (2, 3, m) are the frequencies l of alpha and beta, and M, in half turns per time, in two words;
+    `frequency_error` (3, m) bounds their errors; `rates` (3, m) are the frequencies in rad/time. `even` and `odd`
+    (MAX_TERMS, 2, m), of which `terms` (m,) matter, are weights, `factor` (2, m) is F, `start` (2, m) are cos and
+    sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos and sin of theta(0); `azimuth` and `sizes`,
+    (2, m) each, are those of the vector, see `Sphere`; `plane` (2, m) are cos and sin of a rotation about e3, see
+    `Roots`. `is_certain` (m,) marks the motions for which all this is accurate.
     """
 
     words: FloatArray
@@ -62,7 +62,8 @@ class Constants(NamedTuple):
 class Block:
     """A block of m motions: the slice `rows` of all, their `roots`, and scaling `exponents`.
 
-    Frequencies are divided by 2^`exponents`; `is_similar` marks the motions whose inputs have similar sizes.
+    Frequencies are divided by 2^`exponents`, integers (m,) or 0; `is_similar` (m,) marks the motions whose inputs have
+    similar sizes.
     """
 
     rows: slice
@@ -77,7 +78,7 @@ class Block:
 
     @cached_property
     def pair(self) -> SpherePair:
-        """The `SpherePair` alpha, beta of the axis and of the field."""
+        """The `SpherePair` of alpha and beta, for the axis and the field."""
         return SpherePair(self.means, sphere_of_field(self.roots))
 
     @cached_property
@@ -191,7 +192,7 @@ class Blocks:
 
     @staticmethod
     def _roots(*inputs: DoubleDouble) -> Any:
-        """Return the `Roots` of motions from double-double columns I2, I3, field and omega."""
+        """Return the `Roots` of motions from double-double columns I2, I3, B1, B2, B3, omega1, omega2, omega3."""
         I2, I3, *vectors = inputs
         (B2, B3), omega, plane = in_plane(*vectors)
         return roots_of(I2, I3, (B2, B3), omega, plane=plane)
@@ -244,7 +245,7 @@ def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
 
 
 def _exponent(x: FloatArray, plain: Any) -> Any:
-    """Return the exponents of x as by `numpy.frexp`, 0 where ``plain``."""
+    """Return the integer exponents of x (m,) as by `numpy.frexp`, 0 where the mask ``plain`` is true."""
     return np.where(plain, 0, np.frexp(x)[1])
 
 

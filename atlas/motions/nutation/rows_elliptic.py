@@ -76,7 +76,7 @@ class EllipticRoots(TurningPoints):
 
     @property
     def is_excluded(self) -> Any:
-        """Mask of the rows that are not certainly elliptic motions."""
+        """Mask (m,) of the rows that are not certainly elliptic motions."""
         return ~self.elliptic
 
     @property
@@ -88,8 +88,9 @@ class EllipticRoots(TurningPoints):
 class Pencil:
     """Inertia, K and e of elliptic motions, rows (m,), and how nutation depends on them.
 
-    Of I1, I2, I3, B1, B2, B3, z and branch: `x` are z + I_j I_k, `square` is their product and `v` its root, with the
-    sign of `branch`; `e` are E_i/v = 1/(I_i x_i), K is (B1, B2, B3). An axis is a number 0, 1, 2 or an array of them.
+    It is made from I1, I2, I3, B1, B2, B3, z and branch: `x` are z + I_j I_k, `square` is their product and `v` its
+    root, with the sign of `branch`; `e` are -E_i/v = 1/(I_i x_i), K is (B1, B2, B3) at t = 0. An axis is a number
+    0, 1, 2 or an array of them.
     """
 
     def __init__(self, *inputs: DoubleDouble) -> None:
@@ -157,7 +158,7 @@ class Pencil:
         return [-(self.v * y) - ONE for y in self.e]
 
     def is_elliptic(self, w: DoubleDouble) -> Any:
-        """Return a mask of rows that are certainly elliptic motions, with w < 0 (see `roots_of_elliptic`).
+        """Return a mask (m,) of rows that are certainly elliptic motions, given the w of the module.
 
         False also where rounding leaves the kind open, and near rest.
         """
@@ -306,7 +307,10 @@ def _scalars(block: Block) -> dict[str, Rounded]:
 
 
 class Axes(NamedTuple):
-    """Axes of the pair in the body, (3, 3, m), and the factors E - 1 from K to Omega, (3, m)."""
+    """Axes of the pair, and the factors from K to Omega, of m elliptic motions.
+
+    `frames` (3, 3, m) has the axes in the body as columns, `rates` (3, m) are E - 1.
+    """
 
     frames: FloatArray
     rates: FloatArray
@@ -317,7 +321,7 @@ class EllipticAtTimes(MotionsAtTimes):
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the tuple (`Constants`, `Axes`) of a block."""
+        """Return the tuple (`Constants`, `Axes`) of a block of elliptic motions."""
         r = block.roots
         rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
         return block.constants, Axes(r.frame, np.array(rates))
@@ -347,7 +351,7 @@ class EllipticAtTimes(MotionsAtTimes):
         out[:] = R[:, :, j - 1]
 
     def quaternion(self, t: FloatArray, out: FloatArray) -> None:
-        """Write the unit quaternion (x, y, z, w) of each motion at its time into ``out`` (m, 4)."""
+        """Write the unit quaternion (x, y, z, w) of each motion at its time, of either sign, into ``out`` (m, 4)."""
         super().quaternion(t, out)
         out[:, :3] = np.matvec(self._frames, out[:, :3])
 

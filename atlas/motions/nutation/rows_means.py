@@ -38,7 +38,7 @@ class Level:
 
     @cached_property
     def is_merged(self) -> Any:
-        """Mask of the rows where a and g agree to MEANS_TOLERANCE."""
+        """Mask (m,) of the rows where a and g agree to MEANS_TOLERANCE."""
         return ~(self.difference.hi > MEANS_TOLERANCE * self.a.hi)
 
 
@@ -65,7 +65,7 @@ class Means:
         self.levels = self._levels()
 
     def _levels(self) -> list[Level]:
-        """Return the levels of the arithmetic-geometric mean, until all rows are merged or `MAX_MEANS` levels are made.
+        """Return the list of `Level`, until all rows are merged or `MAX_MEANS` levels are made.
 
         A row that has merged keeps its numbers in later levels.
         """

@@ -104,7 +104,7 @@ class SpherePair:
 
     @cached_property
     def zeros(self) -> Zeros:
-        """The `Zeros` of alpha and beta, (2, m)."""
+        """The `Zeros` of the theta sums of alpha and beta, arrays (2, m)."""
         inside, k = self._starts[0].hi > self.means.N.hi, self.sphere
         # where the vector starts at a pole, that of beta belongs to `low` and that of alpha to `high`
         is_at_low = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
@@ -246,7 +246,10 @@ def _steps(
 
 
 def _merged(going: Any, rows: Any, x: DoubleDouble, fallback: DoubleDouble) -> DoubleDouble:
-    """Return x where `going` holds, else `fallback`; x has the rows `rows` of the fallback, or all."""
+    """Return x where the mask `going` holds, else `fallback`; x has the columns `rows` of the fallback, or all.
+
+    ``rows`` are indices, or a slice for all; the arrays are (2, m).
+    """
     if isinstance(rows, slice):
         return chosen(going, x, fallback)
     words = [np.array(np.broadcast_to(y, fallback.hi.shape)) for y in (fallback.hi, fallback.low, fallback.rel)]

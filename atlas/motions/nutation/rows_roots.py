@@ -94,12 +94,11 @@ class TurningPoints:
 class Roots(TurningPoints):
     """The turning points of motions, with further constants of their spheres, each an array (m,).
 
-    I is I3/I2 and `less` (I2 - I3)/I2; `omega` is Omega at t = 0; A and a are coefficients of Q, see `roots_of`;
-    `a` and `top` are of tops alone.
-
-    `moving`, `steady` are where theta is certain to vary, or not to; `b` is the length of (n2, n3), I c3 the momentum
-    M3 along the axis, M2 that along e2; `frame` is the rate k2/I2 of the frame about n; `plane` (2, m) are cosine and
-    sine of the turn about e3 that brought n into the plane of e2 and e3, None where there was none.
+    I is I3/I2 and `less` (I2 - I3)/I2; (n2, n3) is the field or a top's direction, `b` its length, `omega` Omega at
+    t = 0; A and a are coefficients of Q, see `roots_of`; `a` and `top` are of tops alone, otherwise None. `moving`,
+    `steady` are masks where theta is certain to vary, or not to. I c3 is the momentum M3 along the axis, M2 that
+    along e2; `frame` is the rate k2/I2 of the frame about n; `plane` (2, m) are cosine and sine of the turn about
+    e3 that brought n into the plane of e2 and e3, None where there was none.
     """
 
     I: DoubleDouble
@@ -145,10 +144,11 @@ class Roots(TurningPoints):
 
 
 class Top(NamedTuple):
-    """Coupling and potential of a top, in units of I2 and of b, the length of n.
+    """Coupling and potential of a top, arrays (m,) in units of I2 and of b, the length of n.
 
-    kappa, the difference of k2/(I2 b) and k3/(I3 b), is zero unless `twisted`; `linear` and `quadratic` are those of
-    the potential, A the leading coefficient of Q; `rates` (m,) is the largest of the rates that the top has.
+    `kappa`, the difference of k2/(I2 b) and k3/(I3 b), is zero unless the mask `twisted` holds; `linear` and
+    `quadratic` are those of the potential, A the leading coefficient of Q; `rates` is the largest of the rates that
+    the top has.
     """
 
     kappa: DoubleDouble
@@ -227,7 +227,7 @@ def in_plane(
 ) -> tuple[tuple[DoubleDouble, DoubleDouble], Sequence[DoubleDouble], FloatArray | None]:
     """Return ((n2, n3), omega, plane): both vectors rotated about e3 so that n1 = 0; ``plane`` is (cos, sin), (2, m).
 
-    The plane is None, and the vectors are unchanged, if n1 is zero in all rows.
+    ``omega`` are its three components. The plane is None, and the vectors are unchanged, if n1 is zero in all rows.
     """
     turns = n1.hi != 0
     if not turns.any():

@@ -70,7 +70,7 @@ class Scalars:
         return _angles if name.endswith("per_period") else _scalars
 
     def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:
-        """Evaluate the scalars that ``values`` gives for all blocks, and cache them."""
+        """Evaluate the scalars that ``values`` gives of a `Block` for all blocks, and cache them."""
         rounded_roots: dict[str, list[Rounded]] = {}
         count = self.blocks.count
         for block in self.blocks if count else type(self.blocks)((1.0,) * len(self.blocks.inputs), (1,)):

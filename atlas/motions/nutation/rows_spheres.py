@@ -46,7 +46,7 @@ class Sphere:
 
     @cached_property
     def near_distance(self) -> DoubleDouble:
-        """Distances of the poles from the turning point that is nearer, (2, m), with their sign.
+        """Distances in v of the poles from the turning point that is nearer, (2, m), with their sign.
 
         Where that cancels, since the vector all but meets the pole, they are the square of the torque over -f far.
         """

@@ -57,11 +57,12 @@ class SwingSums(NamedTuple):
 class Swings(NamedTuple):
     """Half the oscillating part of each top's rotation by kappa times the integral of nu, to be evaluated at times.
 
-    Arrays are (m,), or end with that axis. `twisted` is the mask of tops with such a rotation; `factor` is
-    kappa/sqrt(|A|) and `size` sqrt(|A|), or kappa and 0 where A = 0, `sign` that of A; `start` (2, m) are cosine
-    and sine of 2 y at t = 0, `before` is half the rotation there, in rad; `slope` bounds its change by a radian of
-    y; `frequency_error` is that of M/pi in 1/time, `w_error` bounds the relative error of the weights `even` and
-    `odd`; `fastest` is the largest rate, in rad/time.
+    Arrays are (m,), or end with that axis. `twisted` is the mask of tops with such a rotation, and `kappa` the
+    factor, in rad/time; `factor` is kappa/sqrt(|A|) and `size` sqrt(|A|), or kappa and 0 where A = 0, `sign` that
+    of A; `start` (2, m) are cosine and sine of 2 y at t = 0, `before` is half the rotation there, in rad; `slope`
+    bounds its change by a radian of y; `frequency_error` is that of M/pi in 1/time, `w_error` bounds the relative
+    error of the weights `even` and `odd`, which are those of `SwingSums`; `fastest` is the largest rate, in
+    rad/time.
     """
 
     twisted: Any
@@ -80,7 +81,10 @@ class Swings(NamedTuple):
 
     @classmethod
     def of_block(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
-        """Return the `Swings` of the tops of a block; ``sums`` None stands for no rotation by the integral of nu."""
+        """Return the `Swings` of the tops of a block; ``sums`` None stands for no rotation by the integral of nu.
+
+        ``means``, r and ``top`` are those of the block, rates being divided by 2^``exponents``.
+        """
         A, kappa, (cos, sin) = r.A, top.kappa, means.start
         nothing = np.zeros((MAX_TERMS, *A.hi.shape), dtype=np.longdouble)
         sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))

@@ -56,7 +56,7 @@ class SingleMotion:
 
     @cached_property
     def sides(self) -> tuple[FloatArray, FloatArray]:
-        """Matrices (left, right), (3, 3) each, around the matrix of (alpha, beta); `right` is a rotation about e3."""
+        """Matrices (left, right), (3, 3) each, with R = left R(alpha, beta) right; `right` is a rotation about e3."""
         # at the precision of the other constants, which share the sphere
         c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST_BITS - 64)
         with workprec(2 * BITS):  # else it would be that of the caller
@@ -66,7 +66,7 @@ class SingleMotion:
 
     @cached_property
     def entries(self) -> FloatArray:
-        """Weights (10, 9) with which the ten products of (alpha, beta) sum to the entries of R."""
+        """Weights (10, 9) with which the ten products of (alpha, beta) sum to the entries of R, by rows."""
         return entries(*self.sides)
 
     @cached_property
@@ -77,11 +77,11 @@ class SingleMotion:
         return np.asarray(b * VECTOR @ self.sides[1])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled."""
+        """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled and returned."""
         return self._linear(self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); ``out``, if given, is filled."""
+        """Return the column R_j(t), j = 1, 2, 3, shape t.shape + (3,); ``out``, if given, is filled and returned."""
         return self._linear(np.ascontiguousarray(self.entries[:, j - 1 :: 3]), t, (3,), out)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:

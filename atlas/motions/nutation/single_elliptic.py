@@ -42,9 +42,9 @@ class SingleElliptic(SingleMotion):
         return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) along the body's axes, shape t.shape + (3,): (E_i - 1) K_i, or I^-1 m of a free body.
+        """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
 
-        ``out``, if given, is filled and returned.
+        It is (E_i - 1) K_i, or II^-1 m of a free body. ``out``, if given, is filled and returned.
         """
         Omega = self._linear(self.field, t, (3,), out)
         Omega *= self._rates
@@ -58,7 +58,10 @@ class SingleElliptic(SingleMotion):
 
 
 class SingleEulerTop(SingleElliptic):
-    """Evaluator of a free body, or of a spin about a principal axis along the field, which is constant in the body."""
+    """Evaluator of a free body, or of a spin about a principal axis along the field.
+
+    ``exact`` is the free motion; ``field`` (3,) is K, which is constant in the body.
+    """
 
     def __init__(self, exact: EulerTop, field: FloatArray) -> None:
         super().__init__(exact)

@@ -72,7 +72,7 @@ class Swing:
 
     @property
     def is_large(self) -> bool:
-        """Whether the angle needs long doubles."""
+        """Whether `type` is long double, since the angle is too large or too steep for doubles."""
         return self.type is np.longdouble
 
     def _number(self, x: arb | int) -> Any:
@@ -105,7 +105,7 @@ class Swing:
     def half_on_line(self, x: FloatArray, low: FloatArray, v: FloatArray, low_of_phase: FloatArray) -> FloatArray:
         """Return half the angle (m,) within a period, in rad, rounded once.
 
-        x + ``low`` is rate s, v + ``low_of_phase`` half the phase in the period.
+        x + ``low`` is rate s, v + ``low_of_phase`` half the phase in the period, in rad; all are (m,).
         """
         return self._rounded(self.of_line(self._sum(x, low)) + self.twist * self._sum(v, low_of_phase))
 
@@ -143,7 +143,7 @@ class Swing:
         return self._turn(np.copysign(1.0, x) * odd, even)
 
     def _between(self, x: Numbers) -> Numbers:
-        """Return artanh(O/E) for A > 0 and x >= 0, as the logarithm of sums of positive terms."""
+        """Return artanh(O/E), (m,), for A > 0 and x >= 0, as the logarithm of sums of positive terms; x is |rate s|."""
         d, smaller = self.depth, np.minimum(x, self.depth)
         odd, low = np.zeros_like(x), np.zeros_like(x)
         for n in range(self.odd.size):
@@ -177,9 +177,9 @@ class Crossing:
         self.is_coarse = not abs(self.factor) < MAX_DOUBLE_ANGLE
 
     def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
-        """Return half the angle (m,) in rad.
+        """Return half the angle (m,) in rad, less whole half turns.
 
-        ``half`` is half of kappa s less whole half turns, x + ``low`` = slope s/2.
+        ``half`` is half of kappa s less whole half turns, x + ``low`` = slope s/2; all are (m,).
         """
         s = x + low
         logarithm = self.factor * np.log1p(np.exp(-4 * np.abs(s)))

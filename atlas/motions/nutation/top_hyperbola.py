@@ -63,7 +63,10 @@ class TopHyperbola(Shown):
 
     @property
     def asymptotes(self) -> tuple[FloatArray, FloatArray]:
-        """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes: the pole's, and (I n2, n3)."""
+        """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes: (0, 1), and along (I n2, n3).
+
+        The first one is at the pole.
+        """
         I2, I3, _, _, n2, n3, *_ = self._top
         axial = np.array([I3 * n2, I2 * n3])
         return np.array([0.0, 1.0]), axial / np.hypot(*axial)
@@ -119,7 +122,10 @@ class TopHyperbola(Shown):
         return TopMotion(inertia, coupling, direction, (omega1, omega2, self.omega3(omega2)), linear, quadratic)
 
     def sample(self, points: int = 200, *, reach: float = 4.0) -> Branch:
-        """Return (omega2, omega3), arrays of all points of both branches, one after the other; see `branches`."""
+        """Return (omega2, omega3), in rad/time, arrays of all ``points`` of both branches, one after the other.
+
+        See `branches`.
+        """
         start, second = zip(*self.branches(points, reach=reach), strict=True)
         return np.concatenate(start), np.concatenate(second)
 

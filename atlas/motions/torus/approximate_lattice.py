@@ -216,7 +216,7 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
 
 
 def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the alternating integer form E (4, 4) of the lattice of four ``periods`` [T_H, T_F, T_c]: E(i, j) of two.
+    """Return the alternating integer form E (4, 4): E(i, j) of the i-th and j-th of four ``periods`` [T_H, T_F, T_c].
 
     Raises NotCertifiedError unless one of type (1, 2) is found.
     """

@@ -24,9 +24,9 @@ Vector = list[acb]
 
 @dataclass(frozen=True)
 class State:
-    """Point of the complex torus: M, K and N, three complex components each in the body; N may be [].
+    """Point of the complex torus: M, K and N, three complex balls each along the body's axes; N may be [].
 
-    N are the components of e_x + i e_y, unit vectors across the field.
+    N are the components of e_x + i e_y, unit vectors across the field in Larmor's frame.
     """
 
     M: Vector

@@ -93,7 +93,10 @@ class Integrals:
 
     @property
     def g(self) -> fmpq_poly:
-        """Polynomial g(z) = K^2 z^2 + (F + e2 K^2) z + 2 D H; Psi is g + 2 c v on the curve v^2 = P(z)."""
+        """Polynomial g(z) = K^2 z^2 + (F + e2 K^2) z + 2 D H with rational coefficients.
+
+        Psi is g + 2 c v on the curve v^2 = P(z).
+        """
         return fmpq_poly([2 * self.D * self.H, self.F + self.e2 * self.square, self.square])
 
     @property
@@ -116,7 +119,7 @@ class Integrals:
         return twice if self.c else twice * self.g.gcd(self.P)
 
     def zeros(self) -> list[tuple[acb, acb]]:
-        """Return the four zeros of Psi as pairs (z, v) of complex balls."""
+        """Return the four zeros of Psi = g + 2 c v as pairs (z, v) of complex balls, at the current precision."""
         roots = [z for z, _ in self.quartic.complex_roots()]
         if self.c:
             return [(z, -value(self.g, z) / (2 * self.c)) for z in roots]
@@ -172,7 +175,7 @@ class Curve:
         return (self.scale * x) ** 2 - self.foot, self.slope * x * y * w
 
     def _place(self, z: acb, v: acb) -> acb:
-        """Return u with z(u) = z and v(u) = v, in the cell about zero."""
+        """Return u with z(u) = z and v(u) = v, a complex ball in the cell about zero."""
         u = self._centred(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
         _, place = self.at(u)
         if _distance(place - v) > _distance(place + v):
@@ -388,7 +391,10 @@ def _fractions(from_start: Array, from_stop: Array, way: complex) -> tuple[Array
 
 
 def _elliptic(x: Array, y: Array) -> Array:
-    """Return elliptic coordinates of points x = 1 - y about the foci 0 and 1; the real part is 0 between the foci."""
+    """Return complex elliptic coordinates of points x = 1 - y about the foci 0 and 1.
+
+    The real part is 0 between the foci, and constant on each ellipse about them.
+    """
     return np.asarray(2 * np.arcsinh(np.sqrt(-np.where(abs(x) < abs(y), x, y))))
 
 

@@ -91,7 +91,10 @@ class ThetaMotion:
         return [centre(zeta[0, 0]), centre(zeta[1, 0])]
 
     def pairs(self, zeta: Sequence[acb]) -> list[ComplexPair]:
-        """Return the four pairs of theta functions at zeta, in the order of CHARACTERISTICS, as complex balls."""
+        """Return the pairs (theta[0,e;0,d], theta[1,e;0,d]) at zeta for each (e, d) of CHARACTERISTICS.
+
+        They are complex balls.
+        """
         theta = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
         return [(theta[0, 4 * e + d], theta[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
 
@@ -106,7 +109,7 @@ class ThetaMotion:
         return State(M, K, [])
 
     def _fitted(self) -> tuple[Form, list[Form], list[Form]]:
-        """Return the form of the denominator, three of K and three of M, fitted to states near the origin."""
+        """Return (`Form` of the denominator, three of K, three of M), fitted to states near the origin."""
         axis, origin = self.origin
         points = around(self.motion.moments, origin)
         pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]

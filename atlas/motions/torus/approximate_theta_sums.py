@@ -61,7 +61,10 @@ class Form:
     shift: tuple[acb, acb] = (acb(0), acb(0))
 
     def value(self, pairs: Sequence[tuple[acb, acb]]) -> acb:
-        """Return the form's value from the pairs of theta functions at v - shift, in the order of CHARACTERISTICS."""
+        """Return the form's value, a complex ball, from the pairs of theta functions at v - shift.
+
+        The pairs are in the order of CHARACTERISTICS.
+        """
         (n0, n1), (at_zero, second) = self.weights, pairs[self.place]
         return n0 * at_zero + n1 * second
 
@@ -288,7 +291,10 @@ def places_that_matter(
 
 
 def places_near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDArray[np.int64]:
-    """Return the integer points n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2)."""
+    """Return the integer points n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2).
+
+    Y (2, 2) is symmetric and positive.
+    """
     reach = np.sqrt(most / np.linalg.eigvalsh(Y)[0])
     ends = zip(np.ceil(peaks.min(axis=0) - reach), peaks.max(axis=0) + reach, strict=True)
     lines = np.meshgrid(*(np.arange(low, high) for low, high in ends), indexing="ij")

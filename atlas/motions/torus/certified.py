@@ -77,7 +77,7 @@ class OnTorus:
 
     @property
     def frequencies(self) -> list[arb]:
-        """Angular frequencies f1, f2 of M and K, and f3 about the field, as balls in rad/time.
+        """Angular frequencies [f1, f2, f3], balls in rad/time: f1, f2 of M and K, and f3 about the field.
 
         Raises NotCertifiedError where no periods are proved.
         """
@@ -101,10 +101,10 @@ class OnTorus:
         return None
 
     def state(self, t: Any) -> tuple[Arrival, arb]:
-        """Return (`Arrival` at time t, angle about the field in rad).
+        """Return (`Arrival` at time t, total angle about the field in rad, a ball).
 
-        R is the rotation by this angle times S of the arrival. Cached by time and precision. Raises NotCertifiedError
-        where the state cannot be enclosed.
+        R is the rotation by this angle times S of the arrival, whose W and K are in units of `rate`. Cached by time and
+        precision. Raises NotCertifiedError where the state cannot be enclosed.
         """
         t = rational(t, "the time") * self.rate
         key = t, ctx.prec
@@ -277,7 +277,7 @@ class OnTorus:
 
 
 def _digits_before_point(t: fmpq) -> int:
-    """Return the number of binary digits of |t| before the point, at least 0, plus 8."""
+    """Return the number of binary digits of |t| before the point, at least 0, plus 8 to spare."""
     return max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
 
 

@@ -256,9 +256,9 @@ class Cell:
         return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(height)))
 
     def _coefficients(self, S: tuple[int, ...]) -> Iterator[list[acb]]:
-        """Yield the coefficients at S, three complex balls, of each of six defects.
+        """Yield for each of six defects three complex balls, the coefficients at S (2,) of its components.
 
-        These are the defects of M, K and N along the flow of H, then of M, K and N along that of F/2.
+        The defects are those of M, K and N along the flow of H, then of M, K and N along that of F/2.
         """
         motion = self.theta.motion
         I = motion.moments
@@ -393,8 +393,8 @@ def _sizes(theta: ThetaMotion) -> Floats:
 def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
     """Return the matrix (3, 3) of bounds: row i, column j bounds the growth of the error of vector i by that of j.
 
-    The vectors are M, K and N, with lengths `sizes`; H and F are the times along both flows. A multiple of 1 may be
-    subtracted from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K.
+    The vectors are M, K and N, with lengths `sizes`; H and F are the times along both flows, floats. A multiple of
+    1 may be subtracted from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K, J = -D II^-1.
     """
     I = np.array([float(arb(x).mid()) for x in theta.motion.moments])
     M, K, N = sizes

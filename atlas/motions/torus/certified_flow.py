@@ -226,7 +226,8 @@ class _Way:
     def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
         """Return (derivative (6, 6) of the step's flow of (W, K) by its start, a bound on its error in norm).
 
-        ``rows`` is the step's series, ``h`` its length, ``spread`` the factor by which an error may grow in the step.
+        ``rows`` are the step's Taylor coefficients, ``h`` is its length, ``spread`` the factor by which an error
+        may grow in the step.
         """
         floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
         changes = jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
@@ -248,7 +249,10 @@ class _Way:
         return Arrival(balls[:3], balls[3:6], balls[6:])
 
     def passed(self, fraction: fmpq) -> Arrival:
-        """Return the state at a fraction of the last step as an `Arrival`, with the error of the whole step."""
+        """Return the state at a ``fraction``, 0 to 1, of the last step as an `Arrival`.
+
+        Its radii are the error of the whole step.
+        """
         state = [int(fmpz_poly(row)(fraction).floor()) for row in self.rows]
         errors = [1.01 * self.error_in_step + 1] * 6 + [1.01 * self.q_error + 1] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(state, errors, strict=True)]
@@ -266,9 +270,9 @@ class Flow:
         self.start = [*W, *K]
 
     def rates(self, a: fmpq, g: fmpq) -> Rates:
-        """Return coefficients of the flow of a H + g F/2, three lists of three.
+        """Return coefficients of the flow of a H + g F/2, three lists of three rationals.
 
-        They are V_i/W_i of the angular velocity V, and those of W_j W_k and of K_j K_k in the rate of W_i.
+        They are V_i/W_i of the angular velocity V, and the factors of W_j W_k and of K_j K_k in the rate of W_i.
         """
         I = self.moments
         moment_ratios = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
@@ -303,9 +307,10 @@ class Flow:
             return way.arrival()
 
     def pass_by(self, a: fmpq, fractions: Sequence[fmpq], bits: int) -> Iterator[Arrival]:
-        """Yield the states of the flow of a H at ascending fractions in (0, 1] of its time, along one path.
+        """Yield an `Arrival` of the flow of a H at each of ascending ``fractions`` in (0, 1] of its time.
 
-        Raises NotCertifiedError, as `go` does, where the integration cannot continue.
+        ``bits`` is the number of binary digits; the integration goes one path. Raises NotCertifiedError, as `go`
+        does, where the integration cannot continue.
         """
         way, k = self._way(a, fmpq(0), bits, proven=True), 0
         while k < len(fractions):

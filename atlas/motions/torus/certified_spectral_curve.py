@@ -80,7 +80,10 @@ class SpectralCurve:
 
     @cached_property
     def theta(self) -> ThetaMotion:
-        """The `ThetaMotion` of this motion: its numbers are approximate."""
+        """The `ThetaMotion` of this motion: its numbers are approximate.
+
+        Raises NotCertifiedError where theta functions are not found.
+        """
         return ThetaMotion(self.torus.integrals, self.torus.W, self.torus.K, self.torus.lattice)
 
     def record(self, digits: int = 20) -> dict[str, Any]:

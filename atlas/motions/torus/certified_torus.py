@@ -85,7 +85,10 @@ class Torus:
         return Integrals.of_state(self.moments, Omega, self.K)
 
     def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
-        """Return the rates of (W, K), six balls each, along the flow of H and along that of F/2."""
+        """Return the rates of (W, K), lists of six balls: along the flow of H, and along that of F/2.
+
+        W and K are three numbers each; ``self`` gives the moments.
+        """
         I, cycle = self.moments, ((1, 2), (2, 0), (0, 1))
         M = [x * w for x, w in zip(I, W, strict=True)]
         of_H = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
@@ -94,7 +97,10 @@ class Torus:
 
     @cached_property
     def is_long(self) -> bool:
-        """Whether a period is so long that to prove the motion's formulas would take minutes."""
+        """Whether a period is so long that to prove the motion's formulas would take minutes.
+
+        False if no period is known.
+        """
         try:
             return any(self.flow.length(H, F) > MAX_LENGTH for H, F in self._approximate())
         except NotCertifiedError:  # none is known
@@ -190,7 +196,7 @@ class Torus:
 
     @cached_property
     def lattice(self) -> Lattice:
-        """The `Lattice` of all periods, approximate.
+        """The `Lattice` of all periods, approximate, cached.
 
         Raises NotCertifiedError where none are found, again at each call.
         """

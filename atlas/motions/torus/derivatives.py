@@ -101,7 +101,7 @@ class TorusVaried:
     def _block(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
         """Return [v], or [v, R dOmega/dp] if ``slopes``, for each input at times t (m,), shape (inputs, m, 3).
 
-        Axes are the kernel's. Raises DomainError where too many digits cancel.
+        They are along the axes of the laboratory in which R(0) = 1. Raises DomainError where too many digits cancel.
         """
         half, low_words, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
         half = half + low_words

@@ -152,9 +152,9 @@ class Torus:
         return gradients, (gradients * x).sum(1) / 2
 
     def _flows(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return (gradients of H and F, rates of states x along their flows), each (2, 6, n1, n2).
+        """Return (gradients of H and F, rates of states x (6, n1, n2) along their flows), each (2, 6, n1, n2).
 
-        H alone for a free body.
+        For a free body they are of H alone, (1, 6, n1, n2).
         """
         gradients = self._gradients(x)[0][: 1 if self.free else 2]
         M, K = np.split(x, 2)
@@ -297,7 +297,10 @@ class Torus:
         return np.array(turns)
 
     def rates(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return (frequencies f1, f2, f3, actions), (3,) each, in scaled units, on the torus of the integrals y."""
+        """Return (frequencies f1, f2, f3, actions), (3,) each, in scaled units, on the torus of the integrals y (r,).
+
+        The torus is the one that `follow` went to. For a free body f2 and the second action are 0.
+        """
         M, spins = self.x[:3], self._flows(self.x)[0][:, :3]
         periods = 2 * np.pi * self.a.mean((2, 3))
         line = np.linalg.inv(periods)[0]

@@ -121,7 +121,7 @@ class SingleAsymmetric:
         return closed, f"{status}; rounding adds {closed.accuracy:.1e} at most"
 
     def _elliptic(self, exact: EllipticMotion) -> tuple[SingleElliptic | None, str]:
-        """Return (closed form by Jacobi's functions, its proof status), or (None, the reason why none is used)."""
+        """Return (`SingleElliptic` of an elliptic motion, its proof status), or (None, the reason why none is used)."""
         try:
             if isinstance(exact, EulerTop):
                 single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
@@ -145,7 +145,11 @@ class SingleAsymmetric:
 
     @property
     def closed(self) -> ThetaKernel | SingleElliptic | None:
-        """Closed form in theta or Jacobi's functions if proved or in agreement with the certified motion; else None."""
+        """`ThetaKernel` or `SingleElliptic` of the motion if proved or in agreement with the balls; else None.
+
+        Theta functions with a small misfit are returned before they are compared; once `agreement` is known, that
+        decides.
+        """
         closed, _ = self._candidate
         if closed is None or isinstance(closed, SingleElliptic) or (closed.fits and "_choice" not in vars(self)):
             return closed
@@ -160,7 +164,7 @@ class SingleAsymmetric:
 
     @property
     def theta(self) -> ThetaKernel:
-        """The closed form by theta functions. Raises AtlasError where there is none."""
+        """The `ThetaKernel`, closed form by theta functions. Raises AtlasError where there is none."""
         if not isinstance(self.closed, ThetaKernel):
             raise AtlasError(f"The motion has no theta functions of two variables; it is {self.agreement}")
         return self.closed
@@ -240,7 +244,7 @@ class SingleAsymmetric:
 
 @lru_cache(maxsize=MOTION_CACHE_SIZE)
 def _single(*row: Any) -> SingleAsymmetric:
-    """Return the `SingleAsymmetric` of moments, field and omega, nine numbers; cached."""
+    """Return the `SingleAsymmetric` of nine exact numbers, three moments, field and omega; cached."""
     return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
 
 

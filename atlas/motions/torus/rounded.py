@@ -123,7 +123,10 @@ class Certified:
         return out
 
     def _fill(self, function: Callable[[Any], Any], times: list[fmpq], size: float, rows: FloatArray) -> None:
-        """Write function(t) at n times, rationals, into ``rows`` (n, ...); in ascending order the work is shared."""
+        """Write function(t), proved and rounded once, at n ``times``, rationals, into ``rows`` (n, ...).
+
+        For ``size`` see `rounded`. Times are taken in ascending order, where they share work.
+        """
         ascending = sorted(range(len(times)), key=times.__getitem__)
         for first in range(0, len(times), STATE_CACHE_SIZE):
             block = ascending[first : first + STATE_CACHE_SIZE]
@@ -152,7 +155,10 @@ def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
 
 
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
-    """Return the numbers in function() as an array (n,), at a precision where each radius is <= MAX_RADIUS ``size``."""
+    """Return the numbers in function() as an array (n,), at a precision where each radius is small enough.
+
+    A radius is at most MAX_RADIUS ``size``. Raises NotCertifiedError where function() does beyond the first precision.
+    """
     precision = FIRST_BITS
     while True:
         try:

@@ -140,12 +140,18 @@ class ThetaKernel:
 
     @cached_property
     def accuracy(self) -> float:
-        """Bound on rounding errors: of R, and of K and Omega relative to the largest rate, at all phases."""
+        """Bound on rounding errors, to first order, at all phases.
+
+        It is for entries of R, and for K and Omega relative to the largest rate.
+        """
         return self.rounding.accuracy()
 
     @cached_property
     def proved(self) -> float | None:
-        """Bound on the errors of the formulas at any time up to phases of 2^50; None where no bound is proved."""
+        """Bound on the errors of the formulas at any time up to phases of 2^50; None where no bound is proved.
+
+        It is for the entries of R, and for K and Omega relative to the largest rate, without rounding.
+        """
         from atlas.motions.torus.certified_distances import distances, drifts
 
         theta, torus = self.made_of
@@ -160,7 +166,7 @@ class ThetaKernel:
         return error if error <= MAX_PROVEN_ERROR else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled."""
+        """Return R(t), body to laboratory, shape t.shape + (3, 3); ``out``, if given, is filled and returned."""
         return self._evaluate(ATTITUDE, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -189,7 +195,8 @@ class ThetaKernel:
     ) -> FloatArray:
         """Return ``weights`` times the `_functions` of ``forms`` at times t, shape t.shape + ``shape``.
 
-        ``out``, if given, is filled and returned.
+        ``forms`` is a slice of the ten forms, ``weights`` (k, prod(shape)) belong to its k functions. ``out``, if
+        given, is filled and returned.
         """
         times = real(t, "The time")
         if times.size != 1:
@@ -211,7 +218,8 @@ class ThetaKernel:
     def on_torus(self, phases: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return (S (m, 3, 3), Omega (m, 3), K (m, 3)) at phases (2, m) in rad, R(t) = R_B(f3 t) S(f1 t, f2 t).
 
-        f3 is defined up to multiples of f1 and f2; it is the one whose periods have the least angles.
+        Omega is in rad/time, K in 1/time. f3 is defined up to multiples of f1 and f2; here it is the one for which
+        the angles of the periods are least.
         """
         half = np.concatenate([(phases + np.pi) % (2 * np.pi) - np.pi, np.zeros((1, phases.shape[1]))]) / 2
         for x, period in zip(half[:2], self.periods, strict=True):
@@ -224,12 +232,15 @@ class ThetaKernel:
     def _fill(
         self, forms: slice, weights: FloatArray, t: FloatArray, rows: FloatArray, low: FloatArray | None = None
     ) -> None:
-        """Write the `_functions` of ``forms`` times ``weights`` at times t + low (m,) into rows (m, n)."""
+        """Write the `_functions` of ``forms`` times ``weights`` at times t + low (m,) into rows (m, n).
+
+        See `_evaluate`; `low` may be None.
+        """
         half, low_word, _ = self._phases(t, low)
         combined(self._rows(half, low_word, forms), weights, rows)
 
     def _rows(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
-        """Return the `_functions` (k, m) of ``forms`` at half phases in two words, (3, m) each: by blocks, or alone."""
+        """Return the `_functions` (k, m) of ``forms`` at half phases in two words, (3, m) each, in blocks of times."""
         if half.shape[1] == 1:
             return self._functions(half[:, 0], low_word[:, 0], forms)[:, None]
         blocks = [slice(i, i + SUM_BLOCK) for i in range(0, half.shape[1], SUM_BLOCK)]
@@ -303,7 +314,8 @@ class ThetaKernel:
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return (half the phases less half turns left out, rounding errors, half turns + `rounder`), (3, m) each.
 
-        The first two are in rad, at times t + low (m,). Raises AtlasError for a phase beyond MAX_PHASE.
+        The first two are in rad, at times t + low (m,); `low` may be None. Raises AtlasError for a phase beyond
+        MAX_PHASE.
         """
         return self.phases.reduced(t, room(3, t.size), low)[:3]
 

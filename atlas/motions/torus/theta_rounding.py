@@ -122,7 +122,7 @@ class Rounding:
         return errors
 
     def _places(self, p: FloatArray) -> list[FloatArray]:
-        """Return [P - p1, Q - p2], the exponents relative to p."""
+        """Return [P - p1, Q - p2], arrays of the exponents of theta terms relative to p (2,)."""
         return [self.sums.P - p[0], self.sums.Q - p[1]]
 
     def _error_bounds(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
