@@ -82,9 +82,10 @@ class Motion(Shown, Generic[Single]):
     """Whether formulas of the class have R(0) = 1 and Omega(0) without rounding."""
 
     def __new__(cls, *inputs: Any, **arguments: Any) -> Self:
-        """Return a new motion; raise TypeError for a keyword of `OTHERS` that this class does not take.
+        """Return a new motion, which ``inputs`` and ``arguments`` are to initialize.
 
-        The message names the class or function that takes the keyword.
+        Raises TypeError for a keyword of `OTHERS` that this class does not take; the message names the class or
+        function that does.
         """
         code = cls.__init__.__code__
         known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
@@ -437,7 +438,7 @@ class Motion(Shown, Generic[Single]):
 
     @classmethod
     def _from_start(cls, start: Any, **parameters: Any) -> Any:
-        """Return (motion, axes) of this class for a `Start`; None where the class has no motion from there.
+        """Return (motion, axes) of this class from ``start``, a `Start`; None where the class has no motion from there.
 
         The rows of `axes` (..., 3, 3) are the axes of the class, along those of the body. ``parameters`` are
         further inputs of the class. Raises NotImplementedError in the base.

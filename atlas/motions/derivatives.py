@@ -44,7 +44,7 @@ class Moved(NamedTuple):
 
 
 def of(motion: Any, t: Any, names: Any, of: str, *, certified: bool = True) -> FloatArray:
-    """Return derivatives of the quantity ``of`` of one or many motions in ``names``, see `Motion.sensitivity`.
+    """Return derivatives of the quantity ``of`` of ``motion``, one or an array, in ``names``; see `Motion.sensitivity`.
 
     The shape is (..., names, 3) for vectors at times t, (..., names) for a scalar. Without `certified` eight digits are
     enough, and DomainError is raised where only balls, in milliseconds a time, have eight.
@@ -65,7 +65,7 @@ def of(motion: Any, t: Any, names: Any, of: str, *, certified: bool = True) -> F
 
 
 def of_rounding(motion: Any, t: Any) -> FloatArray:
-    """Return the bound of `Motion.input_error`, angles in rad in an array of the shape of motions and times t."""
+    """Return the bound of `Motion.input_error`, angles in rad in an array of the shape of ``motion`` and times t."""
     probe = _ones(motion)
     names = list(probe[0].rounded) if probe else []
     v = of(motion, t, names, "rotation")

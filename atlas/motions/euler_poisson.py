@@ -65,7 +65,10 @@ def angular_acceleration(inertia: Any, K: Any, Omega: Any) -> FloatArray:
 
 
 def body_momentum_rate(inertia: Any, K: Any, M: Any) -> FloatArray:
-    """Rate of M = I Omega in the body, (18): dM/dt = [M - 2 g K, I^-1 M], shape (..., 3), with g = (tr I/2) 1 - I."""
+    """Rate of M = I Omega in the body, (18): dM/dt = [M - 2 g K, I^-1 M], shape (..., 3).
+
+    I is the tensor ``inertia``, g = (tr I/2) 1 - I, and K the field in the body.
+    """
     return _torque(inertia, K, _solve(inertia, M))
 
 
@@ -95,10 +98,16 @@ def momentum_along_field(inertia: Any, K: Any, Omega: Any) -> FloatArray:
 
 
 def _torque(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Return the right-hand side [I Omega - 2 g K, Omega] of I dOmega/dt in (16), (..., 3), with g = (tr I/2) 1 - I."""
+    """Return the right-hand side [I Omega - 2 g K, Omega] of I dOmega/dt in (16), shape (..., 3).
+
+    I is the tensor ``inertia``, g = (tr I/2) 1 - I, and K the field in the body.
+    """
     return bracket(np.matvec(inertia, Omega) - 2 * np.matvec(mass_matrix(inertia), K), Omega)
 
 
 def _solve(inertia: Any, M: Any) -> FloatArray:
-    """Return the solution I^-1 M of I Omega = M, for tensors (..., 3, 3) and M (..., 3)."""
+    """Return the solution I^-1 M of I Omega = M, shape (..., 3).
+
+    I is the tensor ``inertia``, (..., 3, 3); M is (..., 3).
+    """
     return np.asarray(np.linalg.solve(inertia, np.asarray(M)[..., None])[..., 0])

@@ -257,7 +257,7 @@ def mean(function: Callable[[FloatArray], FloatArray]) -> float:
 
 
 def rodrigues(n: FloatArray, angle: Any) -> FloatArray:
-    """Return the rotation matrices about a unit vector n by angles (...) in rad, shape (..., 3, 3)."""
+    """Return the rotation matrices (..., 3, 3) about a unit vector n (3,) by ``angle`` (...) in rad."""
     angle = np.asarray(angle)[..., None, None]
     parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
     return np.asarray(parallel + np.cos(angle) * (np.eye(3) - parallel) + np.sin(angle) * transverse)

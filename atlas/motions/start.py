@@ -144,9 +144,10 @@ class Start:
 def start_of(
     inertia: Any, field: Any = (0.0, 0.0, 0.0), omega: Any = None, attitude: Any = None, omega_laboratory: Any = None
 ) -> Start:
-    """Return the `Start` of a motion from the arguments of `atlas.motion`.
+    """Return the `Start` of a motion from ``inertia``, ``field``, ``attitude`` and one angular velocity.
 
-    Raises AtlasError unless exactly one of ``omega`` and ``omega_laboratory`` is given.
+    They are the arguments of `atlas.motion`. Raises AtlasError unless exactly one of ``omega`` and
+    ``omega_laboratory`` is given.
     """
     if (omega is None) == (omega_laboratory is None):
         raise AtlasError(
@@ -159,10 +160,10 @@ def start_of(
 
 
 def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
-    """Return a motion of the class ``family``, see `Motion.in_laboratory`; ``parameters`` are the class's own.
+    """Return a motion of the class ``family`` from ``body``, ``field`` and ``attitude``; see `Motion.in_laboratory`.
 
-    ``omega``, if not None, is the angular velocity along the axes of the laboratory. Raises DomainError if the
-    class has no motion from this start.
+    ``omega``, if not None, is the angular velocity along the axes of the laboratory, ``parameters`` are the class's
+    own. Raises DomainError if the class has no motion from this start.
     """
     B = columns(field, "The field", "B")
     w = [0.0, 0.0, 0.0] if omega is None else columns(omega, "The angular velocity", "omega")
@@ -194,7 +195,7 @@ def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
 
 
 def _copied(value: Any) -> Any:
-    """Return an argument with its arrays copied, also those in tuples and lists.
+    """Return an argument ``value`` with its arrays copied, also those in tuples and lists.
 
     Later changes by the user then leave the motion unchanged.
     """
@@ -204,7 +205,7 @@ def _copied(value: Any) -> Any:
 
 
 def body_of(inertia: Any) -> Body:
-    """Return the `Body` of a ratio, a SymmetricBody, three moments or tensors (..., 3, 3).
+    """Return the `Body` of ``inertia``: a ratio, a SymmetricBody, three moments or tensors (..., 3, 3).
 
     Raises DomainError for values that no body has and for an array of which some bodies are symmetric, AtlasError for
     another shape.
@@ -302,14 +303,15 @@ def of_moments(moments: Any, axes: FloatArray) -> Body:
 
 
 def parts(v: FloatArray) -> tuple[Any, Any, Any]:
-    """Return the three components of vectors (..., 3): floats, or arrays (...)."""
+    """Return the three components of vectors v (..., 3): floats, or arrays (...)."""
     return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
 
 
 def columns(value: Any, name: str, letter: str) -> list[Any]:
-    """Return three components, floats or arrays or `Given`, of a `Field`, a tuple of three, or an array (..., 3).
+    """Return three components, floats or arrays or `Given`, of ``value``, in 1/time.
 
-    Errors name the vector ``name`` and its components by ``letter``.
+    The value is a `Field`, a tuple of three, or an array (..., 3). Errors name the vector ``name`` and its
+    components by ``letter``.
     """
     listed = isinstance(value, list) and any(isinstance(x, Fraction) for x in value)
     if isinstance(value, tuple) or listed or hasattr(value, "exact"):
@@ -319,7 +321,7 @@ def columns(value: Any, name: str, letter: str) -> list[Any]:
 
 
 def joined_columns(v: list[Any]) -> FloatArray:
-    """Return vectors (..., 3) from three components that broadcast, rounded to doubles."""
+    """Return vectors (..., 3) from a list v of three components that broadcast, rounded to doubles."""
     return np.stack(np.broadcast_arrays(*map(np.asarray, v)), -1)
 
 

@@ -143,9 +143,9 @@ class Sum:
 def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
     """Return the sum with a zero at s = i y, or at s = T/2 + i y if ``beyond``; |y| at most the imaginary half-period.
 
-    s is the time since a turning point, T the real period. With two real roots and small nome a zero in the outer
-    half of its cell is moved by T/2 + i imaginary into the inner one, lest the sum converge slowly: that multiplies
-    the function by a phase linear in s.
+    s is the time since a turning point, T the real period of the ``lattice``. With two real roots and small nome a
+    zero in the outer half of its cell is moved by T/2 + i imaginary into the inner one, lest the sum converge
+    slowly: that multiplies the function by a phase linear in s.
     """
     zeta = lattice.rate * y
     if lattice.form == "linear":
@@ -161,7 +161,7 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
 
 
 def constant(lattice: Lattice) -> Sum:
-    """Return the `Sum` that is one everywhere: the limit of a sum whose zero goes to infinity."""
+    """Return the `Sum` over a ``lattice`` that is one everywhere: the limit of a sum whose zero goes to infinity."""
     return Sum(lattice, (acb(0),), (acb(1),), arb(0), doubled=True)
 
 
@@ -230,7 +230,7 @@ def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], 
 
 
 def _widened(value: acb, radius: arb) -> acb:
-    """Return a complex ball with ``radius`` added to the radii of its real and of its imaginary part."""
+    """Return the complex ball ``value`` with ``radius`` added to the radii of its real and imaginary part."""
     if radius.is_zero():
         return value
     return value + acb(arb(0, radius.upper()), arb(0, radius.upper()))
@@ -392,7 +392,7 @@ def turning_rate(q: Sequence[Number], slope: Sequence[Number]) -> list[Number]:
 
 
 def matrix(q: Sequence[Number]) -> list[list[Number]]:
-    """Return the rotation matrix, three rows, of a quaternion (w, x, y, z) of any length."""
+    """Return the rotation matrix, a list of three rows, of a quaternion q = (w, x, y, z) of any length but zero."""
     w, x, y, z = q
     n = w * w + x * x + y * y + z * z
     return [

@@ -71,9 +71,10 @@ class Variation:
 
 
 def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
-    """Return the `Constants` of a pair (alpha, beta) with this ``tilt`` at t = 0, see `Nutating.tilt`.
+    """Return the `Constants` of the pair (alpha, beta) of a ``solution``, with the ``tilt`` at t = 0.
 
-    ``places`` order the body's axes, the nutating one last. Raises DomainError on a separatrix.
+    For the tilt see `Nutating.tilt`; ``places`` order the body's axes, the nutating one last. Raises DomainError on a
+    separatrix.
     """
     lattice, pair, swing = solution.lattice, (solution.alpha, solution.beta), solution.swing
     steady = lattice.rate.is_zero()
@@ -101,7 +102,7 @@ def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] =
 
 
 def _flat(x: Sum, factor: acb) -> list[acb]:
-    """Return the weights of a sum times a factor, odd and even alternating.
+    """Return the weights of a sum x times a ``factor``, odd and even alternating, a list of complex balls.
 
     Both are multiplied alike, since near a steady motion one of them vanishes.
     """
@@ -143,8 +144,8 @@ def variations(
 def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
     """Return the `Variation` of constants in the input number ``place``, also next to a border, by differences.
 
-    For the other arguments see `variations`. Raises DomainError on a separatrix, TooNearError where no step is small
-    enough.
+    ``make`` takes all inputs and returns `Constants`, ``values`` are the inputs and ``scales`` their sizes, not zero.
+    Raises DomainError on a separatrix, TooNearError where no step is small enough.
     """
     small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
     lost_bits = max(0, int(small.q).bit_length() - int(small.p).bit_length())

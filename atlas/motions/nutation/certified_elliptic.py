@@ -291,7 +291,7 @@ class EllipticMotion(Nutating):
         return self.rate_of(self.field_in_body(t))
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m = R II Omega in the laboratory, three balls in inertia/time."""
+        """Return m = R II Omega in the laboratory at time t, three balls in inertia/time."""
         m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
         return applied(self.rotation(t), m)
 
@@ -356,7 +356,7 @@ def check_moments(moments: tuple[fmpq, ...]) -> None:
 
 
 def square_of_v(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
-    """Return v^2 = prod(z + D/I_i), D = I1 I2 I3, exactly.
+    """Return v^2 = prod(z + D/I_i), D = I1 I2 I3, a rational, for the ``moments`` (I1, I2, I3).
 
     Raises DomainError where v^2 is not positive, with the intervals of z where it is.
     """

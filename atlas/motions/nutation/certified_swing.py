@@ -32,9 +32,9 @@ ROUGH_BITS = 80
 class Swing:
     """Rotation of a top about its axis by kappa times the integral of nu = cos theta, as a function of time.
 
-    The angle is kappa (rate t + twist s + 2 at(x)/sqrt(|A|)), x = sqrt(|A|) odd(s)/even(s), with at = artanh for A
-    > 0, arctan for A < 0, and 2 odd/even for A = 0. s is the time since a turning point, A the quartic's leading
-    coefficient.
+    The angle, in rad, is kappa (rate t + twist s + 2 at(x)/sqrt(|A|)), x = sqrt(|A|) odd(s)/even(s), with at =
+    artanh for A > 0, arctan for A < 0, and 2 odd/even for A = 0. s is the time since a turning point, A (1/time^2)
+    the quartic's leading coefficient, kappa is in 1/time, and `rate` and `twist` have no unit.
     """
 
     lattice: Lattice
@@ -163,7 +163,8 @@ def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
 def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
     """Return the sums (O times ``factor``, E) for poles of nu at s = x + i imaginary; ``depth`` is rate x.
 
-    O and E are the odd and even parts of the module's theta function, as `Sum`; imaginary is half the imaginary period.
+    O and E are the odd and even parts of the module's theta function, each a `Sum`; rate and imaginary, half the
+    imaginary period, are those of the ``lattice``.
     """
     if lattice.form == "trigonometric":
         return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())
@@ -171,16 +172,19 @@ def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
 
 
 def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) for a double pole of nu at s = i imaginary.
+    """Return the sums (O times ``factor``, E) for a double pole of nu at s = i imaginary of the ``lattice``.
 
-    O is the slope of E, negated, over rate.
+    See `_poles_aside`. O is the slope of E, negated, over rate.
     """
     sign = 1 if lattice.form == "trigonometric" else -1
     return _beside_imaginary(lattice, STEEP, sign * factor, lambda k: (arb(k), arb(1)))
 
 
 def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) for poles of nu at s = i y and -i y; see `_poles_aside`."""
+    """Return the sums (O times ``factor``, E) of the ``lattice`` for poles of nu at s = i y and -i y.
+
+    See `_poles_aside`.
+    """
     if lattice.form == "trigonometric":
         function = _inclined(lattice, y)
         odd, even = [x.real for x in function.odd], [x.real for x in function.even]
@@ -193,7 +197,7 @@ def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
 
 
 def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum, Sum]:
-    """Return two sums in the form of ``like``: one with ``odd`` terms times ``factor``, one with the ``even`` terms."""
+    """Return two `Sum` in the form of ``like``: one with ``odd`` terms times ``factor``, one with ``even`` terms."""
     none = (acb(0),) * len(odd)
     return (
         replace(like, odd=tuple(acb(x * factor) for x in odd), even=none, bound=abs(factor) * like.bound),
@@ -222,9 +226,10 @@ def _beside_imaginary(
 
 
 def _inclined(lattice: Lattice, y: arb) -> Sum:
-    """Return exp(-i v) times the theta function with a zero at s = i y, as a `Sum` in trigonometric form, v = rate s.
+    """Return exp(-i v) times the theta function with a zero at s = i y, a `Sum` in trigonometric form.
 
-    Its weights are NaN where nome or rate y is not finite, and where |nome| is not certainly below 1.
+    v is rate s, with the rate of the ``lattice``. The weights are NaN where nome or rate y is not finite, and where
+    |nome| is not certainly below 1.
     """
     nome, eta, odd, even, n = lattice.nome, lattice.rate * y, list[acb](), list[acb](), 0
     size = abs(nome)

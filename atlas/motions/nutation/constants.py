@@ -170,10 +170,10 @@ def _swing(exact: Any) -> Any:
 
 
 def _crossed(solution: Solution) -> list[arb] | None:
-    """Return the phases at t = 0 on the separatrix from n to -n, a list of two in turns; None for any other motion.
+    """Return the phases at t = 0 of a ``solution`` on the separatrix from n to -n, in turns; None for any other.
 
-    They are those of the sum and the difference of alpha and beta: zero, and kappa s/2 pi, s the time since the
-    equator.
+    They are a list of two, of the sum and the difference of alpha and beta: zero, and kappa s/2 pi, s the time
+    since the equator.
     """
     if not isinstance(solution.swing, ExactCrossing):
         return None
@@ -181,7 +181,7 @@ def _crossed(solution: Solution) -> list[arb] | None:
 
 
 def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
-    """Return (list of frequencies in turns per unit of time, phase of the period at t = 0 in turns).
+    """Return (list of frequencies of a ``solution`` in turns per unit of time, phase of the period at t = 0 in turns).
 
     The frequencies are of the sum and the difference of the phases of alpha and beta, and, if ``periodic``, of the
     period; otherwise the phase is 0.
@@ -210,9 +210,9 @@ def _reducible(turns: list[arb], origin: arb) -> bool:
 
 
 def _weights(solution: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
-    """Return one table (2, rows) of complex balls: the weights of ``functions`` in alpha and in beta.
+    """Return one table (2, rows) of complex balls: weights of ``functions`` in alpha and in beta of a ``solution``.
 
-    With ``slopes`` the list has a second table, for their derivatives by time.
+    With ``slopes`` the list of tables has a second one, for their derivatives by time.
     """
     swing, start = solution.swing, acb(1)
     if swing:
@@ -234,13 +234,16 @@ def _radius(x: arb) -> float:
 
 
 def _is_known(x: acb, largest: arb) -> bool:
-    """Whether a weight is accurate relative to itself, or too small beside the ``largest`` to matter."""
+    """Whether a weight x is accurate relative to itself, or too small beside the ``largest`` to matter."""
     radius = max(_radius(x.real), _radius(x.imag))
     return radius <= WEIGHT_RADIUS * float(abs(x).mid()) or radius <= WEIGHT_RADIUS**2 * float(largest)
 
 
 def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:
-    """Return Re alpha, Re beta, Im alpha, Im beta of the weights (2, rows) over the ``largest``, an array (4, rows)."""
+    """Return Re alpha, Re beta, Im alpha, Im beta of the weights over the ``largest``, an array (4, rows).
+
+    ``pair`` (2, rows) are the complex weights of alpha and of beta.
+    """
     rows = [[x / largest for x in row] for row in pair]
     return np.array(
         [[float(x.real.mid()) for x in row] for row in rows] + [[float(x.imag.mid()) for x in row] for row in rows]

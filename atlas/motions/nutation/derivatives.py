@@ -206,9 +206,10 @@ class Varied:
         return self._make()
 
     def weighted(self, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
-        """Return the `Weighted` evaluators of combinations of inputs, one for each group; v is the sum of all.
+        """Return the `Weighted` evaluators of N combinations of inputs, one for each group; v is the sum of all.
 
-        The arguments are those of `Weighted`; the list is empty where the constants have no derivatives.
+        ``to_lab``, ``names``, ``turns`` and ``spins`` are those of `Weighted`; the list is empty where the
+        constants have no derivatives.
         """
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
@@ -223,9 +224,9 @@ class Varied:
     ) -> list[FloatArray]:  # fmt: skip
         """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
-        They are in the laboratory. ``combinations`` are those of `weighted`, made of the same arguments. Raises
-        DomainError at a time where the motion is too near a special case, and, unless ``certified``, where fewer
-        than eight digits remain.
+        They are in the laboratory. ``to_lab``, ``names``, ``turns`` and ``spins`` are those of `Weighted`, and
+        ``combinations`` is the list that `weighted` makes of them. Raises DomainError at a time where the motion is
+        too near a special case, and, unless ``certified``, where fewer than eight digits remain.
         """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):

@@ -127,7 +127,7 @@ def of_top(row: Sequence[Any]) -> Inputs:
 
 
 def of_elliptic(exact: EllipticMotion) -> Inputs:
-    """Return the `Inputs` of an elliptic motion: I1, I2, I3, K1, K2, K3 (K in the body at t = 0) and z."""
+    """Return the `Inputs` of the motion ``exact``: I1, I2, I3, K1, K2, K3 (K in the body at t = 0) and z."""
     size, (I1, I2, I3), J = size_of(*exact.field), exact.inertia, floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "K1", "K2", "K3", "z"), (*exact.inertia, *exact.field, exact.z),

@@ -232,7 +232,7 @@ class Swing:
 
 
 def _double(row: Sequence[Any]) -> Array:
-    """Return the midpoints of real or complex balls as a complex array (n,)."""
+    """Return the midpoints of a ``row`` of n real or complex balls as a complex array (n,)."""
     return np.array([complex(acb(x).mid()) for x in row], dtype=complex)
 
 

@@ -157,7 +157,7 @@ def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatA
 
 
 def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
-    """Return the drag (across the axis, along it) in 1/time, two floats.
+    """Return the drag (across the axis, along it) of a ``motion`` in 1/time, two floats.
 
     ``drag`` has one rate, two, or three along the principal axes. Raises AtlasError for two different rates across the
     axis.
@@ -170,7 +170,10 @@ def _drag_of(motion: Any, drag: FloatArray) -> tuple[float, float]:
 
 
 def _order(motion: Any) -> list[int]:
-    """Return the indices 0, 1, 2 of the principal axes in cyclic order, the axis of symmetry last."""
+    """Return the indices 0, 1, 2 of a motion's principal axes in cyclic order, the axis of symmetry last.
+
+    It is [0, 1, 2] for a ``motion`` without three moments.
+    """
     inertia = tuple(getattr(motion, "inertia", ()))
     last = next((i for i in (2, 0, 1) if inertia[i - 1] == inertia[i - 2]), 2) if len(inertia) == 3 else 2
     return [(last + 1) % 3, (last + 2) % 3, last]

@@ -7,7 +7,7 @@ from atlas.families.parameters import ELLIPTIC, OMEGA, nutation, rotation
 
 
 def _rates(motion: Any) -> Any:
-    """Return a list of the rates of the steady precessions in rad/time, at most two, or the string "none"."""
+    """Return a list of the rates in rad/time of the steady precessions of ``motion``, or the string "none"."""
     return [precession.rate for precession in motion.steady_precessions] or "none"
 
 

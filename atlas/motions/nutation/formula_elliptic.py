@@ -27,7 +27,10 @@ def splitting(moments: Vector, K: Vector, z: Number) -> Number:
 
 
 def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
-    """Return C/D^2 of `splitting` for any K with K^2 = ``square`` and sum K_i^2/(z + D/I_i) = s, in 1/time^2."""
+    """Return C/D^2 of `splitting` for any K with K^2 = ``square`` and sum K_i^2/(z + D/I_i) = s, in 1/time^2.
+
+    ``moments`` are I1, I2, I3.
+    """
     D = moments[0] * moments[1] * moments[2]
     x, y, w = places(moments, z)
     P, lower_sum, second = x * y * w, x * y + y * w + w * x, 2 * (x + y + w)
@@ -35,6 +38,6 @@ def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
 
 
 def places(moments: Vector, z: Number) -> tuple[Number, ...]:
-    """Return the three numbers z + D/I_i, D = I1 I2 I3, in inertia^2."""
+    """Return the three numbers z + D/I_i, D = I1 I2 I3, in inertia^2, for the ``moments`` I1, I2, I3."""
     D = moments[0] * moments[1] * moments[2]
     return tuple(z + D / I for I in moments)

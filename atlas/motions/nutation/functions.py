@@ -40,7 +40,7 @@ class Steady:
         self.count = 1
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a `Sum`, a list of one complex ball."""
+        """Return the weights of the functions in ``sum_``, a list of one complex ball."""
         return [sum_.even[0]]
 
     def of_one(self, *_phase: float) -> list[float]:
@@ -64,7 +64,7 @@ class Trigonometric:
         self.count = 2 * self.terms + self.constant
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a `Sum`, a list of `count` complex balls."""
+        """Return the weights of the functions in ``sum_``, a list of `count` complex balls."""
         if sum_.doubled:
             return [acb(0)] * (2 * self.terms) + [sum_.even[0]]
         pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
@@ -147,7 +147,7 @@ class Hyperbolic:
         self.count = 2 * self.powers * (1 + self.sech)
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a `Sum`, a list of `count` complex balls."""
+        """Return the weights of the functions in ``sum_``, a list of `count` complex balls."""
         none = [acb(0)] * (2 * self.powers)
         polynomial = (self._polynomials(sum_) + none)[: 2 * self.powers]
         if not self.sech:
@@ -157,13 +157,16 @@ class Hyperbolic:
         return none + polynomial if sum_.doubled else polynomial + none
 
     def _count_terms(self, weights: list[acb]) -> int:
-        """Return the number of powers of W that are not negligible, at least 1, from the `_polynomials` of a sum."""
+        """Return the number of powers of W that are not negligible, at least 1.
+
+        ``weights`` are those of `_polynomials`.
+        """
         sizes = [float(abs(x).mid()) for x in weights]
         least = NEGLIGIBLE * max(sizes[:2])
         return max([1, *(j // 2 + 1 for j, size in enumerate(sizes) if size > least)])
 
     def _polynomials(self, sum_: Sum) -> list[acb]:
-        """Return the weights of tanh x W^j and of W^j in a `Sum`, alternating for rising j, complex balls."""
+        """Return the weights of tanh x W^j and of W^j in ``sum_``, alternating for rising j, complex balls."""
         pairs = zip(sum_.odd, sum_.even, strict=True)
         powers = _powers(pairs, doubled=sum_.doubled)
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
@@ -217,7 +220,7 @@ class Linear:
         self.line = Line(solution.lattice.rate, solution.lattice.rate * solution.origin, saturates=False)
 
     def weights(self, sum_: Sum) -> list[acb]:
-        """Return the weights of the functions in a `Sum`, a list of two complex balls."""
+        """Return the weights of the functions x and 1 in ``sum_``, a list of two complex balls."""
         return [sum_.odd[0], sum_.even[0]]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
@@ -292,7 +295,7 @@ def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
 def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
     """Return pairs (j, coefficient of F^j) of the polynomial in F that makes the n-th function from the first one.
 
-    The functions are S for ``place`` 0, C for 1, see `_powers`.
+    The functions are S for ``place`` 0, C for 1, of even multiples if ``doubled``, else of odd ones; see `_powers`.
     """
     before, polynomial = (pair[place] for pair in (ONE_EVEN if doubled else ONE_ODD))
     for _ in range(n):
@@ -301,7 +304,7 @@ def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
 
 
 def _terms(sum_: Sum) -> int:
-    """Return the number of terms of a trigonometric `Sum` that are not negligible, at least 1; 1 for a constant."""
+    """Return the number of terms of the trigonometric ``sum_`` that are not negligible, at least 1; 1 if constant."""
     if sum_.doubled:
         return 1
     terms = 1

@@ -259,7 +259,7 @@ class NutatingMotion(Motion[Nutation]):
 
 
 def scalar(exact: Any, name: str, *, strict: bool) -> float:
-    """Return the number ``name`` of a certified motion, rounded once; inf if the number is infinite.
+    """Return the number ``name`` of the certified motion ``exact``, rounded once; inf if the number is infinite.
 
     A motion without it gives NaN, or, if ``strict``, raises DomainError. A number too large for a float raises
     DomainError.
@@ -302,6 +302,6 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
 
 def padded(roots: list[Any]) -> Any:
-    """Return the midpoints of at most four complex balls as an array (4,), filled up with inf."""
+    """Return the midpoints of ``roots``, at most four complex balls, as an array (4,), filled up with inf."""
     finite_roots = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
     return np.array(finite_roots + [complex("inf")] * (4 - len(finite_roots)))

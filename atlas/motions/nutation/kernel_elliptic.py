@@ -24,7 +24,7 @@ CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
 
 
 def balls(*row: float) -> Balls:
-    """Return the certified motion of I1, I2, I3, B1, B2, B3, z, branch; see the class of the same name.
+    """Return the certified motion of a ``row`` of eight numbers: I1, I2, I3, B1, B2, B3, z, branch.
 
     Raises DomainError for inputs of no motion.
     """
@@ -166,7 +166,10 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     @classmethod
     def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
-        """Return (motion, principal axes as rows (..., 3, 3)) from a `Start`; ``parameters`` are z and branch."""
+        """Return (motion, principal axes as rows (..., 3, 3)) from ``start``, a `Start`.
+
+        ``parameters`` are z and branch.
+        """
         axes = start.body.axes
         return cls(start.moments, tuple(start.along(axes)[0]), **parameters), axes
 

@@ -25,7 +25,10 @@ CONSTANTS = (*NAMES[:4], "(M,B')")
 
 
 def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
-    """Return the `SingleGeneral` of eight exact numbers, I2, I3, K1, K2, K3, omega1, omega2, omega3 at t = 0."""
+    """Return the `SingleGeneral` of eight exact numbers: I2, I3, and the ``state`` at t = 0.
+
+    The state is K1, K2, K3 (1/time), omega1, omega2, omega3 (rad/time), along the body's axes.
+    """
     with workprec(FIRST_BITS):
         return SingleGeneral(Balls.at_state(Moments(I2, I3), state[3:], state[:3]))
 
@@ -90,7 +93,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return (motion, principal axes as rows (..., 3, 3), the symmetry axis last) from a `Start`.
+        """Return (motion, principal axes as rows (..., 3, 3), the symmetry axis last) from a `Start`, ``start``.
 
         None for a body with three different moments.
         """

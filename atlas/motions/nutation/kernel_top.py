@@ -32,7 +32,7 @@ from atlas.surfaces.kernel import TopQuadric
 
 
 def balls(*row: float) -> Balls:
-    """Return the certified `TopMotion` of eleven exact numbers.
+    """Return the certified `TopMotion` of a ``row`` of eleven exact numbers.
 
     They are I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear and quadratic.
     """

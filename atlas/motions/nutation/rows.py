@@ -108,7 +108,7 @@ class MotionsAtTimes:
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the tuple of constants of a `Block` to be evaluated: here its `Constants` alone."""
+        """Return the tuple of constants of a `Block`, ``block``, to be evaluated: here its `Constants` alone."""
         return (block.constants,)
 
     def rotation(self, _: FloatArray, out: FloatArray) -> None:
@@ -182,7 +182,7 @@ class TopsAtTimes(MotionsAtTimes):
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the tuple (`Constants`, `Swings`) of a block of tops.
+        """Return the tuple (`Constants`, `Swings`) of a `Block` of tops, ``block``.
 
         The `Swings` are of the turn about the axis by kappa times the integral of nu.
         """
@@ -294,7 +294,7 @@ class CayleyKleinAtTimes:
         )
 
     def third(self, third: Third) -> FloatArray:
-        """Return Omega3 of each motion at its time, (m,), in rad/time, from the `Third` of the same motions."""
+        """Return Omega3 of each motion at its time, (m,), in rad/time; ``third`` is the `Third` of the same motions."""
         count, (cos, sin), (c, s) = self.constants.terms.max(initial=1), self.turn, third.start
         product = third.size / self.square
         for start in ((cos, sin), (cos * c - sin * s, sin * c + cos * s)):

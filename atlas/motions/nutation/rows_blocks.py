@@ -121,7 +121,7 @@ class Block:
         )
 
     def constants_of(self, pair: SpherePair) -> Constants:
-        """Return the `Constants` of a `SpherePair` for all motions of this block, last axis over motions."""
+        """Return the `Constants` of ``pair``, a `SpherePair`, for all motions of this block, last axis over motions."""
         r, means, sphere = self.roots, pair.means, pair.sphere
         (words, error), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
         even, odd, terms, *_ = pair.sums
@@ -192,7 +192,10 @@ class Blocks:
 
     @staticmethod
     def _roots(*inputs: DoubleDouble) -> Any:
-        """Return the `Roots` of motions from double-double columns I2, I3, B1, B2, B3, omega1, omega2, omega3."""
+        """Return the `Roots` of motions from ``inputs``, double-double columns (m,).
+
+        They are I2, I3, B1, B2, B3, omega1, omega2, omega3.
+        """
         I2, I3, *vectors = inputs
         (B2, B3), omega, plane = in_plane(*vectors)
         return roots_of(I2, I3, (B2, B3), omega, plane=plane)

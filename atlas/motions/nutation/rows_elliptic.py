@@ -130,9 +130,9 @@ class Pencil:
         return self.z * (pick(i, self.I) - pick(j, self.I)) * pick(i, self.e) * pick(j, self.e)
 
     def share(self, third: Any, outer: Any, axis: Any) -> DoubleDouble:
-        """Return (e_third - e_outer)/(e_third - e_axis) K_outer^2, (m,) in 1/time^2, a term of u_t^2 or of w.
+        """Return (e_t - e_o)/(e_t - e_a) K_o^2, (m,) in 1/time^2, a term of u_t^2 or of w, without cancellation.
 
-        The arguments are axes: 0, 1, 2, or arrays (m,) of these. It is computed from moments without cancellation.
+        t, o and a are the axes ``third``, ``outer`` and ``axis``: 0, 1, 2, or arrays (m,) of these.
         """
         pick, I, x = self.pick, self.I, self.x
         size = pick(outer, self.K)

@@ -151,13 +151,13 @@ def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
 
 
 def _sum_of_angles(angle: Circle, increment: Circle) -> Circle:
-    """Return (cos, sin) of the sum of two angles, which are given as (cos, sin)."""
+    """Return (cos, sin) of the sum of ``angle`` and ``increment``, which are given as (cos, sin)."""
     (a, b), (c, d) = angle, increment
     return a * c - b * d, a * d + b * c
 
 
 def _half(angle: Circle) -> Circle:
-    """Return (cos, sin) of half an angle between -pi and pi, which is given as (cos, sin)."""
+    """Return (cos, sin) of half an ``angle`` between -pi and pi, which is given as (cos, sin)."""
     cos, sin = angle
     larger = ((abs(cos) + ONE).scaled(-1)).sqrt()
     smaller = sin / larger.scaled(1)

@@ -209,9 +209,10 @@ def from_start(
     a: Number | None = None,
     top: Any = None,
 ) -> tuple[Number, ...]:
-    """Return the five coefficients of Q(v), the constant one first, see `roots_of`.
+    """Return the five coefficients of Q(v), the constant one first.
 
-    `momenta` are M2 and M3, n is (n2, n3); A, a and ``top`` are as in `Roots`, the last two None for a body in a field.
+    For I, n, ``omega`` and ``couplings`` see `roots_of`; `momenta` are M2 and M3. A, a and ``top`` are as in
+    `Roots`, the last two None for a body in a field.
     """
     (n2, n3), (w1, w2, w3), (M2, M3), (k_across, k_along) = n, omega, momenta, couplings
     square, coupling, rate, bend = n2 * n2, k_across * n2, w1 * n2, A * n3

@@ -105,7 +105,10 @@ def _scalars(block: Block) -> dict[str, Rounded]:
 
 
 def _of_tops(block: Block) -> dict[str, Rounded]:
-    """Return the turning points of tops, (2, m), and the kind as an index into TOP_KINDS, each a `Rounded` by name."""
+    """Return the turning points of the tops of a block, (2, m), and their kinds, each a `Rounded` by name.
+
+    A kind is an index into TOP_KINDS. ``block`` is a `Block` of m tops.
+    """
     r = block.roots
     low, high = (rounded((r.n3 - x) / r.b, block) for x in (r.high, r.low))
     cubic, even = r.A.hi == 0, (r.a.hi == 0) & (r.A.hi == 0) if r.a else np.False_
@@ -137,9 +140,9 @@ def _kinds(block: Block) -> dict[str, Rounded]:
 
 
 def _all_roots(block: Block) -> dict[str, Rounded]:
-    """Return the turning points (2, m) and the complex roots of Q (4, m), in rad/time, each a `Rounded` by name.
+    """Return the turning points (2, m) and the complex roots of Q (4, m) of ``block``, each a `Rounded` by name.
 
-    Real roots come first, ascending; a root at infinity is inf.
+    They are in rad/time. Real roots come first, ascending; a root at infinity is inf.
     """
     r = block.roots
     root_1, root_2, imaginary = r.other_roots

@@ -58,7 +58,7 @@ class Sphere:
 
 
 def sphere_of_field(r: Roots) -> Sphere:
-    """Return the `Sphere` of K, or of n in the body, and of the axis: the poles are where nu = cos theta is -1 and 1.
+    """Return the `Sphere` of K, or of n in the body, for the `Roots` r: the poles are where nu = cos theta is -1 and 1.
 
     The torques are b [(M, n) - nu M3] there. The frame is Larmor's, with the turn (1-I) c3 about the axis.
     """
@@ -88,7 +88,7 @@ def half_angles(axial: DoubleDouble, flat: DoubleDouble, b: DoubleDouble) -> Dou
 
 
 def sphere_of_velocity(r: Roots) -> Sphere:
-    """Return the `Sphere` of (Omega2, Omega1, -sqrt(I) Omega3), of length sqrt(E').
+    """Return the `Sphere` of (Omega2, Omega1, -sqrt(I) Omega3), of length sqrt(E'), for the `Roots` r.
 
     Its poles are Omega3 = ± sqrt(E'/I). The torques are P(u) = u^2 - (2-I) c3 u + c5, which starts as omega2 B2;
     there is no frame.

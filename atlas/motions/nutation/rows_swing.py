@@ -190,9 +190,10 @@ def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle
 
 
 def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circle:
-    """Return (cos c, sin c/sqrt(|A|)), (m,) each, of the angle c at which nu is infinite; ``size`` is sqrt(|A|).
+    """Return (cos c, sin c/sqrt(|A|)), (m,) each, of the angle c of the module, at which nu is infinite.
 
-    c is hyperbolic for A < 0: cos^2 + A sin^2 = 1 with the second number as sin.
+    ``means`` are those of the tops, ``size`` is sqrt(|A|). c is hyperbolic for A < 0: cos^2 + A sin^2 = 1 with the
+    second number as sin.
     """
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()
@@ -227,14 +228,14 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
 
 
 def _sum_of_angles(angle: Circle, increment: Circle, A: DoubleDouble) -> Circle:
-    """Return (cosine, sine) of the sum of two angles, each given in this way.
+    """Return (cos, sin/sqrt(|A|)) of the sum of ``angle`` and ``increment``, which are given in this way.
 
-    Their sines are over sqrt(A); A may be negative.
+    For negative A the angles are hyperbolic.
     """
     (a, b), (c, d) = angle, increment
     return a * c - A * b * d, a * d + b * c
 
 
 def extended(x: DoubleDouble) -> Extended:
-    """Return double-double numbers as long doubles."""
+    """Return double-double numbers x as long doubles."""
     return x.hi.astype(np.longdouble) + x.low

@@ -51,7 +51,8 @@ def of_nutation(motion: Any, exact: Any) -> Wheels:
 def _rates(exact: Any) -> list[arb]:
     """Return [half the period of nutation, rate about the field, rate about the body's axis] as balls.
 
-    Rates are in rad/time. For a steady motion the first is 1. Raises DomainError on a separatrix.
+    ``exact`` is the certified motion; rates are in rad/time. For a steady motion the first is 1. Raises DomainError
+    on a separatrix.
     """
     solution = exact.solution
     if exact.is_steady:

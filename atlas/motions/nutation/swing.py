@@ -76,13 +76,13 @@ class Swing:
         return self.type is np.longdouble
 
     def _number(self, x: arb | int) -> Any:
-        """Return the midpoint of a ball as a number of `type`."""
+        """Return the midpoint of the ball x as a number of `type`."""
         middle = arb(x).mid()
         head = float(middle)
         return self.type(head) + self.type(float(middle - head))
 
     def _count_terms(self, weights: list[arb]) -> int:
-        """Return the number of leading terms that are not negligible, at least 1."""
+        """Return the number of leading terms with these ``weights`` that are not negligible, at least 1."""
         terms = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
         largest = max(terms, key=lambda x: float(x.mid()))
         return max((n + 1 for n, x in enumerate(terms) if not x < NEGLIGIBLE * largest), default=1)
@@ -187,5 +187,5 @@ class Crossing:
 
 
 def _is_known(x: arb, largest: arb) -> bool:
-    """Whether a weight is accurate relative to itself, or negligible beside the largest."""
+    """Whether a weight x is accurate relative to itself, or negligible beside the ``largest``."""
     return bool(x.rad() <= ACCURATE * abs(x.mid()) or x.rad() <= ACCURATE**2 * largest)

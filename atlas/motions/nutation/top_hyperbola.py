@@ -124,7 +124,7 @@ class TopHyperbola(Shown):
     def sample(self, points: int = 200, *, reach: float = 4.0) -> Branch:
         """Return (omega2, omega3), in rad/time, arrays of all ``points`` of both branches, one after the other.
 
-        See `branches`.
+        For the largest |w|, given by ``reach``, and for errors see `branches`.
         """
         start, second = zip(*self.branches(points, reach=reach), strict=True)
         return np.concatenate(start), np.concatenate(second)

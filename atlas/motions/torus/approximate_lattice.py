@@ -111,10 +111,10 @@ def lattice(motion: Integrals) -> Lattice:
 
 
 def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
-    """Return the `Lattice` that integrals along paths generate, with as few paths as possible, the best first.
+    """Return the `Lattice` that integrals along paths of a ``curve`` generate, with as few paths as possible.
 
-    For ``paths_per_zero`` see `Curve.paths`. Raises NotCertifiedError, with the last reason, if all paths do not
-    suffice.
+    The best come first; for ``paths_per_zero`` see `Curve.paths`. Raises NotCertifiedError, with the last reason,
+    if all paths do not suffice.
     """
     ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(paths_per_zero)
     for path in paths:
@@ -129,9 +129,10 @@ def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
 
 
 def _of_ways(ways: list[list[acb]]) -> Lattice:
-    """Return the `Lattice` that integrals [T_H, T_F, T_c] along paths generate, without the ends of its paths.
+    """Return the `Lattice` that the integrals ``ways``, [T_H, T_F, T_c] along paths, generate.
 
-    Raises NotCertifiedError unless they generate four periods with a polarization of type (1, 2).
+    The ends of the paths are not stored. Raises NotCertifiedError unless they generate four periods with a
+    polarization of type (1, 2).
     """
     weights = generating([_real(way) for way in ways])
     periods = sums(ways, weights)

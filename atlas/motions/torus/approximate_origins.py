@@ -105,7 +105,8 @@ def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
 def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
     """Return `FIT_POINTS` pairs (t, `State`) of the flow of H from ``start``, complex times t on a circle about zero.
 
-    The circle's radius is a fixed fraction of the radius of convergence of the series, estimated from its last terms.
+    ``moments`` are the three principal moments. The circle's radius is a fixed fraction of the radius of
+    convergence of the series, estimated from its last terms.
     """
     rows = series(moments, start)
     growth = max(
@@ -120,9 +121,9 @@ def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
 
 
 def fields(moments: Sequence[fmpq], state: Array) -> Array:
-    """Return the rates of M and K along the flows of H and of F/2, shape (..., 6, 2), for states (M, K) (..., 6).
+    """Return the rates of M and K along the flows of H and of F/2, shape (..., 6, 2), at a ``state`` (..., 6).
 
-    ``moments`` are the three principal moments.
+    The state has M, then K; ``moments`` are the three principal moments.
     """
     I = np.array([int(x.p) / int(x.q) for x in moments])
     M, K = state[..., :3], state[..., 3:]

@@ -127,9 +127,9 @@ class Integrals:
 
 
 def real_periods(motion: Integrals) -> list[PeriodPair]:
-    """Return two approximate real periods (T_H, T_F), as short as can be, balls of radius 0 in the unit of time.
+    """Return two approximate real periods (T_H, T_F) of a motion, as short as can be, balls of radius 0.
 
-    The list is shorter where integrals along paths do not generate two periods.
+    ``motion`` are its `Integrals`. The list is shorter where integrals along paths do not generate two periods.
     """
     with workprec(BITS):
         curve = Curve(motion)
@@ -212,7 +212,7 @@ class Curve:
         return [(start, stop) for _, start, stop in chosen[: 4 * paths_per_zero]]
 
     def distances(self, end: acb) -> Array:
-        """Return places of four zeros and the pole, each in 9 x 9 cells of periods, minus ``end``, shape (5, 81).
+        """Return complex places of four zeros and the pole, each in 9 x 9 cells of periods, minus ``end``, (5, 81).
 
         A zero at ``end`` itself has exactly 0.
         """
@@ -290,7 +290,10 @@ class Curve:
 
 
 def _check_sizes(polynomial: fmpq_poly) -> None:
-    """Raise NotCertifiedError where the coefficients differ too much in size for the roots to be found."""
+    """Raise NotCertifiedError where the polynomial's coefficients differ too much in size for its roots to be found.
+
+    ``polynomial`` is rational.
+    """
     sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
     if max(sizes) - min(sizes) > MAX_COEFFICIENT_BITS:
         raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
@@ -298,7 +301,10 @@ def _check_sizes(polynomial: fmpq_poly) -> None:
 
 @lru_cache(maxsize=4)
 def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
-    """Return pairs (node, weight) of Gauss's rule on (-1, 1), from the left, balls of ``bits`` binary digits."""
+    """Return pairs (node, weight) of Gauss's rule on (-1, 1), from the left, balls of ``bits`` binary digits.
+
+    There are ``nodes`` of them.
+    """
     with workprec(bits):
         return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
 
@@ -371,7 +377,7 @@ def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> 
 
 
 def nearest(x: arb) -> int:
-    """Return the integer nearest to the midpoint of a ball."""
+    """Return the integer nearest to the midpoint of the ball x."""
     return int((x.mid() + 0.5).floor().unique_fmpz())
 
 
@@ -399,17 +405,17 @@ def _elliptic(x: Array, y: Array) -> Array:
 
 
 def centre(x: acb) -> acb:
-    """Return the midpoint of a complex ball as a ball of radius 0."""
+    """Return the midpoint of the complex ball x as a ball of radius 0."""
     return acb(x.real.mid(), x.imag.mid())
 
 
 def complex_of(x: acb) -> complex:
-    """Return the midpoint of a complex ball, rounded to a Python complex number."""
+    """Return the midpoint of the complex ball x, rounded to a Python complex number."""
     return complex(float(x.real.mid()), float(x.imag.mid()))
 
 
 def matrix_of(x: acb_mat) -> Array:
-    """Return the midpoints of a matrix of balls as a complex array."""
+    """Return the midpoints of a matrix x of balls as a complex array of its shape."""
     return np.array([[complex_of(y) for y in row] for row in x.tolist()])
 
 

@@ -75,10 +75,10 @@ class Form:
 
 
 def weights_at(forms: Sequence[Form], hat: acb_mat, origin: Sequence[acb], place: tuple[int, int]) -> list[acb]:
-    """Return for each form the coefficient of exp(i pi (P u_1 + Q u_2)) at v = origin + u, for ``place`` (P, Q).
+    """Return for each of the ``forms`` the coefficient of exp(i pi (P u_1 + Q u_2)) at v = origin + u.
 
-    The list has one complex ball per form; ``hat`` (2, 2) is the matrix of the theta functions. A coefficient is
-    zero where Q has not the parity of the form's e.
+    (P, Q) is the ``place``, ``hat`` (2, 2) the matrix of the theta functions. The list has one complex ball per
+    form; it is zero where Q has not the parity of the form's e.
     """
     P, Q = place
     square = hat[0, 0] * (P * P) + 2 * hat[0, 1] * (P * Q) + hat[1, 1] * (Q * Q)
@@ -156,7 +156,10 @@ class Sums:
         return values
 
     def at_one(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
-        """Return the chosen forms, complex (forms,), at one place x + low_words (2,), by the operations of `at`."""
+        """Return the forms of the slice ``chosen_rows``, complex (forms,), at one place x + low_words, (2,) each.
+
+        The operations are those of `at`.
+        """
         w_1, w_2 = wave(x, low_words).tolist()
         square, inverse_1 = w_2 * w_2, inverse(w_1)
         powers = np.empty((2, 2, self.sizes.shape[1] // 4, 2), np.complex128)
@@ -208,7 +211,7 @@ class Sums:
         return self._words[key]
 
     def _split(self, rows: slice, parity: int) -> Words:
-        """Return `Words` of the forms with powers of one ``parity``, 0 (even) or 1; see `words`."""
+        """Return `Words` of the forms ``rows``, a slice, with powers of one ``parity``, 0 (even) or 1; see `words`."""
         forms = np.flatnonzero(self.odd[rows] == parity).tolist()
         columns, sizes = self.columns[parity], self.sizes[parity]
         is_in_table = (self.Q[0] <= columns) & (columns <= self.Q[-1])
@@ -226,11 +229,11 @@ class Sums:
 
     @property
     def steps(self) -> FloatArray:
-        """Bounds, in units of 2^-53, on the error of each term relative to itself, sums included, (P, Q).
+        """Bounds, in units of 2^-53, on the error of each term of `table` relative to itself, sums included, (P, Q).
 
-        They hold if w_1 = exp(i x_1) were exact, and w_2 the root of its square in doubles, by which the odd powers
-        differ from those of w_2 by half a product. They count the weights with the sum over Q, the powers, and
-        products and sums over P.
+        They hold if w_1 = exp(i x_1) were exact, and w_2 = exp(i x_2) the root of its square in doubles, by which
+        the odd powers differ from those of w_2 by half a product. They count the weights with the sum over Q, the
+        powers, and products and sums over P.
         """
         n, k, odd = abs(self.P), abs(self.Q) // 2, abs(self.Q) % 2
         steps_of_P = n * (PRODUCT + 1) + n * ROUNDED * (self.P < 0) + 2
@@ -278,10 +281,10 @@ def _halves(w: Any) -> tuple[Any, Any]:
 def places_that_matter(
     hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array, left_out: float
 ) -> NDArray[np.int64]:
-    """Return integer places (P, Q), shape (k, 2), of the terms that matter at v = origin + x/pi, x (2, m) in a region.
+    """Return integer places (P, Q), shape (k, 2), of the terms of ``forms`` that matter at v = origin + x/pi.
 
-    ``hat`` is the matrix of the theta functions. ``left_out`` is the logarithm of the ratio of the largest term to the
-    omitted ones.
+    x are the places ``region`` (2, m), and ``hat`` is the matrix of the theta functions. ``left_out`` is the
+    logarithm of the ratio of the largest term to the omitted ones.
     """
     Y, shifts = matrix_of(hat).imag, np.array([[complex_of(x) for x in form.shift] for form in forms])
     v0 = np.array([complex_of(x) for x in origin])

@@ -202,9 +202,10 @@ class OnTorus:
                 bits *= 2
 
     def _displaced(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
-        """Return an `Arrival` after the flow of H for the tiny time H and that of F/2 for the tiny time F, both balls.
+        """Return an `Arrival` moved by the flow of H for the tiny time H and that of F/2 for the tiny time F.
 
-        Raises NotCertifiedError unless the state moves by less than 2^-16.
+        ``arrival`` is the state before, the times are balls. Raises NotCertifiedError unless the state moves by
+        less than 2^-16.
         """
         wide = [x + arb(0, 2.0**-16) for x in (*arrival.W, *arrival.K)]
         X, Y = self.torus.fields(wide[:3], wide[3:])
@@ -451,13 +452,13 @@ class AsymmetricMotion:
         return self.H - self.MK
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m = R II Omega in the laboratory, three balls in inertia/time; exact without a field."""
+        """Return m = R II Omega in the laboratory at time t, three balls in inertia/time; exact without a field."""
         Omega = self.angular_velocity(t) if any(self.field) else self.omega
         m = [I * w for I, w in zip(self.inertia, Omega, strict=True)]
         return applied(self.rotation(t), m) if any(self.field) else m
 
 
 def _power(x: fmpq) -> fmpq:
-    """Return the power of two next to a positive rational, within a factor of two."""
+    """Return the power of two next to a positive rational x, within a factor of two."""
     exponent = int(x.p).bit_length() - int(x.q).bit_length()
     return fmpq(2) ** exponent if exponent >= 0 else fmpq(1, 2**-exponent)

@@ -59,8 +59,9 @@ ELLIPSE_BALLS, MIN_TURN_PART = 64, 2.0**-12
 def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
     """Return, for each of the cycles a1, a2, b1, b2, the integrals [T_H, T_F, T_c, S] as complex balls.
 
-    S, the integral of eta du, is 2 pi times an action, and dS = T_H dH + T_F d(F/2) + T_c dc. Which paths make a
-    cycle is taken from the ``lattice``, unproved. Raises NotCertifiedError where an integral is not proved.
+    ``motion`` are the motion's `Integrals`. S, the integral of eta du, is 2 pi times an action, and dS = T_H dH +
+    T_F d(F/2) + T_c dc. Which paths make a cycle is taken from the ``lattice``, unproved. Raises NotCertifiedError
+    where an integral is not proved.
     """
     with workprec(int(ctx.prec) + GUARD_BITS):
         curve, rough = Curve(motion, proven=True), Curve(motion)
@@ -180,7 +181,7 @@ def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX
 
 
 def _zero_at(curve: Curve, place: acb) -> acb:
-    """Return the ball of the zero of Psi, shifted by periods, that is nearest to a place u."""
+    """Return the zero of Psi on ``curve``, shifted by periods, that is nearest to a ``place`` u, a complex ball."""
     places = [zero + away - curve.in_cell(away) for zero in curve.zeros for away in (centre(place) - zero,)]
     return min(places, key=lambda u: abs(complex_of(u - place)))
 

@@ -109,9 +109,9 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
 
 
 def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Sequence[Period]) -> Floats:
-    """Return proven bounds (3,) on the error of M, K and N, at all phases, by rounding the proved periods.
+    """Return proven bounds (3,) on the errors of M, K and N of ``theta``, at all phases, by rounding the periods.
 
-    ``rounded_periods`` are used in the place of ``periods``; phases reach to `TURNS` turns. Raises
+    ``rounded_periods`` are used in the place of the proved ``periods``; phases reach to `TURNS` turns. Raises
     NotCertifiedError for an error beyond `MAX_DISTANCE`.
     """
     with workprec(BITS + SPARE_BITS):
@@ -314,7 +314,7 @@ class Cell:
 
 
 def _check_characteristics(theta: ThetaMotion) -> None:
-    """Raise NotCertifiedError unless all products in a component of a defect have one law of coefficients.
+    """Raise NotCertifiedError unless the products in a defect of ``theta`` have one law of coefficients.
 
     From S to S + 4j the product of forms of characteristics d and d' takes the sign (-1)^(j_2 (d + d')), besides g.
     """
@@ -393,8 +393,8 @@ def _sizes(theta: ThetaMotion) -> Floats:
 def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
     """Return the matrix (3, 3) of bounds: row i, column j bounds the growth of the error of vector i by that of j.
 
-    The vectors are M, K and N, with lengths `sizes`; H and F are the times along both flows, floats. A multiple of
-    1 may be subtracted from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K, J = -D II^-1.
+    The vectors are M, K and N of ``theta``, with lengths `sizes`; H and F are the times along both flows, floats. A
+    multiple of 1 may be subtracted from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K, J = -D II^-1.
     """
     I = np.array([float(arb(x).mid()) for x in theta.motion.moments])
     M, K, N = sizes
@@ -405,7 +405,7 @@ def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
 
 
 def _exponential(growth: Floats) -> Floats:
-    """Return the exponential of a matrix (3, 3) with elements >= 0, by Taylor's series and squaring, in doubles."""
+    """Return the exponential of ``growth`` (3, 3), elements >= 0, by Taylor's series and squaring, in doubles."""
     halvings = max(0, int(np.ceil(np.log2(growth.sum())))) if growth.any() else 0
     term = total = np.eye(3)
     for n in range(1, 30):

@@ -396,7 +396,7 @@ def _units(x: fmpq, bits: int) -> int:
 
 
 def _scaled(row: list[int], factor: fmpq) -> list[int]:
-    """Return the integer coefficients of p(factor x), rounded down, from those of p(x)."""
+    """Return the integer coefficients of p(factor x), rounded down, from the ``row`` of coefficients of p(x)."""
     if factor == 1:
         return row
     p, q, powers, up, down = int(factor.p), int(factor.q), [], 1, 1

@@ -51,7 +51,7 @@ OF_MOMENTS = ("frequencies", "mode", "period", "precession_rate", "spin_rate")
 
 
 def transposed(M: Sequence[Sequence[Any]]) -> list[list[Any]]:
-    """Return the transpose of a matrix, as nested lists."""
+    """Return the transpose of a matrix M, as nested lists."""
     return [list(row) for row in zip(*M, strict=True)]
 
 

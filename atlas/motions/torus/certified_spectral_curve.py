@@ -141,7 +141,7 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
 
 
 def _matrix(tau: acb_mat, digits: int) -> list[list[list[str]]]:
-    """Return the entries of a matrix as [real, imaginary], strings of `digits` digits; "0" below 10^-digits."""
+    """Return the entries of ``tau`` as [real, imaginary], strings of `digits` digits; "0" below 10^-digits."""
     least = arb(10) ** -digits
 
     def text(x: arb) -> str:

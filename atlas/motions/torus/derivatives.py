@@ -88,8 +88,8 @@ class TorusVaried:
         """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
         v is the rotation vector in the laboratory with dR/dp = [v]x R; ``to_laboratory`` (3, 3) takes vectors
-        there. ``names`` (N, inputs) are weights of the inputs, ``turns`` (N, 3) are added to v. Raises DomainError
-        where the field is too weak for derivatives in floats.
+        there. ``names`` (N, inputs) are weights of the inputs, ``turns`` (N, 3) are added to v; ``certified`` is
+        not used. Raises DomainError where the field is too weak for derivatives in floats.
         """
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
@@ -197,10 +197,10 @@ class Neighbours:
         return _slopes(self.exact, self._tables(values_there), step)
 
     def _by_scale(self, place: int, slopes_by_place: Mapping[int, Sequence[Array]]) -> list[Array]:
-        """Return the derivatives [weights, ways, frequencies, frame], (n,) each, in one input, by homogeneity.
+        """Return the derivatives [weights, ways, frequencies, frame], (n,) each, in an input by homogeneity.
 
-        ``slopes_by_place`` has those in the others of its group. If all rates are scaled, K, W and the frequencies
-        grow and the frame shrinks; if all moments are, nothing changes.
+        ``place`` is the index of the input; ``slopes_by_place`` has those in the others of its group. If all rates
+        are scaled, K, W and the frequencies grow and the frame shrinks; if all moments are, nothing changes.
         """
         weights, ways, frequencies, frame = self.constants
         count = len(self.box)
@@ -216,9 +216,9 @@ class Neighbours:
         ]
 
     def _tables(self, constants: Constants) -> list[list[Any]]:
-        """Return four flat lists of balls: theta coefficients over the denominator's largest, ways, frequencies, frame.
+        """Return four flat lists of the balls in ``constants``: theta coefficients, ways, frequencies, frame.
 
-        Raises DomainError where that largest coefficient is zero.
+        The first are divided by the denominator's largest. Raises DomainError where that coefficient is zero.
         """
         places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in self.box]
         unit = places[self.peak][3]
@@ -275,7 +275,8 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
 def _slopes(here: list[list[Any]], row_there: list[list[Any]], step: int) -> list[Array]:
     """Return difference quotients (there - here) 2^step, a complex array (n,) for each of four lists of constants.
 
-    Raises DomainError where a constant changes more than the step explains.
+    ``here`` and ``row_there`` are those of the motion and of its neighbour. Raises DomainError where a constant changes
+    more than the step explains.
     """
     slopes: list[Array] = []
     for row_here, second in zip(here, row_there, strict=True):

@@ -17,7 +17,7 @@ from atlas.motions.torus.theta import ThetaKernel
 
 
 def of_euler(exact: AsymmetricMotion) -> Inputs:
-    """Return the `Inputs` of a free body with three moments: I1, I2, I3, omega1, omega2, omega3."""
+    """Return the `Inputs` of the free body ``exact`` with three moments: I1, I2, I3, omega1, omega2, omega3."""
     size, J = size_of(*exact.omega), floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "omega1", "omega2", "omega3"), (*exact.inertia, *exact.omega), (*exact.inertia, *[size] * 3),
@@ -45,12 +45,15 @@ class OnTorus(Inputs):
         return self.cached[key]
 
     def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of the frequency "f1", "f2" or "f3" in the inputs ``names``, shape (len(names),)."""
+        """Return the derivatives of the frequency ``name`` in the inputs ``names``, shape (len(names),).
+
+        The name is "f1", "f2" or "f3".
+        """
         return np.asarray(self.varied(names).of_frequencies[:, int(name[1]) - 1])
 
 
 def of_asymmetric(single: Any) -> Inputs:
-    """Return the `Inputs` of a `SingleAsymmetric`: `OnTorus`, or without a field those of Euler's top.
+    """Return the `Inputs` of ``single``, a `SingleAsymmetric`: `OnTorus`, or without a field those of Euler's top.
 
     Raises DomainError for a motion in a field without theta functions.
     """

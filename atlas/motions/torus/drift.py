@@ -388,13 +388,13 @@ def _waves(x: FloatArray) -> FloatArray:
 
 
 def _smoothed(x: FloatArray) -> FloatArray:
-    """Return a grid (6, n1, n2) without waves shorter than the fraction `SMOOTH` of its nodes."""
+    """Return a grid x (6, n1, n2) without waves shorter than the fraction `SMOOTH` of its nodes."""
     kept = [abs(np.fft.fftfreq(n)) <= SMOOTH for n in x.shape[1:]]
     return np.fft.ifft2(np.fft.fft2(x) * np.outer(*kept)).real
 
 
 def _doubled(x: FloatArray, axis: int) -> FloatArray:
-    """Return a grid (6, n1, n2) with twice the nodes along ``axis``, 1 or 2, by Fourier interpolation."""
+    """Return a grid x (6, n1, n2) with twice the nodes along ``axis``, 1 or 2, by Fourier interpolation."""
     from scipy.signal import resample
 
     return np.asarray(resample(x, 2 * x.shape[axis], axis=axis))

@@ -121,7 +121,7 @@ class SingleAsymmetric:
         return closed, f"{status}; rounding adds {closed.accuracy:.1e} at most"
 
     def _elliptic(self, exact: EllipticMotion) -> tuple[SingleElliptic | None, str]:
-        """Return (`SingleElliptic` of an elliptic motion, its proof status), or (None, the reason why none is used)."""
+        """Return (`SingleElliptic` of the motion ``exact``, its proof status), or (None, why none is used)."""
         try:
             if isinstance(exact, EulerTop):
                 single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
@@ -244,7 +244,7 @@ class SingleAsymmetric:
 
 @lru_cache(maxsize=MOTION_CACHE_SIZE)
 def _single(*row: Any) -> SingleAsymmetric:
-    """Return the `SingleAsymmetric` of nine exact numbers, three moments, field and omega; cached."""
+    """Return the `SingleAsymmetric` of a ``row`` of nine exact numbers, three moments, field and omega; cached."""
     return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
 
 
@@ -465,7 +465,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return (motion, its principal axes as rows (..., 3, 3)); None for a body with two equal moments."""
+        """Return (motion, its principal axes as rows (..., 3, 3)) from a `Start`, ``start``.
+
+        None for a body with two equal moments.
+        """
         axes = start.body.axes
         return None if start.is_symmetric else (cls(start.moments, *start.along(axes)), axes)
 
@@ -587,7 +590,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
     def _fill_grid(self, single: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
-        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step; exactly 1 at t = 0."""
+        """Fill ``out`` (count, 3, 3) with R of one motion at times start + i step; exactly 1 at t = 0.
+
+        ``single`` is the motion's evaluator.
+        """
         (single.closed or single.certified).fill_grid(start, step, out)
         if step and (start / step).is_integer() and 0 <= -start / step < len(out):
             out[round(-start / step)] = np.eye(3)

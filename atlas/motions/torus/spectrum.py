@@ -34,8 +34,8 @@ def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: Flo
 def _actions(exact: Any, kernel: ThetaKernel, J: FloatArray) -> list[float]:
     """Return the actions [J1, J2] of the two phases of a torus, in inertia/time, as means over the torus.
 
-    J (3,) are the principal moments. Each action is the work along the flows of H and F/2 for a period, and back
-    about the field, over 2 pi.
+    ``exact`` is the certified motion, ``kernel`` its evaluator, J (3,) are the principal moments. Each action is
+    the work along the flows of H and F/2 for a period, and back about the field, over 2 pi.
     """
     actions_of_cycles, unit = [], nearest(exact.inertia[0] / exact.on_torus.moments[0])
     for i, period in enumerate(kernel.periods):

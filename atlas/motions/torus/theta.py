@@ -240,7 +240,10 @@ class ThetaKernel:
         combined(self._rows(half, low_word, forms), weights, rows)
 
     def _rows(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
-        """Return the `_functions` (k, m) of ``forms`` at half phases in two words, (3, m) each, in blocks of times."""
+        """Return the `_functions` (k, m) of ``forms`` at half phases ``half`` + ``low_word``, (3, m) each.
+
+        They are evaluated in blocks of times.
+        """
         if half.shape[1] == 1:
             return self._functions(half[:, 0], low_word[:, 0], forms)[:, None]
         blocks = [slice(i, i + SUM_BLOCK) for i in range(0, half.shape[1], SUM_BLOCK)]
@@ -249,7 +252,7 @@ class ThetaKernel:
     def _functions(self, half: FloatArray, low_word: FloatArray, forms: slice) -> FloatArray:
         """Return [Re N, Im N, K, W], three components of each that is among ``forms``, (k, m) at m times, (k,) at one.
 
-        They are those at half phases in two words, (3, m) or (3,) each, in rad.
+        They are those at half phases ``half`` + ``low_word``, (3, m) or (3,) each, in rad.
         """
         upper = half + CUT - CUT
         x, low = two_sum(self.upper @ upper, self.ways @ (half - upper + low_word) + self.lower @ upper)
@@ -281,7 +284,10 @@ class ThetaKernel:
         rows *= (signs(turns) ** steps).prod(axis=0)[:, None]
 
     def _quaternions(self, half: FloatArray, low_word: FloatArray) -> FloatArray:
-        """Return a quaternion (x, y, z, w) of each R at half phases, (m, 4), with either sign."""
+        """Return a quaternion (x, y, z, w) of R, (m, 4), of either sign, at m half phases.
+
+        These are ``half`` + ``low_word``, (3, m) each, in rad.
+        """
         R = np.empty((half.shape[1], 9))
         combined(self._rows(half, low_word, ATTITUDE), self.entries, R)
         return of_matrix(R.reshape(-1, 3, 3))
@@ -321,13 +327,13 @@ class ThetaKernel:
 
 
 def _joined(q: FloatArray) -> FloatArray:
-    """Return quaternions (n, ..., 4), some negated so that each is less than a half turn from the row before."""
+    """Return quaternions q (n, ..., 4), some negated so that each is less than a half turn from the row before."""
     signs = np.sign((q[1:] * q[:-1]).sum(-1, keepdims=True))
     return np.concatenate([q[:1], q[1:] * np.cumprod(signs, axis=0)])
 
 
 def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
-    """Return the `ThetaKernel` of a motion on a torus whose largest rate is ``size``, in 1/time.
+    """Return the `ThetaKernel` of the motion ``exact`` on a torus, whose largest rate is ``size``, in 1/time.
 
     Raises NotCertifiedError, with the reason, where theta functions are missing or rounding would be too large.
     """
