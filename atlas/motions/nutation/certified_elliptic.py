@@ -35,9 +35,9 @@ ROUNDING = fmpq(1, 2**48)
 class EllipticMotion(Nutating):
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3) at t = 0.
 
-    z and ``branch`` (1 or -1, the sign of v) are the parameters of the family, see the module. Every value is
-    computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`; which case it is, is
-    decided on the exact inputs.
+    ``inertia`` and ``field`` (1/time) are along the principal axes; z and ``branch`` (1 or -1, the sign of v) are the
+    parameters of the family, see the module. Every value is computed anew at the precision of the moment, see
+    `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
     """
 
     frame = 1
@@ -306,7 +306,7 @@ class EllipticMotion(Nutating):
 
 
 class EulerTop(EllipticMotion):
-    """The motion R(t), R(0) = 1, of a free body with moments (I1, I2, I3) that starts with ``omega``, in rad/time.
+    """The motion R(t), R(0) = 1, of a free body with ``inertia`` (I1, I2, I3) that starts with ``omega``, in rad/time.
 
     It is an `EllipticMotion` with `frame` 0, so that no frame turns: the angular momentum m = II Omega in the body
     stands for the field, and E = II^-1: m' = [m, E m].

@@ -34,7 +34,9 @@ class Swing:
 
     The angle, in rad, is kappa (rate t + twist s + 2 at(x)/sqrt(|A|)), x = sqrt(|A|) odd(s)/even(s), with at =
     artanh for A > 0, arctan for A < 0, and 2 odd/even for A = 0. s is the time since a turning point, A (1/time^2)
-    the quartic's leading coefficient, kappa is in 1/time, and `rate` and `twist` have no unit.
+    the quartic's leading coefficient, kappa is in 1/time, and `rate` and `twist` have no unit. `lattice` has the
+    periods, `width` is the distance of the turning points of nu. For A > 0 nu is infinite at s = x + i imaginary,
+    and `depth` is the lattice's rate times x.
     """
 
     lattice: Lattice

@@ -31,9 +31,9 @@ from atlas.surfaces.formula_top import constants
 class TopMotion(Nutating):
     """The motion R(t), R(0) = 1, of a top with inertia (I2, I3), coupling (k2, k3) and direction (n2, n3) at t = 0.
 
-    ``linear`` and ``quadratic`` are the coefficients of its potential. Omega is in rad/time; `I`, `coupling` and
-    `potential` are over I2. Every value is computed anew at the precision of the moment, see
-    `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
+    ``omega`` is Omega(0), three numbers in rad/time, ``linear`` and ``quadratic`` are the coefficients of the
+    potential. `I`, `coupling` and `potential` are over I2. Every value is computed anew at the precision of the
+    moment, see `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
     """
 
     def __init__(

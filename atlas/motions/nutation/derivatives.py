@@ -190,7 +190,7 @@ class Weighted:
 
 
 class Varied:
-    """Derivatives of one motion in several inputs, from a `Variation` for each.
+    """Derivatives of one motion in several inputs, from ``variations``, a `Variation` for each input.
 
     Inputs with equal constants are evaluated together. Where the constants have no derivatives (an empty list), or
     terms cancel, differences of the motion in balls, made by ``differences()``, replace them.

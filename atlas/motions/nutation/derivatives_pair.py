@@ -24,7 +24,7 @@ Array: TypeAlias = np.ndarray[Any, Any]
 class VariedPair:
     """alpha and beta of one motion in doubles at any times, with their derivatives in several inputs.
 
-    It is made of one `Variation` per input, which have equal constants. By the inputs (P,) `rates` (P, 2) are the
+    ``variations`` has a `Variation` for each input, with equal constants. By the inputs (P,) `rates` (P, 2) are the
     derivatives of the sum and difference of the phases' rates, `cells` and `origins` (P,) those of the length of a
     cell (two periods, or one if hyperbolic) and of the time since the turning point at t = 0. `tables` has for
     alpha and beta an array of weights: of the function, of its slope, and of its P derivatives.

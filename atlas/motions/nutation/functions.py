@@ -122,9 +122,9 @@ class Trigonometric:
 class Hyperbolic:
     """tanh x and 1 times powers of W = cosh 2x/cosh 2X, X the largest x; and the same times sech x.
 
-    x is `rate` of the lattice times the time since a turning point: in one period proportional to the phase v, half the
-    period's, in rad; on a separatrix, where there is no period, a `line` in time. ``sums`` are those of alpha and beta;
-    sech x is for a doubled one.
+    x is `rate` of the lattice times the time since a turning point: in one period proportional to the phase v, half
+    the period's, in rad; on a separatrix, where there is no period, a `line` in time. ``sums`` are those of alpha
+    and beta of the ``solution``; sech x is for a doubled one.
     """
 
     def __init__(self, solution: Solution, sums: Sequence[Sum]) -> None:
@@ -212,7 +212,7 @@ class Hyperbolic:
 class Linear:
     """The functions x and 1, both divided by the larger of |x| and 1; x is the time since the turning point.
 
-    They are for a triple root of Q, where alpha and beta are linear in x.
+    They are for a ``solution`` at a triple root of Q, where alpha and beta are linear in x.
     """
 
     def __init__(self, solution: Solution, _sums: Sequence[Sum]) -> None:

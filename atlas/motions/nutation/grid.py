@@ -144,7 +144,10 @@ def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 class Windows:
-    """Matrices at the `NODES` nodes of up to `size` windows of `length` times each, and polynomials through them."""
+    """Matrices at the nodes of up to `size` windows of `length` times of a ``grid``, and polynomials through them.
+
+    Each window has `NODES` nodes.
+    """
 
     def __init__(self, grid: Grid, length: int, size: int) -> None:
         self.grid, self.length = grid, length

@@ -205,11 +205,12 @@ class TopsAtTimes(MotionsAtTimes):
 class CayleyKleinAtTimes:
     """alpha and beta of motions paired with times t (m,); `extreme` holds the indices that need the scalar path.
 
-    `pair` (2, m) are alpha and beta up to a real factor, `square` (m,) is |alpha|^2 + |beta|^2. They are known to 4
-    u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and sin y, 1/2 u for a weight,
-    3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below MAX_CANCELLATION times the
-    length of (alpha, beta), each entry of R is within 2 sqrt(2) 4 u MAX_CANCELLATION + 10 u = 8.7e-15. Of tops
-    `swings` add the rotation by the integral of nu; `kappa` is its factor in Omega3.
+    ``constants`` are those of the m motions. `pair` (2, m) are alpha and beta up to a real factor, `square` (m,) is
+    |alpha|^2 + |beta|^2. They are known to 4 u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u
+    for cos y and sin y, 1/2 u for a weight, 3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum
+    is below MAX_CANCELLATION times the length of (alpha, beta), each entry of R is within 2 sqrt(2) 4 u
+    MAX_CANCELLATION + 10 u = 8.7e-15. Of tops `swings` add the rotation by the integral of nu; `kappa` is its
+    factor in Omega3.
     """
 
     def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None = None) -> None:

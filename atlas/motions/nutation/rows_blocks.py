@@ -163,9 +163,10 @@ def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, Floa
 
 
 class Blocks:
-    """Motions I2, I3, B1, B2, B3, omega1, omega2, omega3, which broadcast to a shape, iterated by `Block`.
+    """Motions of eight ``inputs``, which broadcast to ``shape``, iterated by `Block`.
 
-    Results of a single block are cached; those of many would take too much memory.
+    The inputs are I2, I3, B1, B2, B3, omega1, omega2, omega3. Results of a single block are cached; those of many would
+    take too much memory.
     """
 
     _unit = slice(2, None)

@@ -36,10 +36,11 @@ class EllipticRoots(TurningPoints):
     """The turning points of u + K_a, with further constants of the sphere of K, for rows (m,); see the module.
 
     `turning` is u_t and `w` the square of the other roots in u, `K` the field at t = 0, `axial` K_a and
-    `transverse` its part across a, `b` its length; `torque` is that at both poles, `precession` (E_a - 1) b.
-    `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i and of K_c, c the axis
-    about which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `transverse`, `axial`), the
-    third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
+    `transverse` its part across a, `b` its length; `v` is the root of the family, `torque` that at both poles,
+    `precession` (E_a - 1) b. `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i
+    and of K_c, c the axis about which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0,
+    `transverse`, `axial`), the third one a, as columns. `top` and `plane` are None, unlike those of `Roots`. Only
+    where the mask `elliptic` holds all this is certain to be a motion of that kind.
     """
 
     turning: DoubleDouble

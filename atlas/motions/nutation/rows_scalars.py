@@ -43,7 +43,7 @@ HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 
 
 
 class Rounded(NamedTuple):
-    """Values (..., m) of m motions as doubles, and a mask (m,) of those that are certainly the nearest doubles."""
+    """`values` (..., m) of m motions as doubles, and the mask `is_certain` (m,) of certainly nearest doubles."""
 
     values: Any
     is_certain: Any

@@ -19,14 +19,14 @@ from atlas.motions.nutation.rows_roots import Roots, TurningPoints
 class Sphere:
     """A vector of constant length that moves with Omega3, of m motions: where it meets the axis, and its start.
 
-    Arrays (2, m) are of alpha, then of beta. `poles` are the values of v = Omega3 - omega3 at which the vector
-    would be along the axis, so that alpha (the upper pole) or beta (the lower one) is zero; `torques` are those
-    there: -Q is the square of a torque. `amplitudes` are cosine and sine of half the polar angle at the start;
-    `meets` is the mask of vectors that start at a pole, and for these `slopes` are twice the time derivatives of
-    alpha or beta, whichever is zero. `frames` are the rates of the frame in which both are given. `azimuth` are
-    cosine and sine, (m,) each, of the vector's azimuth at the start, from the second axis to the first; `sizes` are
-    the factors from the unit sphere to the vector, across the axis and, with a sign, along it. Rates are in the
-    scaled unit.
+    `roots` are the turning points; arrays (2, m) are of alpha, then of beta. `poles` are the values of v = Omega3 -
+    omega3 at which the vector would be along the axis, so that alpha (the upper pole) or beta (the lower one) is
+    zero; `torques` are those there: -Q is the square of a torque. `amplitudes` are cosine and sine of half the
+    polar angle at the start; `meets` is the mask of vectors that start at a pole, and for these `slopes` are twice
+    the time derivatives of alpha or beta, whichever is zero. `frames` are the rates of the frame in which both are
+    given. `azimuth` are cosine and sine, (m,) each, of the vector's azimuth at the start, from the second axis to
+    the first; `sizes` are the factors from the unit sphere to the vector, across the axis and, with a sign, along
+    it. Rates are in the scaled unit.
     """
 
     roots: TurningPoints

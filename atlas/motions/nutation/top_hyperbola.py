@@ -39,10 +39,11 @@ BITS = 64
 class TopHyperbola(Shown):
     """The curve omega1 = 0 of `TopQuadric`: n3 w^2 - I n2 w v + n2^2 n3 D = 0, each point a steady precession.
 
-    The inputs are those of `TopMotion` without omega, of one top with n2 not zero; w, v and D as in `TopQuadric`;
-    here n is the unit vector and k the coupling over I2. The motion at omega2 is R(t) = R_n(k t) R_z(phi t), k =
-    omega2/n2, phi = omega3 - n3 k: the paper's (85) for every top. Its pole w = 0, omega2 = -n2 k3/I, is left out.
-    Raises DomainError for n2 = 0, AtlasError as `TopMotion` does.
+    ``inertia`` (I2, I3), ``coupling`` (k2, k3), ``direction`` (n2, n3), ``linear`` and ``quadratic`` are those of
+    `TopMotion`, of one top with n2 not zero; w, v and D are as in `TopQuadric`; in the formulas n is the unit
+    vector and k the coupling over I2. The motion at omega2 is R(t) = R_n(k t) R_z(phi t), k = omega2/n2, phi =
+    omega3 - n3 k: the paper's (85) for every top. Its pole w = 0, omega2 = -n2 k3/I, is left out. Raises
+    DomainError for n2 = 0, AtlasError as `TopMotion` does.
     """
 
     made_by = "Hyperbola.of_top"

@@ -65,7 +65,8 @@ class Lattice:
     `real` are two that generate the real periods, `other_periods` two that complete them to a basis of all. The
     symplectic basis is (a1, a2, b1, b2); `a` holds the first two, `b` the others. T_c is the time by which R turns
     about the field by
-    -b T_c.
+    -b T_c. `paths` are triples (start u, stop u, T_H) of the paths that were integrated, and `weights` four rows of
+    integers, by which their integrals sum to a1, a2, b1, b2.
     """
 
     real: tuple[list[acb], list[acb]]

@@ -141,9 +141,9 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
 class Curve:
     """Zeros of Psi on the torus of u, and integrals along paths between them; see the module for Psi, u and z.
 
-    `real` and `imaginary` are periods of z(u), `zeros` the four zeros in the cell about 0, as complex balls. If
-    ``proven``, balls keep their radii, which grow; otherwise they are replaced by their midpoints. Raises
-    NotCertifiedError where the coefficients differ too much in size.
+    ``motion`` are the motion's `Integrals`. `real` and `imaginary` are periods of z(u), `zeros` the four zeros in
+    the cell about 0, as complex balls. If ``proven``, balls keep their radii, which grow; otherwise they are
+    replaced by their midpoints. Raises NotCertifiedError where the coefficients differ too much in size.
     """
 
     def __init__(self, motion: Integrals, *, proven: bool = False) -> None:

@@ -263,7 +263,7 @@ def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, St
 
 
 class Rough:
-    """M and K of a `ThetaMotion` from its theta functions in doubles, at arrays of complex times."""
+    """M and K of ``motion``, a `ThetaMotion`, from its theta functions in doubles, at arrays of complex times."""
 
     def __init__(self, motion: ThetaMotion) -> None:
         self.moments = motion.motion.moments

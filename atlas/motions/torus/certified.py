@@ -285,9 +285,9 @@ def _digits_before_point(t: fmpq) -> int:
 class AsymmetricMotion:
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3), from omega.
 
-    The field (1/time) and omega (rad/time) are along the principal axes at t = 0. `kind` says which case it is,
-    decided on the exact inputs. Values are computed anew at the precision of the moment, see
-    `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for values that cannot be enclosed.
+    ``inertia``, ``field`` (1/time) and ``omega`` (rad/time) are along the principal axes at t = 0, three exact numbers
+    each. `kind` says which case it is, decided on the exact inputs. Values are computed anew at the precision of the
+    moment, see `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for values that cannot be enclosed.
     """
 
     def __init__(self, inertia: Any, field: Any, omega: Any) -> None:

@@ -127,10 +127,10 @@ def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Seque
 
 
 class Cell:
-    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF_TURN, and their remainders.
+    """The forms of ``theta`` as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF_TURN.
 
     x (2,) are the phases, in turns, of both ``periods``; `forms` are the ten of D, K, M, N, and `to_v` (2, 2) takes
-    phases to pi v.
+    phases to pi v. Methods bound what the forms lack of a motion.
     """
 
     def __init__(self, theta: ThetaMotion, periods: Sequence[Period]) -> None:

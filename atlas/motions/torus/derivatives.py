@@ -148,10 +148,10 @@ class TorusVaried:
 class Neighbours:
     """Constants of a motion on a torus, and their derivatives in nine inputs: three moments, field K and omega.
 
-    `values` are the inputs, rationals in the units of the torus; `constants` are four flat complex arrays: weights
-    of the theta sums over the largest of the denominator, ways (coefficients of the half angles f1 t/2 and f2 t/2
-    in the sums' phases), frequencies f1, f2, f3 and frame. The sums' terms have the `orders` P, Q, shape (2,
-    terms), counted from the centre of the sums.
+    ``exact`` is the certified motion, ``kernel`` its evaluator. `values` are the inputs, rationals in the units of the
+    torus; `constants` are four flat complex arrays: weights of the theta sums over the largest of the denominator, ways
+    (coefficients of the half angles f1 t/2 and f2 t/2 in the sums' phases), frequencies f1, f2, f3 and frame. The sums'
+    terms have the `orders` P, Q, shape (2, terms), counted from the centre of the sums.
     """
 
     def __init__(self, exact: Any, kernel: ThetaKernel) -> None:

@@ -31,8 +31,8 @@ MAX_STEPPED_PHASE, STEP_PHASE = 1000.0, 0.05
 class Certified:
     """Evaluator of one motion in doubles, from its certified balls, each rounded once.
 
-    It is made from the motion in balls and from ``size``, its largest rate in 1/time, and has the methods of a motion
-    for R, its columns, the quaternion, Omega and K.
+    It is made from ``exact``, the motion in balls, and from ``size``, its largest rate in 1/time, and has the
+    methods of a motion for R, its columns, the quaternion, Omega and K. Their times t have any shape.
     """
 
     def __init__(self, exact: AsymmetricMotion, size: float) -> None:
