@@ -99,7 +99,7 @@ class Motion(Shown, Generic[Single]):
         self._make, self._inputs, self._made, self.shape = make, inputs, singles, shape
 
     def _single(self, i: int = 0) -> Single:
-        """Return the evaluator of the i-th motion alone, cached; i counts the array flattened."""
+        """Return the evaluator of the i-th motion alone, cached; the index i counts the flattened array."""
         single = self._made.get(i)
         if single is None:
             if len(self._made) >= MOTION_CACHE_SIZE:
@@ -110,7 +110,7 @@ class Motion(Shown, Generic[Single]):
     def _row(self, i: int = 0) -> list[Any]:
         """Return the inputs of the i-th motion, a list: floats, rationals (`fmpq`) that no float holds, or None.
 
-        I counts the array flattened.
+        The index i counts the flattened array.
         """
         index = tuple(map(int, np.unravel_index(i, self.shape))) if self.shape else ()
         return [element(x, index) for x in self._inputs]
@@ -619,7 +619,7 @@ class Motion(Shown, Generic[Single]):
     def _inputs_of(self, i: int) -> Any:
         """Return the `Inputs` of the i-th motion: exact inputs by name, the certified counterpart, and scalars.
 
-        I counts the array flattened. Raises NotImplementedError in the base.
+        The index i counts the flattened array. Raises NotImplementedError in the base.
         """
         raise NotImplementedError
 

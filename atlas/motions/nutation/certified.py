@@ -243,7 +243,7 @@ class Nutating:
         return precession, T * solution.spin + difference_of_angles + further
 
     def quaternion(self, t: Any) -> list[arb]:
-        """Return a unit quaternion (w, x, y, z) of R(t), of either sign, as a list of four balls."""
+        """Return a unit quaternion (w, x, y, z) of R(t), of either sign, a list of four balls; t is taken exactly."""
         if self.is_steady and self.kind != "at rest":
             (k, phi), last = self.steady_rates(), AXES[self.places[2]]
             (s, c), (S, C) = (sin_cos(rate * rational(t, "the time") / 2) for rate in (k, phi))
@@ -267,7 +267,7 @@ class Nutating:
         return [w, x * C + y * S, y * C - x * S, z]
 
     def rotation(self, t: Any) -> Matrix:
-        """Return R(t) as three rows of balls or rationals; the unit matrix at t = 0.
+        """Return R(t) at one time, taken exactly, as three rows of balls or rationals; the unit matrix at t = 0.
 
         It is a product of two rotations where theta is constant and for a ball, else the matrix of (alpha, beta).
         """
@@ -300,19 +300,25 @@ class Nutating:
         return product(turn(self.field, c, s), swing)
 
     def column(self, j: int, t: Any) -> list[Real]:
-        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory at time t, as a list of three."""
+        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory at time t, a list of three.
+
+        Each component is a ball or a rational; the time is taken exactly.
+        """
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), the body's axis in the laboratory, three balls."""
+        """Return the third column of R(t), the body's axis in the laboratory at time t, a list of three balls."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return R^T `field`, for a body in a field K(t) of (32), along the body's axes: a list of three balls."""
+        """Return R^T `field` along the body's axes at time t, a list of three balls.
+
+        For a body in a field that is K(t) of (32), in 1/time.
+        """
         return [dot(column, self.field) for column in zip(*self.rotation(t), strict=True)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes, three balls in rad/time; exact at t = 0."""
+        """Return Omega(t) along the body's axes at one time t, a list of three balls in rad/time; exact at t = 0."""
         t = rational(t, "the time")
         if t == 0:
             return list(self.omega)
@@ -322,7 +328,7 @@ class Nutating:
         return turned_back(self.omega, c, s)
 
     def turning_rate(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes, three balls in rad/time.
+        """Return Omega along the body's axes at time t, a list of three balls in rad/time.
 
         It is twice the vector part of the quaternion's logarithmic derivative.
         """

@@ -92,7 +92,10 @@ class Sum:
         return 2 * n if self.doubled else 2 * n + 1
 
     def at(self, s: arb) -> tuple[acb, acb]:
-        """Return (sum, its derivative by s) at time s, as complex balls that contain the remainder."""
+        """Return (sum, its derivative by s), complex balls that contain the remainder.
+
+        s is the time since a turning point.
+        """
         x, form = self.lattice.rate * s, self.lattice.form
         if form == "linear":
             return self.even[0] + self.odd[0] * x, self.odd[0] * self.lattice.rate

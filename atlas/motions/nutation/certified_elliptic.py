@@ -229,9 +229,10 @@ class EllipticMotion(Nutating):
 
     @property
     def turn_per_period(self) -> arb:
-        """Total angle in rad, a ball, of the rotation about B that R is after one period of K.
+        """Total angle in rad, a ball, by which R turns about B in one period of K.
 
-        K, the field along the axes of the body, is then the same again. Whole turns are those of the nutating axis.
+        After a period K, the field along the body's axes, is the same again, and R is this rotation times what it
+        was. Whole turns are those of the nutating axis.
         """
         return super()._angles()[0]
 
@@ -287,7 +288,7 @@ class EllipticMotion(Nutating):
         return (arb(1), arb("inf")) if self.is_steady else super()._periods()
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega_i(t) = (E_i - `frame`) K_i(t) along the body's axes, three balls in rad/time."""
+        """Return Omega_i = (E_i - `frame`) K_i along the body's axes at time t, a list of three balls in rad/time."""
         return self.rate_of(self.field_in_body(t))
 
     def angular_momentum(self, t: Any) -> list[Real]:
@@ -301,7 +302,7 @@ class EllipticMotion(Nutating):
         return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
 
     def _permuted(self, vector: Any) -> Any:
-        """Return the components of a vector in the order `places`, the nutating axis last."""
+        """Return the three components of a ``vector`` in the order `places`, the nutating axis last, as a tuple."""
         return tuple(vector[i] for i in self.places)
 
 

@@ -72,7 +72,7 @@ class GeneralMotion(Nutating):
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant: R(t) is then a product of two uniform rotations."""
+        """Whether theta, the angle from field to axis, is constant: R(t) is then a product of two uniform rotations."""
         return self.kind in {"free body", "at rest", "precession", "spin along the field"}
 
     @property
@@ -195,7 +195,10 @@ class GeneralMotion(Nutating):
 
     @property
     def turning_points(self) -> tuple[Real, Real]:
-        """(Least, largest) Omega3 in rad/time; on a separatrix one end is approached and never reached."""
+        """Tuple (least, largest) Omega3 in rad/time, balls or rationals.
+
+        On a separatrix one of the two is approached and never reached.
+        """
         q = self.quartic
         if self.is_steady or q.is_constant:
             return q.u.value, q.u.value
@@ -225,7 +228,7 @@ class GeneralMotion(Nutating):
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory, three balls in rad/time."""
+        """Return m/I2 = R (Omega1, Omega2, I Omega3) in the laboratory at time t, a list of three balls in rad/time."""
         w1, w2, w3 = self.angular_velocity(t) if any(self.field) else self.omega
         m = [w1, w2, self.I * w3]
         return applied(self.rotation(t), m) if any(self.field) else m

@@ -63,7 +63,7 @@ class TopMotion(Nutating):
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant: R(t) is then a product of two uniform rotations."""
+        """Whether theta, the angle from n to the axis, is constant: R(t) is then a product of two uniform rotations."""
         return self.quartic.is_constant
 
     @property
@@ -161,7 +161,10 @@ class TopMotion(Nutating):
 
     @property
     def turning_points(self) -> tuple[Real, Real]:
-        """(Least, largest) nu = cos theta; on a separatrix one end is approached and never reached."""
+        """Tuple (least, largest) nu = cos theta, balls or rationals.
+
+        On a separatrix one of the two is approached and never reached.
+        """
         q = self.quartic
         if self.is_steady:
             return q.nu.value, q.nu.value
@@ -200,7 +203,7 @@ class TopMotion(Nutating):
         return [transverse, second, third if self.coupling[1] else self.omega[2]]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return b(t) = R^T n, the unit direction n along the body's axes, three balls."""
+        """Return b(t) = R^T n, the unit direction n along the body's axes at time t, a list of three balls."""
         size = length(*self.direction)
         return [x / size for x in super().field_in_body(t)]
 

@@ -55,9 +55,9 @@ class Inputs:
         return next(float(floats([size])[0]) for name, size in sizes if name.startswith(("omega", "K", "larmor")))
 
     def varied(self, names: Sequence[str]) -> Any:
-        """Return the `Varied` evaluator of derivatives in the inputs ``names``.
+        """Return the `Varied` evaluator of the motion's derivatives in the inputs ``names``.
 
-        Next to a special case it uses differences alone.
+        Next to a special case it uses differences of the motion in balls alone.
         """
         places = self._places(names)
         differences = partial(Differences, self.twin, self.values, places, self.scales)

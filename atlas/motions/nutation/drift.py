@@ -109,8 +109,9 @@ class Drift:
 def of_nutation(motion: Any, times: FloatArray, rates: list[float], drag: FloatArray) -> Drift:
     """Return the `Drift` of a symmetric body at ``times`` (m,), ascending from 0, see `atlas.drift`.
 
-    ``rates`` are the growth rates of field and potential (field, linear, quadratic), ``drag`` an array of one rate,
-    two or three, in 1/time. Raises DomainError where the averaged motion cannot be followed.
+    ``motion`` is one motion. ``rates`` are the growth rates of field (1/time) and of the potential's linear and
+    quadratic coefficients (inertia/time^3), ``drag`` an array of one rate, two or three, in 1/time. Raises
+    DomainError where the averaged motion cannot be followed.
     """
     from scipy.integrate import solve_ivp
 

@@ -340,28 +340,43 @@ class EllipticAtTimes(MotionsAtTimes):
         return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
-        """Write R of each motion at its time into ``out`` (m, 3, 3), turned from the axes of the pair to the body's."""
+        """Write R of each motion at its time into ``out`` (m, 3, 3), turned from the axes of the pair to the body's.
+
+        The argument t is not used: the times are those of this object.
+        """
         super().rotation(t, out)
         C = self._frames
         out[:] = C @ out @ C.mT
 
     def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
-        """Write the column R_j, j = 1, 2, 3, of each motion's matrix at its time into ``out`` (m, 3)."""
+        """Write the column R_j, j = 1, 2, 3, of each motion's matrix at its time into ``out`` (m, 3).
+
+        The argument t is not used: the times are those of this object.
+        """
         R = np.empty((len(out), 3, 3))
         self.rotation(t, R)
         out[:] = R[:, :, j - 1]
 
     def quaternion(self, t: FloatArray, out: FloatArray) -> None:
-        """Write the unit quaternion (x, y, z, w) of each motion at its time, of either sign, into ``out`` (m, 4)."""
+        """Write the unit quaternion (x, y, z, w) of each motion at its time, of either sign, into ``out`` (m, 4).
+
+        The argument t is not used: the times are those of this object.
+        """
         super().quaternion(t, out)
         out[:, :3] = np.matvec(self._frames, out[:, :3])
 
     def field_in_body(self, t: FloatArray, out: FloatArray) -> None:
-        """Write K, the field along the body's axes in 1/time, of each motion at its time into ``out`` (m, 3)."""
+        """Write K, the field along the body's axes in 1/time, of each motion at its time into ``out`` (m, 3).
+
+        The argument t is not used: the times are those of this object.
+        """
         super().field_in_body(t, out)
         out[:] = np.matvec(self._frames, out)
 
     def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
-        """Write Omega = (E - 1) K, along the body's axes in rad/time, of each motion at its time to ``out`` (m, 3)."""
+        """Write Omega = (E - 1) K, along the body's axes in rad/time, of each motion at its time to ``out`` (m, 3).
+
+        The argument t is not used: the times are those of this object.
+        """
         self.field_in_body(t, out)
         out *= self._rows.field[1].rates[:, self._index].T

@@ -43,9 +43,9 @@ LAST = float(np.finfo(np.longdouble).eps)
 class SwingSums(NamedTuple):
     """Theta sums E and O of m tops, see the module's head: `even` weighs cos 2 n y in E, `odd` sin 2 n y in O.
 
-    Both are (MAX_TERMS, m); y is M t less its value where nu is largest. `rate` is the mean of b nu, that is the
-    rate of its integral over time; `w_error` (m,) bounds the relative error of the weights, inf where more terms
-    would matter.
+    Both are (MAX_TERMS, m); y is M t less its value where nu is largest, M half a turn over the period. `rate` (m,)
+    is the mean of b nu over time, nu being cos theta and b the length of n; `w_error` (m,) bounds the relative
+    error of the weights, inf where more terms would matter.
     """
 
     rate: DoubleDouble

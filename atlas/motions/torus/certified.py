@@ -250,7 +250,7 @@ class OnTorus:
         return [[arb_poly(x)(arb(t)) + arb(0, remaining.upper()) for x in rows] for rows in (Omega, K, *R)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows of balls, with R(0) = 1."""
+        """Return R(t) at one time t, taken exactly, as three rows of balls, with R(0) = 1."""
         series = self._series_at_zero(t)
         if series:
             return series[2:]
@@ -269,7 +269,7 @@ class OnTorus:
         return [k * self.rate for k in (series[1] if series else self.state(t)[0].K)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = W - K along the body's axes, three balls in rad/time."""
+        """Return Omega(t) = W - K along the body's axes at one time, a list of three balls in rad/time."""
         series = self._series_at_zero(t)
         if series:
             return [w * self.rate for w in series[0]]
@@ -338,7 +338,7 @@ class AsymmetricMotion:
             self._motion.follow(times)
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows of balls; at t = 0 the unit matrix of exact numbers."""
+        """Return R(t) at one time t, taken exactly, as three rows of balls; at t = 0 the exact unit matrix."""
         if rational(t, "the time") == 0:
             return identity()
         return self._motion.rotation(t)
@@ -361,7 +361,10 @@ class AsymmetricMotion:
 
     @property
     def _nutating(self) -> Any:
-        """The certified motion with a period: of a free, elliptic or symmetric body. Raises DomainError for others."""
+        """Certified motion with a period: `EulerTop`, `EllipticMotion`, or `GeneralMotion` of a symmetric body.
+
+        Raises DomainError for a motion of another kind.
+        """
         motion = self.elliptic
         if isinstance(self._motion, Symmetric) and any(self.field):
             return self._motion.exact

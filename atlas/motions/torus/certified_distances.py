@@ -331,9 +331,9 @@ def _check_characteristics(theta: ThetaMotion) -> None:
 def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
     """Return integer points n (k, 2), at least those with (n - p, Y (n - p)) < ``most`` for a p in a parallelogram.
 
-    Y (2, 2) is positive. The corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). The result holds the
-    points near a net of points of the parallelogram, from one of which none of its points is farther than half the
-    diagonal of a mesh.
+    Y (2, 2) is symmetric and positive. The ``corners`` (4, 2) belong to the parameters (-1, -1), (-1, 1), (1, -1),
+    (1, 1) along the two sides. The result holds the points near a net in the parallelogram, so fine that each of
+    its points is within half the diagonal of a mesh.
     """
     sides = corners[2] - corners[0], corners[1] - corners[0]
     lengths = [float(np.sqrt(side @ Y @ side)) for side in sides]

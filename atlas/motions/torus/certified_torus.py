@@ -80,14 +80,14 @@ class Torus:
 
     @property
     def integrals(self) -> Integrals:
-        """The exact `Integrals`: H, F and the Casimirs."""
+        """The exact `Integrals` of the state, rationals: H, F, c = (M, K) and K^2."""
         Omega = [w - k for w, k in zip(self.W, self.K, strict=True)]
         return Integrals.of_state(self.moments, Omega, self.K)
 
     def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
         """Return the rates of (W, K), lists of six balls: along the flow of H, and along that of F/2.
 
-        W and K are three numbers each; ``self`` gives the moments.
+        W and K are three numbers each along the principal axes.
         """
         I, cycle = self.moments, ((1, 2), (2, 0), (0, 1))
         M = [x * w for x, w in zip(I, W, strict=True)]

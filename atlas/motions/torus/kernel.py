@@ -171,7 +171,10 @@ class SingleAsymmetric:
 
     @property
     def accuracy(self) -> float:
-        """Bound on rounding errors, 2^-52 without a closed form: of R, and of K and Omega over the largest rate."""
+        """Bound on rounding errors: of R, and of K and Omega over the largest rate `size`.
+
+        Without a closed form it is 2^-52.
+        """
         if isinstance(self.closed, SingleElliptic):
             return MAX_ERROR if self._slender else self.closed.accuracy(self.size)
         return self.closed.accuracy if self.closed else 2.0**-52

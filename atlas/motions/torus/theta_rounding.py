@@ -83,7 +83,7 @@ class Rounding:
     def accuracy(self, enough: float = 0.0) -> float:
         """Return a first-order bound on rounding errors of R, and of K and Omega over the largest rate, at all phases.
 
-        It is refined only until it is below ``enough``; inf where powers would overflow.
+        It is refined only until it is below ``enough``, a number of the same kind; inf where powers would overflow.
         """
         half = np.pi * HALF_TURN / CELLS_PER_PHASE
         line = np.linspace(half - np.pi * HALF_TURN, np.pi * HALF_TURN - half, CELLS_PER_PHASE)
