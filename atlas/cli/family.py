@@ -389,7 +389,7 @@ class Question:
 
 
 def later(times: Sequence[float], recorded_at: Callable[[Sequence[float]], Any]) -> Iterator[dict[str, Any]]:
-    """Yield the records of the times after the first `AT_ONCE` (200), one for each time.
+    """Yield the records of the times after the first 200, `AT_ONCE`, one for each time.
 
     `recorded_at` returns the list of those of a block of times, so that a table prints while the next block is
     computed.
