@@ -73,7 +73,7 @@ __all__ = [*_HOMES, "__version__"]  # noqa: PLE0604  the names are strings
 
 
 def __getattr__(name: str) -> Any:
-    """Load a public name from its home."""
+    """Return the public object `name`; its module is imported at first use. Raises AttributeError for another name."""
     if name not in _HOMES:
         raise AttributeError(f"module 'atlas' has no attribute {name!r}")
     return globals().setdefault(name, getattr(import_module(_HOMES[name]), name))

@@ -22,9 +22,10 @@ DELAY, delays = 0.001, iter(range(2000))
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:
-    """Raise KeyboardInterrupt with the number of the signal.
+    """Raise KeyboardInterrupt with the number of the signal: a signal handler.
 
-    While a module is loaded the signal comes again later: code of a library might take the exception for its own.
+    While a module is loaded, code of a library might catch the exception: the signal is then sent again after DELAY
+    seconds, at most 2000 times.
     """
     while frame is not None and "importlib" not in frame.f_code.co_filename:
         frame = frame.f_back
@@ -35,9 +36,9 @@ def interrupt(number: int, frame: FrameType | None) -> None:
 
 
 def main() -> None:
-    """Run the command line; while the process ends a signal ends it at once.
+    """Run the command line; a signal of ENDING raises KeyboardInterrupt in it, and the exit status is 128 + its number.
 
-    Where Python was told to read names in ASCII, it is started again in UTF-8.
+    If Python was told to read file names in ASCII, the program is started again in UTF-8.
     """
     if os.environ.get("PYTHONUTF8") == "0" and sys.getfilesystemencoding() == "ascii":
         os.environ["PYTHONUTF8"] = "1"  # a name with a letter like é would have no text

@@ -9,66 +9,76 @@ MAX_LISTED_NAMES = 30
 
 
 class AtlasError(ValueError):
-    """An input for which there is no answer; the command line prints the sentence and ends with status 2."""
+    """Base of the package's errors: an input has no answer, and the message says the fault, its place and the remedy.
+
+    The command line prints the message and ends with status 2.
+    """
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """Sentences of the message, one a line of the command line."""
+        """The message as a tuple with one element; the command line prints each element on its own line."""
         return (str(self),)
 
 
 class FaultsError(AtlasError):
-    """Several faults of one file or command, a sentence each."""
+    """Several faults of one file or command, made from their sentences; repeated sentences are kept once."""
 
     def __init__(self, sentences: Iterable[str]) -> None:
         super().__init__("\n".join(dict.fromkeys(sentences)))
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """Sentences of the message, one for each fault."""
+        """The sentences in the order given, one for each fault, without repetitions."""
         return tuple(str(self).split("\n"))
 
 
 class DomainError(AtlasError):
-    """A physical argument outside the domain of the formula."""
+    """A physical argument lies outside the domain in which the formula holds."""
 
 
 class NotCertifiedError(AtlasError):
-    """A value for which no enclosure was found; nothing is guessed in its place."""
+    """No enclosure of a value by intervals was found; an uncertified value is not returned in its place."""
 
 
 class AtlasWarning(UserWarning):
-    """Warning: the result is computed, but the input may not be the intended one."""
+    """Base of the package's warnings: the result is computed, but the input may not be the intended one."""
 
 
 class NearlySymmetricWarning(AtlasWarning):
-    """Two moments that differ by little: of a tensor they stay two, of points in a symmetric body they are joined."""
+    """Two moments of inertia are nearly equal.
+
+    Moments of a tensor stay different; of points in a symmetric body, they are replaced by one moment.
+    """
 
 
 class NearestInputWarning(AtlasWarning):
-    """An input that is impossible by the rounding of its digits: the nearest possible one is taken."""
+    """The input is impossible by the rounding of its last digits; the nearest possible input is used instead."""
 
 
 class RelativisticWarning(AtlasWarning):
-    """A speed above a tenth of that of light, in known units, where formulas are non-relativistic."""
+    """A speed, in known units, exceeds a tenth of the speed of light, while the formulas are non-relativistic."""
 
 
 def tell_nearest(fault: str, taken: str) -> None:
-    """Warn of an input that is impossible by its last digits, and name what is taken in its place."""
+    """Issue a NearestInputWarning "FAULT; used instead is TAKEN."
+
+    `fault` describes the input that is impossible by its last digits, `taken` is the input used in its place.
+    """
     warnings.warn(f"{fault}; used instead is {taken}.", NearestInputWarning, stacklevel=5)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Return " (did you mean 'points'?)" with the known word nearest to `word`; "" if none is near."""
+    """Return " (did you mean 'points'?)" with the one of the `known` words closest to `word`; "" if none is similar."""
     close = get_close_matches(word, list(known), 1)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 
 def unknown(what: str, name: object, known: Iterable[str], where: str = "") -> AtlasError:
-    """Return the error for an unknown name: there is no table 'point' (did you mean 'points'?); known: ....
+    """Return, without raising it, an error such as: there is no table 'point' (did you mean 'points'?); known: a, b.
 
-    `what` is the kind of the name, `known` are the names that there are, `where` says of what, such as "of the figure
-    'hyperbola'". All known names are listed if they are few.
+    `what` is the kind of thing ("table"), `name` the unknown name, `known` the valid names, and `where` an optional
+    phrase after the name such as "of the figure 'hyperbola'". The valid names are listed up to MAX_LISTED_NAMES of
+    them.
     """
     names = list(known)
     listed = f"; known: {', '.join(names) or 'none'}" if len(names) <= MAX_LISTED_NAMES else ""

@@ -32,7 +32,11 @@ HERE, EXCHANGE = -100, 2
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a path to write to, see `unfinished`; at the end the file written there replaces ``path``."""
+    """Yield a temporary path beside ``path`` to write to; at the end the file written there replaces ``path``.
+
+    If the context is left by an exception, ``path`` stays as it was and the temporary file is removed (see
+    `unfinished`).
+    """
     with unfinished(path) as part:
         yield part
         part.replace(path)
@@ -40,9 +44,9 @@ def replacing(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def keeping(path: Path) -> Iterator[Path]:
-    """Yield a path to write to; at the end that file replaces ``path``, unless the user wrote or edited ``path``.
+    """Yield a temporary path to write to; at the end the file replaces ``path``, unless a user wrote or edited that.
 
-    Then the new one is beside it, and AtlasError says so.
+    Then the new file is put beside ``path``, as NAME.new.SUFFIX, and AtlasError says so.
     """
     with unfinished(path) as part:
         yield part
@@ -53,10 +57,11 @@ def keeping(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def unfinished(path: Path) -> Iterator[Path]:
-    """Yield a path beside ``path`` to write to; a file that is still there at the end of the context is removed.
+    """Yield a temporary path beside ``path`` to write to; a file still there at the end of the context is removed.
 
-    Missing folders are made; what a process on this machine has left that was killed while it wrote is removed. The
-    other name ends in the same suffix. An OSError names ``path``, not the other name.
+    Missing folders are made. Temporary files that a killed process of this machine left for the same ``path`` are
+    removed. The temporary name holds the process number and ends as ``path`` does. An OSError names ``path``, not
+    that name.
     """
     part = _unfinished(path, os.getpid())
     try:
@@ -77,7 +82,10 @@ def _unfinished(path: Path, pid: int | str) -> Path:
 
 
 def alive(pid: int) -> bool:
-    """Return whether a process of that number runs on this machine; a zombie does not."""
+    """Return whether the process with number `pid` runs on this machine; False for a zombie.
+
+    True where that cannot be found out: another user's process, an impossible number, or a system without /proc.
+    """
     try:
         os.kill(pid, 0)
         return Path(f"/proc/{pid}/stat").read_bytes().rpartition(b") ")[2][:1] != b"Z"
@@ -88,9 +96,10 @@ def alive(pid: int) -> bool:
 
 
 def exchange(new: Path, old: Path) -> bool:
-    """Let two folders change places at once, or put the new one where none is; False if this system cannot do that.
+    """Exchange the folders `new` and `old` in one step, or rename `new` to `old` if nothing is there; return True.
 
-    Nor is it done where the place is a link or no folder. Both are on one file system.
+    Return False, with nothing changed, if `old` is a link or no folder, or if the system cannot exchange folders.
+    Both must be on one file system.
     """
     if not old.exists() and not old.is_symlink():
         new.rename(old)
@@ -106,7 +115,10 @@ def exchange(new: Path, old: Path) -> bool:
 
 @contextmanager
 def named(path: Path, part: Path | None = None) -> Iterator[None]:
-    """Context in which an OSError without a file name, or with that of `part`, is raised with the name ``path``."""
+    """Context that re-raises an OSError with the file name ``path``, if the error names no file or names `part`.
+
+    An OSError without an error number, or about another file, passes unchanged.
+    """
     try:
         yield
     except OSError as error:
@@ -116,7 +128,10 @@ def named(path: Path, part: Path | None = None) -> Iterator[None]:
 
 
 def lines_of(file: TextIO, name: str) -> Iterator[str]:
-    """Yield the lines of a text. Raises AtlasError for one that does not end, as the first of /dev/zero."""
+    """Yield the lines of an open text file; `name` is the file's name in errors.
+
+    Raises AtlasError for a line longer than MAX_LINE_LENGTH characters, such as the first of /dev/zero.
+    """
     while line := file.readline(MAX_LINE_LENGTH):
         if len(line) == MAX_LINE_LENGTH and line[-1] != "\n":
             raise AtlasError(f"{name} has a line of more than {MAX_LINE_LENGTH} characters: it is no table of numbers.")
@@ -124,7 +139,10 @@ def lines_of(file: TextIO, name: str) -> Iterator[str]:
 
 
 def check(path: Path) -> None:
-    """Raise OSError if no file can be written there; an existing file is unchanged."""
+    """Raise OSError, which names ``path``, if no file can be written there; an existing file is unchanged.
+
+    Missing folders are made.
+    """
     part = _unfinished(path, os.getpid())
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -135,16 +153,17 @@ def check(path: Path) -> None:
 
 
 def write(path: Path, content: str | bytes) -> None:
-    """Write a file, text as UTF-8."""
+    """Write a file as a whole, text as UTF-8, and replace an existing one. Missing folders are made."""
     with replacing(path) as part:
         part.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> dict[str, str]:
-    """Let files, by their names in a folder, take their places there; it must be this process's `turn`.
+    """Move new files (`parts`, paths by final name) into the folder `out`, which this process holds by `turn`.
 
-    What is there and is not as it was written, by the folder's list or by ``known`` lines of one, stays: the new file
-    is beside it. Return the names of those, and under which the new ones are.
+    A file there that is not as atlas wrote it, by the folder's digest list or by the further lines ``known`` of
+    such a list, stays: the new file is put beside it. Return the names used instead by intended name, {} if every
+    file took its place. Raises IsADirectoryError where a folder has a file's name.
     """
     made = {name: digest_of(part) or "" for name, part in parts.items()}
     there = lines(out)
@@ -166,7 +185,10 @@ def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> d
 
 
 def tell(out: Path, beside: Mapping[str, str]) -> None:
-    """Raise AtlasError where there are files beside those that were not written here, or were edited since."""
+    """Raise AtlasError that names the files which `settle` put beside edited ones in the folder `out`; nothing if none.
+
+    `beside` is the result of `settle`: names used instead, by intended name.
+    """
     if beside:
         told = "; ".join(
             f"{out / old} is not as atlas wrote it: the new one is {Path(new).name}" for old, new in beside.items()
@@ -175,7 +197,7 @@ def tell(out: Path, beside: Mapping[str, str]) -> None:
 
 
 def lines(folder: Path) -> set[str]:
-    """Return the list of a folder, nothing where there is none."""
+    """Return the lines "DIGEST  NAME" of a folder's list of files as atlas wrote them; the empty set without a list."""
     try:
         return {*(folder / WRITTEN).read_text(encoding="utf-8").splitlines()}
     except OSError:
@@ -183,12 +205,15 @@ def lines(folder: Path) -> set[str]:
 
 
 def listed(lines: Iterable[str]) -> str:
-    """Return such a list as text."""
+    """Return the lines "DIGEST  NAME" as one sorted text, each with a line end."""
     return "".join(f"{line}\n" for line in sorted(lines))
 
 
 def hide_notes(folder: Path) -> None:
-    """Let git see no notes of ours in a user's repository: by its own exclusions, which it shows nobody."""
+    """Add the names of atlas's own notes to .git/info/exclude of the repository that holds the folder, once.
+
+    Nothing happens outside a repository, or in one that cannot be written.
+    """
     here = folder.resolve()
     git = next((top / ".git" for top in (here, *here.parents) if (top / ".git").exists()), None)
     if git is None:
@@ -204,7 +229,10 @@ def hide_notes(folder: Path) -> None:
 
 
 def edited(folder: Path, name: str, lines: set[str]) -> bool:
-    """Whether something stands there that is no folder, and no file as it was written."""
+    """Return whether `folder` has, under `name`, a link or a file whose line "DIGEST  NAME" is not in `lines`.
+
+    False for a folder, and where nothing is there.
+    """
     path = folder / name
     if path.is_symlink():
         return True
@@ -212,7 +240,11 @@ def edited(folder: Path, name: str, lines: set[str]) -> bool:
 
 
 def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
-    """Return where files with these digests may stand: under their names, or beside what was edited."""
+    """Return the names to write in `folder`, by intended name, for new files with the digests `made`.
+
+    That is the intended name itself, or NAME.new.SUFFIX where a file under that name is not in the digest list
+    `lines` and differs from the new one.
+    """
     places = {}
     for name, digest in made.items():
         place = name
@@ -223,7 +255,7 @@ def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, st
 
 
 def digest_of(path: Path) -> str | None:
-    """Return the digest of a file, None if there is no file."""
+    """Return the SHA-256 of a file's bytes in hexadecimal, None if there is no file."""
     if not path.is_file():
         return None
     with path.open("rb") as file:
@@ -232,7 +264,10 @@ def digest_of(path: Path) -> str | None:
 
 @contextmanager
 def turn(folder: Path) -> Iterator[None]:
-    """Wait for one's turn in a folder; the lock is on the folder itself, so that nothing is left in it."""
+    """Hold an exclusive lock on a folder during the context, after waiting for other processes that hold the lock.
+
+    The lock is on the folder itself, so that no lock file is left in it.
+    """
     opened = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(opened, fcntl.LOCK_EX)

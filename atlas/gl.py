@@ -47,9 +47,10 @@ _TIMEOUT_SECONDS = 60
 
 @cache
 def library() -> str | None:
-    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the probe finds.
+    """Return the name of the library that can draw off-screen here: 'egl', 'osmesa', 'native' (not Linux), or None.
 
-    Raises AtlasError where that variable is none of these.
+    The variable ATLAS_GL sets the answer ('none' gives None); AtlasError where it is none of these names. Else a child
+    process tries them, and the answer is kept in a file.
     """
     choice = os.environ.get(CHOICE, "").lower()
     if choice == NONE:
@@ -72,7 +73,7 @@ def library() -> str | None:
 
 
 def prepare() -> str | None:
-    """Tell VTK which window to open and return the library's name, or None when nothing can draw."""
+    """Set the environment variable that tells VTK which window to open; return the library's name as `library` does."""
     name = library()
     if name in WINDOWS:
         os.environ[VARIABLE] = WINDOWS[name]
@@ -80,7 +81,7 @@ def prepare() -> str | None:
 
 
 def advice() -> str:
-    """Return the line that says what is left out without GL, and which command installs it."""
+    """Return one line: shaded figures are drawn as line drawings, and this command installs the libraries."""
     vtk, packages = f"{sys.executable} -m pip install pyvista vtk", "sudo apt-get install libegl1 libgl1-mesa-dri"
     command = vtk if _vtk() is None else packages
     return (
@@ -89,20 +90,20 @@ def advice() -> str:
 
 
 def _vtk() -> str | None:
-    """Return the version of VTK, or None without VTK or PyVista."""
+    """Return the versions of VTK and PyVista as "VTK/PYVISTA", or None if one of them is not installed."""
     vtk, pyvista = release("vtk"), release("pyvista")
     return f"{vtk}/{pyvista}" if vtk and pyvista else None
 
 
 def _candidates() -> tuple[str, ...]:
-    """Return the renderers to try, best first."""
+    """Return the names of the GL libraries to try, best first; () without VTK and PyVista."""
     if _vtk() is None:
         return ()
     return tuple(WINDOWS) if sys.platform.startswith("linux") else ("native",)
 
 
 def _draws(name: str) -> bool:
-    """Whether a child process can open an off-screen window with this library."""
+    """Return whether a child process can draw in an off-screen window of the library `name`; False after 60 s."""
     environment = programs.environment()
     if name in WINDOWS:
         environment[VARIABLE] = WINDOWS[name]
@@ -114,7 +115,10 @@ def _draws(name: str) -> bool:
 
 
 def _answer_file() -> Path | None:
-    """Return where the answer is remembered: a file named after all that it depends on; None without a place for it."""
+    """Return the path of the file that keeps the answer of `library`; None without a folder that can be written.
+
+    The name of the file holds a digest of what the answer depends on: libraries, drivers, versions, environment.
+    """
     seen = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
     seen += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
     for place in map(Path, ("/etc/ld.so.cache", "/dev/dri", *DRIVERS)):
@@ -126,7 +130,7 @@ def _answer_file() -> Path | None:
 
 
 def main() -> int:
-    """Print in one line what can draw. Only a misspelt choice fails."""
+    """Print the name of the library that can draw, or the advice; return 0, or 2 for a misspelt ATLAS_GL."""
     try:
         print(library() or advice())  # noqa: T201  the answer
     except AtlasError as error:

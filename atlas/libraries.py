@@ -39,7 +39,7 @@ LIBRARIES = (
 
 @cache
 def release(library: str) -> str | None:
-    """Return the version of a library, None where it is not installed."""
+    """Return the installed version of a library, named as pip does; None where it is not installed."""
     try:
         return version(library)
     except PackageNotFoundError:
@@ -47,21 +47,25 @@ def release(library: str) -> str | None:
 
 
 def carried(package: str, pattern: str) -> Path | None:
-    """Return a file that a package carries, None without it; the package itself, which takes longer, is not loaded."""
+    """Return the first file of an installed package that matches the glob `pattern`, None if there is none.
+
+    The package is not imported, which would take longer.
+    """
     spec = find_spec(package)
     folders = (spec.submodule_search_locations or ()) if spec else ()
     return next((file for folder in folders for file in Path(folder).glob(pattern)), None)
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of those libraries that are installed."""
+    """Return versions by name of the LIBRARIES that are installed."""
     return {name: version for name in LIBRARIES if (version := release(name)) is not None}
 
 
 def of_sweeps(module: str, what: str) -> ModuleType:
-    """Return a module of the libraries that sweeps need beside; the environment of a checkout gets them first.
+    """Return an imported module of the optional libraries of sweeps, such as "pandas"; a checkout installs them first.
 
-    Raises AtlasError, which says that `what` needs it, where it is not there and can't be had.
+    Raises AtlasError, which says that `what` ("A data frame") needs the library, where it is missing and was not
+    installed.
     """
     try:
         return import_module(module)
@@ -73,9 +77,10 @@ def of_sweeps(module: str, what: str) -> ModuleType:
 
 
 def _brought(why: str) -> bool:
-    """Let `make` bring the libraries of sweeps into the environment that it made, if this is the one.
+    """Install the libraries of sweeps by `make` in the environment of a checkout; return whether that succeeded.
 
-    It is said why and where to, and at a terminal it is asked first.
+    `why` is the sentence shown before; at a terminal the user is asked first. False in any other environment, or if
+    the user declines.
     """
     import subprocess
 

@@ -43,15 +43,16 @@ NUMBER = re.compile(
 
 
 def split(text: str) -> tuple[str, str] | None:
-    """Return the number and the unit that were typed as one word, None where there is no unit, as in 1e-3 and 0x1p0."""
+    """Return the number and the unit of a word such as "1.2um", as texts; None without a unit, as in 1e-3 and 0x1p0."""
     match = NUMBER.fullmatch(text)
     return (match[1], match[2]) if match else None
 
 
 def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[float, Fraction | None]:
-    """Return a number of units in the unit of an option, at its place there, and exactly, None where that has pi in it.
+    """Return `number` units in the SI unit of a command-line option, as a float, and exactly (None if pi is a factor).
 
-    Raises AtlasError for a unit that there is not, or of another quantity.
+    `unit` is a text such as "um"; `option` the option's name without dashes; `place` the index of the number among
+    those of the option. Raises AtlasError for an unknown unit, or one of another dimension.
     """
     factor, powers = _parsed(unit)
     option = "omega" if option == "sigma" and powers["s"] else option  # a standard error of rates
@@ -74,7 +75,10 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
 
 
 def in_unit(number: Fraction, unit: str, wanted: str) -> float:
-    """Return a number of units in a unit wanted. Raises AtlasError for a unit of another quantity."""
+    """Return `number` times `unit` expressed in the unit `wanted`, both texts such as "km/h"; angles may be left out.
+
+    Raises AtlasError for an unknown unit, or one of another dimension.
+    """
     (factor, powers), (size, right) = _parsed(unit), _parsed(wanted)
     value = number * factor / size
     angles = {name: powers.pop(name, 0) - right.pop(name, 0) for name in ANGLES}
@@ -84,20 +88,26 @@ def in_unit(number: Fraction, unit: str, wanted: str) -> float:
 
 
 def heading(cell: str) -> tuple[str, str]:
-    """Return name and unit of a column, t and s of t [s] or t (s); the unit is empty where there is none."""
+    """Return (name, unit) of a column's heading: ("t", "s") for "t [s]" and "t (s)"; the unit is "" if there is none.
+
+    A degree sign becomes "deg".
+    """
     name, _, unit = cell.replace("(", "[").partition("[")
     return name.strip(" \t\"'\N{NO-BREAK SPACE}"), unit.strip(" \"')]").replace("\N{DEGREE SIGN}", "deg")
 
 
 @cache
 def size(unit: str, option: str) -> Fraction | float:
-    """Return a unit over that of an option, a factor. Raises AtlasError for a unit of another dimension."""
+    """Return the factor from `unit` to the SI unit of a command-line option: a Fraction, or a float if pi is in it.
+
+    Raises AtlasError for an unknown unit, or one of another dimension.
+    """
     value, exact = in_si(Fraction(1), unit.removeprefix("1"), option)
     return value if exact is None else exact
 
 
 def is_unit(text: str) -> bool:
-    """Return whether a text is a unit, such as deg/s."""
+    """Return whether a text is a known unit, such as "deg/s"; False for the empty text."""
     try:
         return bool(text) and bool(_parsed(text))
     except AtlasError:
@@ -105,7 +115,10 @@ def is_unit(text: str) -> bool:
 
 
 def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
-    """Return a unit as a factor and the powers of the base units. Raises AtlasError for an unknown unit."""
+    """Return a unit as (factor to SI, powers by name of base unit, "turn" and "degree" included), zero powers left out.
+
+    Raises AtlasError for an unknown unit.
+    """
     factor, powers, place = Fraction(1), Counter[str](), 0
     while place < len(unit):
         factor_of_unit = FACTOR.match(unit, place)

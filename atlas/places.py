@@ -18,7 +18,9 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def folder(kind: Literal["figures", "templates", "reports"]) -> Path:
-    """Return the path of a folder such as "figures": of the checkout if the code runs there, else of the package."""
+    """Return the path of figures/, templates/ or reports/: in the checkout if the code runs there, else in the package.
+
+    """
     checkout = _PACKAGE.parent
     if (checkout / "pyproject.toml").is_file() and (checkout / kind).is_dir():
         return checkout / kind
@@ -26,7 +28,10 @@ def folder(kind: Literal["figures", "templates", "reports"]) -> Path:
 
 
 def own_folder() -> Path | None:
-    """Return a folder of ours that can be written, in the user's cache or in the environment; None if there is none."""
+    """Return a folder of atlas that can be written, made if missing; None if there is none.
+
+    That is the folder "atlas" in the user's cache, else in the Python environment.
+    """
     from platformdirs import user_cache_path
 
     places = [Path(sys.prefix) / "atlas"]
@@ -41,10 +46,10 @@ def own_folder() -> Path | None:
 
 
 def cache_folder(out: Path) -> Path:
-    """Return where to keep for the next time what goes into building what is in `out`.
+    """Return the folder that keeps intermediate results between builds of the output folder `out`.
 
-    That is the folder of the variable ATLAS_CACHE; ``build/.cache`` of the checkout for what is built in its ``build``;
-    else the user's cache folder. Nothing is kept where none can be written.
+    That is the folder of the variable ATLAS_CACHE; ``build/.cache`` of the checkout if `out` is in its ``build``;
+    else one in the user's cache. If none can be written, a temporary folder that is removed with this process.
     """
     chosen, build = os.environ.get("ATLAS_CACHE"), _PACKAGE.parent / "build"
     if chosen:
@@ -57,17 +62,18 @@ def cache_folder(out: Path) -> Path:
 
 @cache
 def _passing() -> Path:
-    """Return a folder that goes with this process."""
+    """Return a temporary folder, the same at each call, that is removed when this process ends."""
     folder = Path(tempfile.mkdtemp(prefix="atlas-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder
 
 
 def settle_matplotlib() -> None:
-    """Give Matplotlib a folder, where it can't write its own: else each process warns and makes one of its own.
+    """Set the environment for Matplotlib; call this before Matplotlib is imported.
 
-    Its list of fonts is kept there, and nothing is said of its being made. A backend and a date that the environment
-    asks for are of no use here, and end it where they are none. To be called before it is loaded.
+    Where its own folders cannot be written, MPLCONFIGDIR names one of atlas, so that the list of fonts is kept.
+    MPLBACKEND and SOURCE_DATE_EPOCH are removed: wrong values would end the process. Its messages about fonts and
+    films are silenced.
     """
     for name in ("MPLBACKEND", "SOURCE_DATE_EPOCH"):
         os.environ.pop(name, None)

@@ -21,11 +21,12 @@ DRAWING = "atlas.book.building.loaded"
 
 
 def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "spawn") -> ProcessPoolExecutor | None:
-    """Return an executor with `workers` processes, each of which calls `begin` first.
+    """Return an executor with `workers` processes, each of which calls `begin` (if given) before its first work.
 
-    A worker ends with the process that started it, which alone decides what Ctrl-C means: in a worker SIGINT is blocked
-    from its first instruction on. Leaving the executor's `with` block cancels the calls that have not begun. Return
-    None where the system has no semaphores, as with a /dev/shm that can't be written: then do the work in this process.
+    `context` is the start method of multiprocessing. A worker ends with its parent, and SIGINT is blocked in it:
+    the parent alone handles Ctrl-C. Leaving the executor's `with` block cancels the calls that have not begun.
+    Return None where the system has no semaphores, as with a /dev/shm that cannot be written: then do the work in
+    this process.
     """
     from multiprocessing import get_context
 
@@ -37,9 +38,10 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
 
 
 def prepare(module: str) -> str:
-    """Start multiprocessing's fork server, which imports a module for its workers; return the start method for `pool`.
+    """Start multiprocessing's fork server, which imports `module` for its workers; return the start method for `pool`.
 
-    Where it can't be started, as without a folder for its socket, workers are spawned and import what they need.
+    That is "forkserver"; or "spawn" where the server cannot be started, as without a folder for its socket: then
+    each worker imports the module itself.
     """
     from multiprocessing import forkserver
 
@@ -53,7 +55,7 @@ def prepare(module: str) -> str:
 
 
 def _begin(more: Callable[[], Any] | None) -> None:
-    """Prepare this worker: it will end as soon as its parent process ends, in any way. Then call `more`, at once."""
+    """Set up this worker process: default signal handlers, an end when its parent ends; then call `more` if given."""
     for number in ENDING:  # a fork has the handlers of the command line
         if callable(getsignal(number)):
             signal(number, SIG_DFL)
@@ -72,10 +74,13 @@ def _wait_for_parent() -> None:
 
 
 class _Pool(ProcessPoolExecutor):
-    """An executor whose processes do not run the main program: they need nothing of it, and it may lack a guard."""
+    """A ProcessPoolExecutor whose workers do not import the main program, which may lack a guard; see `pool`."""
 
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Start a process if one is wanted, and hand over the call."""
+        """Return the future of ``function(*args, **kwargs)`` in a worker, started if needed.
+
+        Raises BrokenProcessPool if the fork server has ended.
+        """
         try:
             with _as_worker():
                 return super().submit(function, *args, **kwargs)
@@ -83,17 +88,17 @@ class _Pool(ProcessPoolExecutor):
             raise BrokenProcessPool from error
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End the processes; of a broken pool also one that was started while the others were ended (CPython waits)."""
+        """End the workers, see ProcessPoolExecutor; of a broken pool all are killed first, since CPython would wait."""
         if self._broken:
             for process in list((self._processes or {}).values()):
                 process.kill()
         super().shutdown(wait, cancel_futures=cancel_futures)
 
     def __exit__(self, fault: type[BaseException] | None, *_: object) -> None:
-        """Cancel the calls that have not begun, and wait for the others; where nobody wants these, not for long.
+        """Cancel the calls that have not begun, and wait for the others; after an exception at most PATIENCE seconds.
 
-        The executor's thread cancels these calls. `Future.cancel` called from here while a worker dies would stop that
-        thread by an InvalidStateError, and nothing would end the waiting.
+        The executor's thread cancels these calls: `Future.cancel` called from here while a worker dies would stop
+        that thread by an InvalidStateError, and the waiting would not end.
         """
         end = Timer(PATIENCE, self._kill, ([*(self._processes or {}).values()], vars(self)["_call_queue"]))
         if fault is not None:
@@ -103,7 +108,7 @@ class _Pool(ProcessPoolExecutor):
 
     @staticmethod
     def _kill(running: Sequence[Any], calls: Any) -> None:
-        """End processes in the midst of their calls; nobody reads any more of the queue of calls."""
+        """Kill the worker processes `running` in the midst of their calls, and leave the queue `calls` unread."""
         calls.cancel_join_thread()
         for process in running:
             process.kill()
@@ -111,7 +116,7 @@ class _Pool(ProcessPoolExecutor):
 
 @contextmanager
 def _as_worker() -> Iterator[None]:
-    """Start processes meanwhile that run no main program and are never interrupted."""
+    """Context in which processes are started that do not import the main program and have SIGINT blocked."""
     from multiprocessing import resource_tracker
 
     with _without_main():
@@ -122,7 +127,7 @@ def _as_worker() -> Iterator[None]:
 
 @contextmanager
 def _without_interrupts() -> Iterator[None]:
-    """Block SIGINT in a process that is started meanwhile; put off the signals that this process heeds.
+    """Context in which SIGINT is blocked, also in processes started meanwhile; other ENDING signals come at its end.
 
     A process that is half started when this one raises KeyboardInterrupt would print a traceback.
     """
@@ -144,10 +149,10 @@ def _without_interrupts() -> Iterator[None]:
 
 @contextmanager
 def _without_main() -> Iterator[None]:
-    """Let a process that is started meanwhile believe that the main program is no file.
+    """Context in which a process that is started finds no file of the main program, and so does not import it.
 
-    Nor does it look for modules in the working folder, where a user may have a ``signal.py``, before it is told the
-    path of this one.
+    Nor does the process look for modules in the working folder, where a user may have a ``signal.py``, before it is
+    told this process's module path.
     """
     main = sys.modules["__main__"]
     spec, file, safe = main.__spec__, getattr(main, "__file__", None), os.environ.get(SAFE)

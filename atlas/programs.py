@@ -24,14 +24,16 @@ LOCALE = "en_US.UTF-8" if sys.platform == "darwin" else "C.UTF-8"
 
 
 def environment() -> dict[str, str]:
-    """Return this process's environment with a locale of UTF-8, for a program that is run."""
+    """Return this process's environment variables by name, with LC_ALL set to a UTF-8 locale, for a child program."""
     return os.environ | {"LC_ALL": LOCALE}
 
 
 def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> subprocess.CompletedProcess[str]:
-    """Run a program with `text` on its standard input, in a UTF-8 locale; return its output and return code.
+    """Run a program with `text` on its standard input, in a UTF-8 locale; return its CompletedProcess, output as text.
 
-    The program ends when this process does. Raises TimeoutExpired after so many `seconds` of processor time.
+    `more` are further arguments of subprocess.run. The program is killed when this process ends. Raises
+    TimeoutExpired after `seconds` of processor time, or PATIENCE_FACTOR times that of waiting. A failure is seen by
+    its return code only.
     """
     started = partial(_bound, os.getpid(), seconds)
     with ThreadPoolExecutor(1) as thread:  # an interrupt in the midst of a fork would leave locks held for ever
@@ -54,7 +56,10 @@ def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> su
 
 
 def _bound(parent: int, seconds: int) -> None:
-    """Bind a process that is about to run a program: Linux ends it with its parent, any system after its seconds."""
+    """Limit the calling child process, before it runs a program, to `seconds` of processor time.
+
+    On Linux it is also killed when the process with number `parent` ends.
+    """
     import resource
 
     hard = resource.getrlimit(resource.RLIMIT_CPU)[1]

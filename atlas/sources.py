@@ -30,19 +30,19 @@ _PARSING = Lock()
 
 
 def digest(*parts: Any) -> str:
-    """Return the SHA-256, 64 hexadecimal digits, of values that JSON can write, the same on every machine.
+    """Return the SHA-256, 64 hexadecimal digits, of the values written as JSON; the same on every machine.
 
-    Other values are taken by their `str`.
+    Values that JSON cannot write are taken as their `str`.
     """
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 class Sources:
-    """Digests of files and of all that they reach.
+    """Digests of source files and of all modules of atlas and figures that they import.
 
-    Every file is read; what its syntax tree says is remembered under the digest of its bytes in the cache, which loads
-    and saves values that JSON can write, by name.
+    Made from a cache with `load(name)` and `save(name, value)` for JSON values, or None. Each file is read once;
+    the facts from its syntax tree are kept in the cache under the digest of its bytes.
     """
 
     def __init__(self, cache: Any = None) -> None:
@@ -53,7 +53,7 @@ class Sources:
         self._modules = lru_cache(maxsize=None)(partial(_files, below=lru_cache(maxsize=None)(_below)))
 
     def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
-        """Return the files and every module of ours that they import, sorted."""
+        """Return the files `roots` and every module of atlas and figures that they import, at any depth, sorted."""
         reached, waiting = set[Path](), [path.resolve() for path in roots]
         while waiting:
             path = waiting.pop()
@@ -63,24 +63,25 @@ class Sources:
         return tuple(sorted(reached, key=str))
 
     def closure(self, roots: Iterable[Path]) -> str:
-        """Return one digest of the files and of every module of ours that they import.
+        """Return one digest, 64 hexadecimal digits, of the files `roots` and of every module of atlas that they import.
 
-        It does not depend on where the checkout is.
+        Comments and formatting of Python files do not count, nor where the checkout is. Raises OSError for a
+        missing file.
         """
         return digest(sorted([_place(path), self._facts(path)["digest"]] for path in self.reached(roots)))
 
     def named(self, file: str | None) -> str:
-        """Return the digest of a file if there is one of that name, else of the name."""
+        """Return the `closure` of the file with this path; the digest of the text, or of None, if there is no file."""
         return self.closure([Path(file)]) if file and Path(file).is_file() else digest(file)
 
     def save(self) -> None:
-        """Remember in the cache what was found out; what is not in use any more goes when it has become much."""
+        """Save the facts on files in the cache; from MAX_CACHED_SOURCES on, only those used in this process."""
         if self._cache is not None:
             both = self._known | self._used
             self._cache.save("sources", both if len(both) < MAX_CACHED_SOURCES else self._used)
 
     def _facts(self, path: Path) -> dict[str, Any]:
-        """Return the digest of one file and the names that it imports; a file is read once."""
+        """Return {"digest": hexadecimal text, "imports": dotted names of modules} of a file, which is read once."""
         if path not in self._seen:
             content = path.read_bytes()
             key = path.suffix + hashlib.sha256(content).hexdigest()
@@ -99,18 +100,19 @@ def _read(path: Path, content: bytes) -> dict[str, Any]:
 
 
 def syntax_tree(content: bytes, file: str = "<unknown>") -> ast.Module:
-    """Return the syntax tree of a module. Raises SyntaxError or ValueError for what is no Python.
+    """Return the syntax tree of Python source in bytes; `file` is the name in errors.
 
-    One thread at a time, since they may be `DISTURBED`; those of libraries, as Matplotlib's style sheets, know no lock.
+    Raises SyntaxError or ValueError for what is no Python. Threads parse one at a time, because of CPython issue 106905
+    (see `DISTURBED`); libraries that parse, as Matplotlib for its style sheets, do not take this lock.
     """
     with _PARSING:
         return ast.parse(content, file)
 
 
 def _facts_of(tree: ast.AST) -> tuple[str, set[str]]:
-    """Return all that a syntax tree says but for places, and the dotted names of ours that it imports anywhere.
+    """Return a syntax tree as text without positions, and the dotted names of atlas and figures that it imports.
 
-    Each node is a line with its kind, then what is in it; `ast.dump` and `ast.walk` do that in twice the time.
+    A line of the text is the kind of a node or a value in it; `ast.dump` and `ast.walk` take twice the time.
     """
     lines, imports, waiting = list[str](), set[str](), list[Any]([tree])
     while waiting:
@@ -129,7 +131,10 @@ def _facts_of(tree: ast.AST) -> tuple[str, set[str]]:
 
 
 def _names(node: ast.Import | ast.ImportFrom) -> Iterator[str]:
-    """Yield the dotted names of the package's modules that a statement imports."""
+    """Yield the dotted names of modules of atlas and figures that an import statement imports.
+
+    From ``from a import b`` that is "a.b", whether b is a module or a name in a.
+    """
     if isinstance(node, ast.Import):
         yield from (name for alias in node.names for name in _bound(alias) if name.split(".")[0] in OURS)
     elif (node.module or "").split(".")[0] in OURS:
@@ -137,7 +142,7 @@ def _names(node: ast.Import | ast.ImportFrom) -> Iterator[str]:
 
 
 def _bound(alias: ast.alias) -> Iterator[str]:
-    """Yield the modules that a name of an import statement makes known."""
+    """Yield the modules that ``import a.b`` binds: "a.b" and "a"; of ``import a.b as c`` only "a.b"."""
     yield alias.name
     if alias.asname is None:
         yield alias.name.split(".")[0]
@@ -146,7 +151,8 @@ def _bound(alias: ast.alias) -> Iterator[str]:
 def _files(name: str, below: Below) -> tuple[Path, ...]:
     """Return the files that importing a dotted name runs: each package on the way and the module itself.
 
-    A public name of the package brings the module that it comes from, and the bare package brings them all.
+    A public name of the package adds the module that defines it, the bare name "atlas" all of these. `below` is
+    `_below`, cached.
     """
     first, *parts = name.split(".")
     if first == "figures":
@@ -167,7 +173,7 @@ def _files(name: str, below: Below) -> tuple[Path, ...]:
 
 
 def _below(folder: Path, name: str) -> tuple[Path | None, Path | None]:
-    """Return the file of a package and that of a module of some name in a folder, each if it is there."""
+    """Return the paths of the package NAME/__init__.py and of the module NAME.py in a folder; None for one missing."""
     package, module = folder / name / "__init__.py", folder / f"{name}.py"
     return package if package.is_file() else None, module if module.is_file() else None
 
@@ -176,7 +182,7 @@ def _below(folder: Path, name: str) -> tuple[Path | None, Path | None]:
 def _place(path: Path) -> str:
     """Return a path as text relative to the package's folder `_data`, or to the folder that holds the package.
 
-    Of a path in neither it is the file's name alone.
+    A path outside both is reduced to the file's name.
     """
     text = path.as_posix()
     for base in (f"{PACKAGE.as_posix()}/_data/", f"{PACKAGE.parent.as_posix()}/"):

@@ -15,11 +15,11 @@ TYPE = 8.6
 
 @dataclass(frozen=True)
 class Target:
-    """A place for figures.
+    """A publication or medium that figures are made for, with the limits that it sets.
 
-    ``width`` is in millimetres, and so is ``height``, the most that a figure may have; ``type`` is the size of all its
-    words and numbers in points, ``lines`` are the least and the greatest width of a line in points, and ``dpi`` is that
-    of pictures. ``asks`` says what is asked there, ``source`` where that stands.
+    ``width`` is the figure's width and ``height`` its greatest height, in millimetres; ``type`` the size of all
+    text in points; ``lines`` the least and greatest line width in points; ``dpi`` the resolution of pixel images.
+    ``asks`` states the publisher's rules in words, ``source`` their address, "" where there is none.
     """
 
     width: float
@@ -32,7 +32,7 @@ class Target:
 
     @property
     def zoom(self) -> float:
-        """How much larger type, marks and arrows are than in a journal."""
+        """Factor by which text, marks and arrows are larger than in a journal: the type size over TYPE."""
         return self.type / TYPE
 
 
@@ -112,7 +112,7 @@ TARGETS: Mapping[str, Target] = MappingProxyType(
 
 
 def find(name: str) -> Target:
-    """Return a target by its name. Raises AtlasError for one that there is not."""
+    """Return the target with this name, one of TARGETS. Raises AtlasError for an unknown name."""
     if name not in TARGETS:
         raise unknown("target", name, TARGETS, "of figures")
     return TARGETS[name]

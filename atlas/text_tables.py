@@ -35,9 +35,9 @@ HOLES = ("na", "n/a", "#n/a", "null", "none", "-")
 
 @dataclass(frozen=True)
 class TextTable:
-    """A table: the cells of its line of names, the number of that line, and pairs (line number, cells) of its rows.
+    """A table of a text file: `names` are the cells of its line of names, `number` is that line's number, from 1.
 
-    The rows have as many cells as the line of names, and can be read once.
+    `rows` yields pairs (line number, cells), once; each row has as many cells as `names`.
     """
 
     number: int
@@ -53,14 +53,14 @@ def opened_table(
 ) -> Iterator[TextTable]:
     """Yield the `TextTable` of a file, open while the context lasts.
 
-    `remark` is called with each line of remarks: its number, its text, and whether it is above the line of names. The
-    line of names may be a remark itself if it matches `names_in_remark`.
+    `remark` is called with each line of remarks: its number, its text without #, and whether it is above the line
+    of names. The line of names may be a remark itself if it matches `names_in_remark`.
 
     Raises
     ------
     AtlasError
-        For a file that is empty or no text; while rows are read, for a row of another count of cells than the line of
-        names, and for commas of which it is not clear what they mean.
+        For a folder, a file that is empty or no text; while rows are read, for a row with another number of cells than
+        the line of names, and for commas that may be of decimals or of thousands.
     """
     if path.is_dir():
         raise AtlasError(f"{path.name} is a folder; a table is a file, or the folder x.parquet of a sweep.")
@@ -92,7 +92,10 @@ def opened_table(
 
 
 def split_cells(line: str, separator: str, file: str, number: int) -> list[str]:
-    """Return the cells of a line of a file, without quotes. Raises AtlasError for too long a cell."""
+    """Return the cells of a line, without quotes and outer spaces; a `separator` " " means any white space.
+
+    Raises AtlasError, which names `file` and the line's `number`, for a quoted line that the csv module refuses.
+    """
     if '"' not in line:
         if separator == " ":
             return line.split()
@@ -124,9 +127,9 @@ def number_of(cell: str, place: str) -> float:
 
 
 def _numbered(file: TextIO, name: str) -> Iterator[tuple[int, str]]:
-    """Yield pairs (number, line) of the lines that are not empty, % at their beginning replaced by #.
+    """Yield pairs (line number from 1, line) of the lines that are not empty, % at their beginning replaced by #.
 
-    Raises AtlasError for a file that is no text.
+    Raises AtlasError, with the file's `name`, for a file that is no text.
     """
     for number, line in enumerate(lines_of(file, name), 1):
         if "\0" in line:
@@ -142,7 +145,10 @@ def _rows(
     file: str,
     remark: Callable[[int, str, bool], None] | None,
 ) -> Iterator[tuple[int, list[str]]]:
-    """Yield pairs (line number, cells) of the lines below the line of names. Raises AtlasError for another `width`."""
+    """Yield pairs (line number, cells) of the lines below the line of names; `remark` is called for each line with #.
+
+    Empty cells beyond `width` are cut off; AtlasError, which names `file`, for a row of another number of cells.
+    """
     for number, line in lines:
         if line.startswith("#"):
             if remark:
@@ -162,7 +168,10 @@ def _rows(
 def _with_units(
     names: list[str], lines: Iterator[tuple[int, str]], separator: str
 ) -> tuple[list[str], Iterator[tuple[int, str]]]:
-    """Return names and lines; where the first line has only units, these are in the names, as t [ms]."""
+    """Return the names and the numbered lines below them; if the first line holds only units, they join the names.
+
+    A name is then "t [ms]", and the line of units is not among the lines.
+    """
     first = next(lines, None)
     if first is None:
         return names, lines
@@ -174,7 +183,10 @@ def _with_units(
 
 
 def _with_points(names: list[str], rows: Iterator[tuple[int, list[str]]], file: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield rows with points for decimal commas. Raises AtlasError where commas may be of decimals or of thousands."""
+    """Yield pairs (line number, cells) with points for decimal commas; `names` are the columns, for errors.
+
+    Raises AtlasError where commas may be of decimals or of thousands, and where a file has both commas and points.
+    """
     first_rows = [*islice(rows, MAX_ROWS_OF_COMMAS)]
     rows = chain(first_rows, rows)
     with_commas = ((i, row) for i, row in first_rows if "," in "".join(row))
@@ -193,7 +205,10 @@ def _with_points(names: list[str], rows: Iterator[tuple[int, list[str]]], file: 
 
 
 def _latin_1(error: UnicodeError) -> tuple[str, int]:
-    """Return bytes that are no UTF-8 decoded as Latin-1, and the position behind these: a handler of `codecs`."""
+    """Return the undecodable bytes as Latin-1 text, and the position behind them: an error handler of `codecs`.
+
+    Errors other than UnicodeDecodeError are raised again.
+    """
     if not isinstance(error, UnicodeDecodeError):
         raise error
     return error.object[error.start : error.end].decode("latin-1"), error.end

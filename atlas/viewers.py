@@ -8,5 +8,8 @@ VIEWERS: dict[str, Callable[[], Any]] = {}
 
 
 def notebook(name: str) -> Any:
-    """Load a module that draws or prints an object."""
+    """Return the module `atlas.notebook.NAME` that draws or prints objects, imported at the first call.
+
+    `name` is "show", "pictures" or "frames"; any other is a KeyError.
+    """
     return VIEWERS[name]()

@@ -20,7 +20,9 @@ from atlas.sweeps.families import FAMILIES, Swept
 def frame(subject: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
     """Return the pandas data frame of an object, see `Shown.to_dataframe`: a row per time, or per motion.
 
-    Raises AtlasError for an object without a family, and for an unknown quantity.
+    Without `times` a row is a motion, with columns of its parameters and quantities; with times (N,) a row is a
+    time. `quantities` are names of columns, None for all; units are in ``attrs["units"]``. Raises AtlasError for an
+    object without a family, and for an unknown quantity.
     """
     swept = FAMILIES.get(subject.family)
     if swept is None:
@@ -33,9 +35,9 @@ def frame(subject: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
 
 
 def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
-    """Yield (name, array with a value for each object) for parameters and quantities; NaN where there is no value.
+    """Yield (name, array (N,)) for the parameters and the quantities `names` (None: all) of N motions in one object.
 
-    Raises AtlasError for an unknown quantity.
+    NaN where a quantity has no value. Raises AtlasError for an unknown quantity.
     """
     known = {name: swept.quantities[name] for q in swept.family.quantities for name in q.names}
     shape = getattr(subject, "shape", ())
@@ -55,9 +57,10 @@ def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> It
 
 
 def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
-    """Yield ("t", times (N,)), then (name, column (N,)) for the functions of time of an object; all, or `names`.
+    """Yield ("t", times (N,)), then (name, column (N,)) for an object's functions of time, such as ("R11", ...).
 
-    Raises AtlasError for an unknown name, an array of motions, and an object that does not depend on time.
+    `names` selects columns, None takes all. Raises AtlasError for an unknown name, an array of motions, and an
+    object that does not depend on time.
     """
     swept = FAMILIES[subject.family]
     if getattr(subject, "shape", ()):
@@ -83,7 +86,8 @@ def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -
 def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> tuple[FloatArray, FloatArray]:
     """Return times (N,) and points (N, 3) of the body's axis R e3, see `Motion.trace`.
 
-    Raises AtlasError for several motions, and without `stop` for a motion that has no period.
+    The path from 0 to `stop`, by default `periods` periods of the axis, is sampled to `tolerance`, a distance on
+    the unit sphere. Raises AtlasError for several motions, and without `stop` for a motion that has no period.
     """
     name = type(motion).__name__
     if motion.shape:

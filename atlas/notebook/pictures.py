@@ -26,9 +26,12 @@ def plot(
     target: str | None,
     parameters: dict[str, Any],
 ) -> Figure:
-    """Return the figure of an object, see `Shown.plot`; with `ax`, panel `panel` (by default 1) is drawn on that axes.
+    """Return the Matplotlib figure of an object, see `Shown.plot`.
 
-    Raises AtlasError for a panel that there is not, for `target` with `ax`, and as `scene_of` does.
+    `figure` names a recipe (None: the family's first), `panel` one of its panels, from 1 (None: all), `style` and
+    `target` are those of `atlas.figure`, `parameters` the recipe's further parameters. With `ax` only the panel
+    (None: 1) is drawn, on that axes. Raises AtlasError for a panel that there is not, for `target` with `ax`, and
+    as `scene_of` does.
     """
     scene = scene_of(subject, figure, parameters)
     if panel is not None and panel not in range(1, len(scene.panels) + 1):
@@ -45,17 +48,17 @@ def plot(
 
 
 def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
-    """Return the animation of a motion by Matplotlib, see `Motion.animate`."""
+    """Return the Matplotlib animation of a motion at `times`, `fps` frames a second, see `Motion.animate`."""
     from atlas.pictures.drawing.animation import of_motion
 
     return of_motion(motion, times, fps=fps, style=style)
 
 
 def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
-    """Return the `Scene` of an object, by the named figure or the family's first.
+    """Return the `Scene` of an object by the recipe named `figure`, None for its family's first.
 
-    Raises AtlasError for an object without a picture, several objects, an unknown figure, and a parameter that the
-    object fixes.
+    `parameters` are the recipe's parameters by name that the object does not fix. Raises AtlasError for an object
+    without a picture, several objects, an unknown figure, and a parameter that the object fixes.
     """
     family, name = FAMILIES.get(subject.family), type(subject).__name__
     known = family.figures if family else ("flight",) if isinstance(subject, Flight) else ()
@@ -76,7 +79,10 @@ def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> 
 
 
 def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
-    """Return the scene of a `Flight`, which has no family in the register. Raises AtlasError for another parameter."""
+    """Return the scene of a `Flight` with further `parameters` of `flight.scene_of` by name.
+
+    Raises AtlasError for another parameter.
+    """
     known = signature(flight.scene_of).parameters
     for key in parameters:
         if key not in known or key == "flight":
@@ -92,7 +98,11 @@ def alone(scene: Scene, panel: int) -> Scene:
 
 
 def _object_parameters(subject: Shown, family: Family) -> dict[str, Any]:
-    """Return the parameters of an object by their names in its family: its arguments, or its attributes."""
+    """Return the values of an object's parameters by name of the family's parameters, arrays as tuples, None left out.
+
+    They are the arguments that made the object; for an object made otherwise, its attributes, of required
+    parameters only.
+    """
     if not subject.made_by and len(subject.arguments) == len(family.parameters):
         arguments = dict(zip((p.name for p in family.parameters), subject.arguments.values(), strict=True))
     else:

@@ -29,7 +29,10 @@ FLOW = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">
 
 
 def html(subject: Shown) -> str:
-    """Return the call that makes an object, the picture, and the table; only single objects of a family have one."""
+    """Return an object as HTML: its `repr`, a table of its quantities, and a small picture.
+
+    Table and picture are left out where `rows` is empty, or where there is no figure.
+    """
     lines = rows(subject)
     heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in lines)])
     table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if lines else ""
@@ -39,7 +42,7 @@ def html(subject: Shown) -> str:
 
 
 def latex(subject: Shown) -> str | None:
-    """Return the values as an array in LaTeX."""
+    """Return a LaTeX array with a line (meaning, value, unit) for each of an object's quantities; None without any."""
     lines = [
         rf"\text{{{_words(says)}}} & {value.tex()[1:-1] if isinstance(value, Number) else _text(value)} & "
         rf"{_unit(unit)} \\"
@@ -49,7 +52,10 @@ def latex(subject: Shown) -> str | None:
 
 
 def rows(subject: Shown) -> Sequence[Row]:
-    """Return the rows of the table of one object that the register knows."""
+    """Return the table's rows: meaning, name, value (a text or `Number`), unit, equation, whether proven.
+
+    () for several objects, for one without a family, and for one not made from its family's parameters.
+    """
     family = FAMILIES.get(subject.family)
     values = tuple(subject.arguments.values())
     count = bool(getattr(subject, "shape", ()))
@@ -60,7 +66,10 @@ def rows(subject: Shown) -> Sequence[Row]:
 
 
 def body(subject: SymmetricBody) -> str:
-    """Return the moments of a body with a small picture of such a cylinder as HTML; for an array, a summary."""
+    """Return a body's `repr`, I2, I3 and I3/I2 and a small picture of such a cylinder as HTML.
+
+    An array of bodies has only the `repr`, a body with I3 = 0 no picture.
+    """
     if hasattr(subject.I2, "shape"):
         return f"<pre>{escape(repr(subject))}</pre>"
     lines = [("I<sub>2</sub>, across the axis", subject.I2), ("I<sub>3</sub>, along it", subject.I3)]
@@ -76,7 +85,10 @@ def picture(subject: Shown) -> str:
 
 
 def _image(draw: Callable[[], Any]) -> str:
-    """Return an HTML img element with the figure that `draw` returns, as a PNG of few colours; "" for AtlasError."""
+    """Return an HTML img element with the Matplotlib figure that `draw()` returns, as an inlined PNG of few colours.
+
+    "" if `draw` raises AtlasError.
+    """
     from PIL import Image
 
     with suppress(AtlasError):
@@ -103,7 +115,10 @@ def _cells(row: Row) -> list[str]:
 
 
 def _html(markdown: str) -> str:
-    """Return the register's Markdown as HTML; formulas become plain letters, since a notebook may lack TeX."""
+    """Return Markdown of the register (code, exponents, formulas) as HTML.
+
+    Formulas become plain letters, since a notebook may lack TeX.
+    """
     text = escape(markdown.replace(SPACE, "\N{NO-BREAK SPACE}"), quote=False)
     text = re.sub(r"\$([^$]+)\$", lambda formula: _letters(formula[1]), text)
     for pattern, replacement in ((r"`([^`]+)`", r"<code>\1</code>"), (r"\^([^^$]+)\^", r"<sup>\1</sup>"), (r"@", "")):
@@ -112,7 +127,7 @@ def _html(markdown: str) -> str:
 
 
 def _letters(tex: str) -> str:
-    """Return a short formula as letters, with indices below the line."""
+    r"""Return a short formula in TeX as HTML letters, italic or bold for \mathbf, with subscripts."""
     kind = "b" if r"\mathbf" in tex else "i"
     letters = re.sub(r"_\{?(\w+)\}?", r"<sub>\1</sub>", plain(f"${tex}$")).replace("'", "\N{PRIME}")
     return f"<{kind}>{letters}</{kind}>"

@@ -25,11 +25,12 @@ MISSING = "missing"
 
 @dataclass(frozen=True)
 class Column:
-    """A quantity of a table.
+    """A quantity of a table: how its values are computed, and how they are printed.
 
-    `of` maps a motion in doubles and the row's parameters by name to the value, `exact` does so for a motion in balls
-    (None: `of` serves). `certified` says whether there are certified digits. `missing` is the reason why the quantity
-    may have no value in a row; its cell there is NaN, or an empty text. "" for a quantity that always has one.
+    `of` maps a motion (or array of motions) in doubles and the row's parameters by name to the value; `exact` does
+    so for a motion in balls (None: `of` serves). `unit` is text, "" for a pure number. `certified` says whether
+    there are certified digits. `missing` is the reason why the quantity may have no value in a row, whose cell is
+    then NaN or an empty text; "" for a quantity that always has one.
     """
 
     of: Callable[[Any, Row], Any]
@@ -41,39 +42,45 @@ class Column:
 
 @dataclass(frozen=True)
 class Swept:
-    """A family as a table: its parameters and quantities as columns."""
+    """A family of motions as a table: its parameters and quantities as columns by name.
+
+    `family` is the family's entry in the register.
+    """
 
     family: Family
 
     @cached_property
     def needed(self) -> tuple[str, ...]:
-        """Names of the parameters that every row must have."""
+        """Names of the columns of parameters that every row must have, a vector by its components ("B2", "B3")."""
         return tuple(name for p in self.family.parameters if p.needed for name in p.names)
 
     @cached_property
     def optional(self) -> Mapping[str, float | None]:
-        """Default values by name of the parameters that may be left out; None for a parameter without a default."""
+        """Default values by name of the parameters that may be left out, None where there is no default.
+
+        The time t = 0 is among them, if the family has functions of time.
+        """
         defaults = {name: p.omitted for p in self.family.parameters if not p.needed for name in p.names}
         return defaults | ({"t": 0.0} if self.family.sampled else {})
 
     @cached_property
     def units(self) -> Mapping[str, str]:
-        """Units of all columns, parameters and quantities, by name."""
+        """Units by name of all columns, parameters, quantities and the time t; "" for a pure number."""
         units = {name: p.unit for p in self.family.parameters for name in p.names} | {"t": TIME}
         return units | {name: column.unit for name, column in self.quantities.items()}
 
     @cached_property
     def quantities(self) -> Mapping[str, Column]:
-        """Columns of the quantities by name."""
+        """`Column` by name of every quantity and of every component of a function of time ("R11", "Omega1", ...)."""
         columns = {name: column for q in self.family.quantities for name, column in _columns(q)}
         for s in self.family.sampled:
             columns |= {name: Column(partial(_at_time, get), s.unit) for name, get in s.columns.items()}
         return columns
 
     def make(self, row: Row, *, exact: bool = False) -> Any:
-        """Return the family's motion of the parameters in `row`; an array of motions where they are arrays (N,).
+        """Return the family's motion with the parameters in `row`, by name; N motions in one object for arrays (N,).
 
-        With `exact` the class in balls is used, else the class in doubles.
+        With `exact` the class in balls is used, else the class in doubles. A DomainError of the class is passed on.
         """
         values = []
         for p in self.family.parameters:
@@ -86,10 +93,10 @@ class Swept:
     def columns(
         self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], exact: dict[str, Fraction]
     ) -> dict[str, NDArray[Any]]:
-        """Return the named quantities, arrays (N,) of floats or text, for parameters (N,) by name.
+        """Return the quantities `names` as arrays (N,) of floats or text by name, for parameters (N,) by name.
 
-        If a quantity may have no value, the column "missing" has the reasons. `exact` has parameters, the same in all
-        rows, as fractions, which replace those in `parameters`.
+        If a quantity may have no value, a column "missing" has the reasons. `exact` holds parameters, the same in
+        all rows, as fractions, which replace those in `parameters`.
         """
         size, at_once = next(iter(parameters.values())).size, self.family.at_once
         pieces: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
@@ -104,9 +111,10 @@ class Swept:
     def digits(
         self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int, exact: dict[str, Fraction]
     ) -> dict[str, Any]:
-        """Return the named quantities as arrays (N,) of text with `digits` certified digits, row by row.
+        """Return the quantities `names` as arrays (N,) of text with `digits` certified digits, evaluated row by row.
 
-        `parameters` are arrays (N,); `exact` replaces some of them by fractions. "missing" has reasons as in `columns`.
+        `parameters` are arrays (N,) by name; `exact` replaces some of them by fractions. A column "missing" has the
+        reasons as in `columns`.
         """
         from atlas.arithmetic.certified_digits import certified
 
@@ -123,7 +131,10 @@ class Swept:
 
     @staticmethod
     def _ball(column: Column, motion: Any, row: Row) -> Any:
-        """Return a quantity of a motion in balls; "inf" if infinite, "" where its `missing` explains a DomainError."""
+        """Return a quantity of a motion in balls: a ball, an exact number or text; "inf" if infinite.
+
+        "" on a DomainError that the column's `missing` explains; another DomainError is passed on.
+        """
         from flint import arb
 
         try:
@@ -135,7 +146,10 @@ class Swept:
         return "inf" if isinstance(value, arb) and value == arb("inf") else value
 
     def _explained(self, columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-        """Return the columns; if a quantity may have no value, also a column "missing" with the reasons, or ""."""
+        """Return the columns (N,) by name; if a quantity may have no value, also "missing": reasons joined by ", ".
+
+        The dict `columns` itself is extended; "missing" is "" in rows where no value is missing.
+        """
         reasons_by_name = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
         if reasons_by_name:
             reasons = np.zeros(next(iter(columns.values())).shape, dtype=NAME)
@@ -173,12 +187,12 @@ class Swept:
 
 
 def empty(column: NDArray[Any]) -> NDArray[np.bool]:
-    """Return a mask (N,) of the rows in which a column has no value: NaN or an empty text."""
+    """Return a mask (N,) of the rows in which a column (N,) has no value: NaN, or an empty text in a column of text."""
     return np.asarray(column == "" if column.dtype.kind == "U" else np.isnan(column))
 
 
 def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
-    """Yield (name, `Column`) for a quantity, or for each of its components."""
+    """Yield (name, `Column`) for a quantity of the register, or for each of its components if it is a vector."""
     details = q.unit, q.certified, q.missing
     for i, name in enumerate(q.names):
         place = i if q.columns else None

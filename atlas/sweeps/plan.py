@@ -33,15 +33,16 @@ MAX_ROWS = 10**11
 
 @dataclass(frozen=True)
 class Plan:
-    """Rows of parameters of a family, and the quantities that each is to have.
+    """Rows of parameters of a family, and the quantities that each row is to have.
 
-    `parameters` are arrays by name. The rows are all their combinations, the last name varying fastest; if `listed`,
-    the rows are the elements of the arrays, and an array of one value holds for all rows. With `digits` the quantities
-    are text with this number of certified digits. `time` is the unit of time in headings. `first` is the index of the
-    first row in the whole table. `exact` has, as pairs (numerator, denominator), parameters of one value that no float
-    holds: quantities are computed from these. `axes` describes the principal axes in those of the user, where these
-    differ: columns that depend on the axes then end in "_principal". `slopes` are the changes of uncertain parameters
-    over one standard deviation of each independent input; the quantities `deviating` have columns in "_sigma".
+    `family` is a name in FAMILIES; `parameters` are arrays (n,) by name. The rows are all their combinations, the
+    last name varying fastest; if `listed`, the rows are the elements of the arrays, and an array of one value holds
+    for all rows. `quantities` are names of columns. With `digits` they are text with this number of certified
+    digits. `time` is the unit of time in headings. `first` is the index of the first row in the whole table.
+    `exact` has, as pairs (numerator, denominator), parameters of one value that no float holds: quantities are
+    computed from these. `axes` describes the principal axes in those of the user, where these differ: columns that
+    depend on the axes then end in "_principal". `slopes` are the changes of uncertain parameters over one standard
+    deviation of each independent input; the quantities `deviating` have columns in "_sigma".
     """
 
     family: str
@@ -68,10 +69,11 @@ class Plan:
         time: str = TIME,
         axes: str = "",
     ) -> "Plan":
-        """Return the plan of checked input; a parameter is a number, a sequence, or uncertain.
+        """Return the plan of checked input; a parameter is a number, a sequence (n,), or a number with an uncertainty.
 
-        Raises AtlasError for unknown or missing names, values that are no numbers, lists of different lengths, digits
-        below 1, and too many rows.
+        A quantity may also name a function of time, which stands for all its components. Raises AtlasError for
+        unknown or missing names, values that are no numbers, lists of different lengths, digits below 1, and too
+        many rows.
         """
         if family not in FAMILIES:
             raise AtlasError(
@@ -102,20 +104,26 @@ class Plan:
         return plan._with_deviations(slopes) if slopes else plan
 
     def _with_deviations(self, slopes: Mapping[str, tuple[float, ...]]) -> "Plan":
-        """Return the plan with the `slopes` of uncertain inputs; each quantity of floats gets a column in "_sigma"."""
+        """Return a copy with the `slopes` of uncertain inputs; each quantity of floats gets a column in "_sigma".
+
+        `slopes` maps a parameter to its changes over one standard deviation of each independent input.
+        """
         columns, is_asked = self.rows(0, 1), [name in self.quantities for name in self._names]
         asked = (name for name, wanted in zip(self.names, is_asked, strict=True) if wanted)
         return replace(self, slopes=slopes, deviating=tuple(x for x in asked if columns[x].dtype.kind == "f"))
 
     @property
     def count(self) -> int:
-        """Number of rows of the table."""
+        """Number of rows of the table: the longest list if `listed`, else the product of the lengths."""
         sizes = [array.size for array in self.parameters.values()]
         return max(sizes) if self.listed else prod(sizes)
 
     @property
     def names(self) -> list[str]:
-        """Names of the columns as they are written."""
+        """Names of the table's columns: parameters, quantities, "missing" if needed, then those in "_sigma".
+
+        Columns that depend on the axes end in "_principal" if `axes` is set.
+        """
         vectors = {*LAUNCH, *self._sampled} if self.axes else set()
         return [f"{name}_principal" if name in vectors else name for name in self._names] + [
             f"{name}_sigma" for name in self.deviating
@@ -141,7 +149,7 @@ class Plan:
 
     @property
     def _names(self) -> list[str]:
-        """Names of parameters and quantities, and "missing" if a quantity may have no value."""
+        """Names of parameters and quantities without suffixes, and "missing" if a quantity may have no value."""
         # an input that is also asked for, as omega3, stands once
         names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
         return names + [MISSING] * any(FAMILIES[self.family].quantities[name].missing for name in self.quantities)
@@ -156,7 +164,10 @@ class Plan:
 
     @property
     def latest(self) -> dict[str, float]:
-        """Parameters by name of the first row with the largest |t|; {} where no function of time is asked for."""
+        """Values by name of all parameters in the first row with the largest |t|.
+
+        {} where no time is given or no function of time is asked for.
+        """
         t = self.parameters.get("t")
         if t is None or self._sampled.isdisjoint(self.quantities):
             return {}
@@ -164,7 +175,7 @@ class Plan:
         return {name: float(x[place if name == "t" or (self.listed and x.size > 1) else 0]) for name, x in values}
 
     def list_of(self, start: int, stop: int) -> "Plan":
-        """Return the plan of the rows start to stop, listed row by row: small enough to be sent to a worker."""
+        """Return the plan of the rows start to stop - 1, listed row by row: small enough to be sent to a worker."""
         parameters = self._parameters(np.arange(start, stop))
         arrays = {
             name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
@@ -172,7 +183,7 @@ class Plan:
         return replace(self, parameters=arrays, listed=True, first=self.first + start)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
-        """Return the columns by name, arrays (stop - start,), of rows start to stop, by default all.
+        """Return the columns by name, arrays (stop - start,), of rows start to stop - 1, by default of all rows.
 
         Raises AtlasError, or its subclass, which names the first failing row and its inputs.
         """
@@ -186,14 +197,14 @@ class Plan:
             raise type(error)(f"In row {self.first + row + 1} of the table, {values}: {reason}") from error
 
     def _failing(self, low: int, high: int) -> int:
-        """Return the index of the first failing row in the range low to high, where at least one row fails."""
+        """Return the index of the first failing row in the half-open range low to high, in which some row fails."""
         while high - low > 1:
             middle = (low + high) // 2
             low, high = (low, middle) if self._refusal(low, middle) else (middle, high)
         return low
 
     def _refusal(self, low: int, high: int) -> AtlasError | None:
-        """Return the error raised by rows low to high, or None."""
+        """Return the AtlasError that evaluating the half-open range of rows low to high raises, or None."""
         try:
             self._columns(low, high)
         except AtlasError as error:
@@ -201,7 +212,7 @@ class Plan:
         return None
 
     def _columns(self, start: int, stop: int) -> Columns:
-        """Return the columns by name of rows start to stop, without names of rows in errors."""
+        """Return the columns (stop - start,) by name of rows start to stop - 1; errors do not name the row."""
         parameters = self._parameters(np.arange(start, stop))
         exact = {name: Fraction(*pair) for name, pair in self.exact.items()}
         quantities = self._quantities(parameters, exact)
@@ -211,7 +222,11 @@ class Plan:
         return dict(zip(self.names, columns, strict=True))
 
     def _quantities(self, parameters: Columns, exact: dict[str, Fraction]) -> Columns:
-        """Return the quantities by name, arrays (N,), for parameters (N,); defaults for those left out."""
+        """Return the quantities, and "missing", as arrays (N,) by name, for parameters (N,) by name.
+
+        Parameters that were left out have their defaults. `exact` holds parameters as fractions that replace those
+        of one value.
+        """
         family, count = FAMILIES[self.family], next(iter(parameters.values())).size
         defaults = {name: value for name, value in family.optional.items() if value is not None}
         inputs: Columns = {name: np.full(count, value) for name, value in defaults.items()} | parameters
@@ -220,7 +235,9 @@ class Plan:
         return family.digits(inputs, self.quantities, self.digits, exact)
 
     def _deviations(self, row: int) -> list[float]:
-        """Return the standard deviations of the quantities `deviating` in a row, NaN where one is not finite."""
+        """Return the standard deviations of the quantities `deviating` in a row (an index), NaN where one is infinite.
+
+        """
         parameters, own_names = (
             self._parameters(np.array([row])),
             [x.removesuffix("_principal") for x in self.deviating],
@@ -244,9 +261,9 @@ class Plan:
 
 
 def _nominal(parameters: Mapping[str, Any], digits: int | None) -> tuple[dict[str, Any], dict[str, tuple[float, ...]]]:
-    """Return the nominal values of parameters by name, and the `slopes` of a `Plan`.
+    """Return the nominal values of parameters by name, and the `slopes` of a `Plan`, {} without uncertain parameters.
 
-    Raises AtlasError for an uncertain parameter with several values, and for deviations with certified digits.
+    Raises AtlasError for an uncertain parameter with several values, and for uncertainties where `digits` is not None.
     """
     nominal, slopes = in_independent_inputs(parameters)
     for name, value in nominal.items():
@@ -273,13 +290,16 @@ class Range:
 
     @classmethod
     def middles(cls, edges: FloatArray) -> "Range":
-        """Return the middles of the cells between evenly spaced edges, as a range with ends rounded to 7 digits."""
+        """Return the middles of the cells between evenly spaced edges (N,), as a range of N - 1 numbers.
+
+        Its ends are rounded to 7 digits.
+        """
         start, stop = (float(f"{x:.7g}") for x in (edges[1:] + edges[:-1])[[0, -1]] / 2)
         return cls(start, stop, len(edges) - 1)
 
     @property
     def values(self) -> FloatArray:
-        """All numbers, ascending from `start`, shape (count,)."""
+        """The numbers from `start` to `stop`, shape (count,), descending if `stop` is less."""
         return (np.geomspace if self.log else np.linspace)(self.start, self.stop, self.count)
 
     def __str__(self) -> str:
@@ -288,14 +308,21 @@ class Range:
 
 @dataclass(frozen=True)
 class Tabulation:
-    """Quantities of a family over all combinations of settings, the last setting varying fastest."""
+    """A table of a family over all combinations of settings, the last setting varying fastest.
+
+    `family` is a name in FAMILIES, `settings` are numbers, lists or ranges by name of parameter, `quantities` are
+    names of columns.
+    """
 
     family: str
     settings: Mapping[str, float | tuple[float, ...] | Range]
     quantities: tuple[str, ...]
 
     def columns(self) -> Columns:
-        """Return the columns by name, each an array with an axis for every setting that has several values."""
+        """Return parameters and quantities by name, each an array with one axis for every setting of several values.
+
+        The axes stand in the order of the settings. Errors are those of `Plan.of` and `Plan.rows`.
+        """
         parameters = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
         plan = Plan.of(self.family, parameters, self.quantities)
         sizes = [x.size for x in plan.parameters.values() if x.size > 1]

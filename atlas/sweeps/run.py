@@ -158,7 +158,11 @@ def write_plan(
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Path | str:
-    """Write the table of a plan in parts and return its path; the arguments are those of `sweep`."""
+    """Write the table of a plan in parts and return its path or address; the other arguments are those of `sweep`.
+
+    Parts of an interrupted run of the same plan are used. Raises AtlasError as `sweep` does, and also, after
+    writing, where an edited file of that name is kept.
+    """
     table = Table(out, key(plan, rows))
     with table.held():
         try:
@@ -180,7 +184,8 @@ def _compute(
 ) -> list[str]:
     """Compute the missing parts, each stored as soon as it is computed; return the file names of all parts in order.
 
-    `progress` is called after each part with (rows done, rows).
+    `rows` is the number of rows per part (None: by time), `executor` as in `sweep`, `workers` the number of parts
+    in progress. `progress` is called after each part with (rows done, rows).
     """
     names = table.whole_parts()
     spans = Spans(plan, names, rows, workers)
@@ -199,7 +204,11 @@ def _compute(
 
 
 class Spans(Iterator[Span]):
-    """Iterator over the row ranges of missing parts, each sized by the time that the last part took."""
+    """Iterator over row ranges (start, stop) of missing parts, each sized by the seconds that the last part took.
+
+    Made from a plan, the ranges that are already computed, the rows per part (None: sized by time) and the number of
+    workers. `rows_left` counts the rows not yet given out, `pace` is in seconds per row.
+    """
 
     def __init__(self, plan: Plan, spans: Iterable[Span], rows: int | None, workers: int) -> None:
         ends = [0, *(row for span in spans for row in span), plan.count]
@@ -221,7 +230,10 @@ class Spans(Iterator[Span]):
         return start, end
 
     def _size(self) -> int:
-        """Return the number of rows of the next part: PART_SECONDS of work, less at the end to occupy all workers."""
+        """Return the number of rows of the next part: PART_SECONDS of work, less near the end.
+
+        Then all workers have some work.
+        """
         least = self.least << min(self.count_given // EQUAL_PARTS, 40)
         share = self.rows_left / (PARTS_PER_WORKER * self.workers)
         return min(
@@ -229,17 +241,17 @@ class Spans(Iterator[Span]):
         )
 
     def learn(self, span: Span, seconds: float) -> None:
-        """Set the seconds per row from the time of a part; the sizes of the next parts follow from it."""
+        """Set `pace` from the rows and the seconds of a part; the sizes of the next parts follow from it."""
         self.pace = max(seconds, 1e-9) / (span[1] - span[0])
 
     @property
     def processes(self) -> int:
-        """Number of processes for the remaining work: one per second of work, at most `workers`."""
+        """Number of processes for the remaining work: one per SECONDS_PER_PROCESS of work, at most `workers`."""
         return min(self.workers, int(min(self.rows_left * self.pace, 1e9) / SECONDS_PER_PROCESS))
 
 
 def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
-    """Compute rows start to stop of a table; return (name of the part, None, seconds of processor time).
+    """Compute rows start to stop - 1 of a table; return (file name of the part, None, seconds of processor time).
 
     The part is written into the table's folder. Where this process does not see that folder, the part's bytes are
     returned in the place of None.
@@ -258,7 +270,7 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
 def width(executor: Any, jobs: int | None) -> int:
     """Return the number of parts computed at a time: the cores of a Dask client, or the workers of an executor.
 
-    Without an executor it is `jobs`, by default the number of processors.
+    Without an executor it is `jobs`, by default the number of processors. Raises AtlasError if the client is lost.
     """
     if executor is None:
         return jobs or processors()
@@ -269,10 +281,11 @@ def width(executor: Any, jobs: int | None) -> int:
 
 
 def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
-    """Yield the results of `make` for each part, in order; on an executor a few parts are computed ahead.
+    """Yield the results of `make` for each range of `spans`, in order; on an executor some parts are computed ahead.
 
     `executor` is an executor, a Dask client, or None: then this process makes the parts until the remaining work is
-    worth several processes, if the system allows these. When the generator ends or is closed no part is in progress.
+    worth several processes, if the system allows these. `workers` is the number of parts at a time. When the
+    generator ends or is closed no part is in progress. Raises AtlasError if workers end.
     """
     processes = None
     if executor is None:
@@ -307,9 +320,10 @@ def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, worke
 
 
 def _result(future: Future[Made], executor: Any) -> Made:
-    """Return the result of a future, or raise a CancelledError if its Dask client closes before there is one.
+    """Return the result of `make` from a future of `executor`; errors of the call are raised.
 
-    A client that loses its scheduler cancels its futures, but not those submitted while it tries to connect again.
+    Raises CancelledError if a Dask client closes before there is a result. A client that loses its scheduler
+    cancels its futures, but not those submitted while it tries to connect again.
     """
     while not wait([future], timeout=SECONDS_BETWEEN_CHECKS).done:
         if getattr(executor, "status", None) == "closed" and not future.done():
@@ -319,7 +333,10 @@ def _result(future: Future[Made], executor: Any) -> Made:
 
 @contextmanager
 def _workers_lost(executor: Any, *faults: type[BaseException]) -> Iterator[None]:
-    """Context in which these faults, the end of workers or of a client's scheduler, are raised as an AtlasError."""
+    """Context in which an exception of the types `faults` is raised as AtlasError: workers or scheduler came to an end.
+
+    The message advises to call again: with a new `executor`, if there was one.
+    """
     try:
         yield
     except faults as error:
@@ -332,7 +349,10 @@ def _workers_lost(executor: Any, *faults: type[BaseException]) -> Iterator[None]
 
 
 def key(plan: Plan, rows: int | None) -> str:
-    """Return a digest, 16 hexadecimal digits, of the code, the plan, and `rows`, the number of rows per part."""
+    """Return a digest, 16 hexadecimal digits, of the package's code, the plan and `rows`, the rows per part or None.
+
+    Parts with this key belong to the same table.
+    """
     sha = hashlib.sha256(json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode())
     for array in plan.parameters.values():
         sha.update(np.ascontiguousarray(array).tobytes() + b"|")

@@ -42,7 +42,10 @@ def span_of(name: str) -> Span:
 
 @dataclass(frozen=True)
 class Folder:
-    """A folder that holds only parts of a table. Raises AtlasError where fsspec cannot reach the address."""
+    """A folder that holds only parts of a table, made from its path or fsspec address.
+
+    Raises AtlasError where fsspec does not know the address.
+    """
 
     address: str
 
@@ -54,7 +57,7 @@ class Folder:
 
     @cached_property
     def is_local(self) -> bool:
-        """Whether the folder is on this machine."""
+        """Whether the folder is a path of this machine, not an address with "://"."""
         return "://" not in self.address
 
     @property
@@ -103,13 +106,13 @@ class Folder:
         return False
 
     def open(self, name: str) -> IO[bytes]:
-        """Return a file of the folder, open for reading bytes. Raises FileNotFoundError."""
+        """Return the file `name` of the folder, open for reading bytes. Raises FileNotFoundError if it is missing."""
         system, path = self._place
         file: IO[bytes] = system.open(f"{path}/{name}", "rb")
         return file
 
     def write(self, name: str, data: bytes) -> None:
-        """Write bytes into a file of the folder, which is made if missing."""
+        """Write bytes into the file `name` of the folder, which is made if missing. An OSError names that file."""
         system, path = self._place
         system.makedirs(path, exist_ok=True)
         with files.named(Path(path, name)):
@@ -122,14 +125,14 @@ class Folder:
             system.rm_file(f"{path}/{name}")
 
     def move(self, name: str, to: "Folder") -> None:
-        """Move a file into another folder of the same file system; a file of that name is overwritten."""
+        """Move the file `name` into another folder of the same file system; a file of that name is overwritten."""
         system, path = self._place
         target = to._place[1]  # noqa: SLF001  of its own kind
         system.makedirs(target, exist_ok=True)
         system.mv(f"{path}/{name}", f"{target}/{name}")
 
     def clear(self, names: Iterable[str]) -> None:
-        """Delete the named files, then the folder if that is empty."""
+        """Delete the named files where they exist, then the folder if that is empty."""
         for name in names:
             self.delete(name)
         system, path = self._place
@@ -140,9 +143,10 @@ class Folder:
 class Table:
     """Destination of a table: a file .csv, .npz or .parquet, or a folder of Parquet files that is read as one table.
 
-    `place` is its path, `ending` the suffix of its parts, `parts` their folder until the table is complete. `whole` is
-    the folder of a table made of files, else None; `key` is the digest of its sweep. Raises AtlasError for an unknown
-    format, and for a format that cannot be written here.
+    Made from the path or address `out` and the digest `key` of its sweep. `place` is that path or address, `ending`
+    the suffix of its parts, `parts` their folder until the table is complete, `lock` the path of its lock file.
+    `whole` is the folder of a table made of files, else None. Raises AtlasError for an unknown format, one that
+    cannot be written here, and an address out of reach.
     """
 
     def __init__(self, out: str | os.PathLike[str], key: str) -> None:
@@ -170,18 +174,19 @@ class Table:
             self.lock = (own_folder() or Path(gettempdir())) / f"sweep-{name}.lock"
 
     def name(self, span: Span, data: bytes) -> str:
-        """Return the file name of the part with the rows `span` and the contents `data`, with their digest."""
+        """Return the file name of a part: its row range (start, stop), its `key`, the digest of its bytes `data`."""
         rows = f"part-{span[0]:012d}-{span[1]:012d}-{self.key}"
         return f"{rows}-{hashlib.sha256(rows.encode() + data).hexdigest()[:32]}.{self.ending}"
 
     def path(self, name: str) -> Path:
-        """Return the path of a part of a table on this machine."""
+        """Return the path of the part `name` of a table on this machine."""
         return Path(self.parts.address, name)
 
     def whole_parts(self) -> dict[Span, str]:
-        """Return the names of the complete parts by row range, in order; other files in their folder are removed.
+        """Return the file names of the undamaged parts of this sweep by row range (start, stop), in order of rows.
 
-        Parts of a data set may already be in its place, if a sweep was stopped in its last steps.
+        Other files in the folder of parts are removed. Parts of a data set may already be in its place, if a sweep
+        was stopped in its last steps.
         """
         parts_by_rows: dict[Span, str] = {}
         end = 0
@@ -206,7 +211,7 @@ class Table:
     def seen(self) -> bool:
         """Return whether this process sees the folder that the sweep sees: the lock file has the same text.
 
-        Files at memory:// are seen by the process of the sweep alone.
+        For files at memory:// that is so in the process of the sweep alone, at other addresses always.
         """
         if self.parts.address.startswith(MEMORY):
             return bool(json.loads(self.mark)["pid"] == os.getpid())
@@ -241,7 +246,10 @@ class Table:
             os.close(lock)
 
     def _locked(self) -> int:
-        """Return the file descriptor of the lock, opened and locked; a file removed meanwhile is made again."""
+        """Return the file descriptor of the lock, opened and locked; a file removed meanwhile is made again.
+
+        Raises AtlasError that names the holder, if another sweep holds the lock.
+        """
         while True:
             lock = os.open(self.lock, os.O_RDWR | os.O_CREAT, 0o644)
             try:
@@ -254,7 +262,10 @@ class Table:
             os.close(lock)
 
     def _record(self) -> dict[str, Any] | None:
-        """Return the record of the lock's holder, empty while the lock is empty; None for a file of another kind."""
+        """Return the record that the lock's holder wrote: table, process number, host, time since.
+
+        {"atlas sweep": ""} for no file or an empty one; None for a file of another kind.
+        """
         try:
             record = json.loads(self.lock.read_text(encoding="utf-8") or json.dumps({MARK: ""}))
         except FileNotFoundError:
@@ -264,7 +275,10 @@ class Table:
         return record if isinstance(record, dict) and MARK in record else None
 
     def _holder(self) -> str:
-        """Return the process that holds the lock, as text; "" if its record is missing or not yet written."""
+        """Return the process that holds the lock, as " (process N on HOST, since TIME)".
+
+        "" if its record is missing or not yet written after half a second.
+        """
         for _ in range(10):
             record = self._record() or {}
             here = record.get("host") == socket.gethostname() and os.name == "posix"

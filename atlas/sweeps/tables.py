@@ -25,23 +25,26 @@ ROW_GROUP = 2**17
 
 
 def head_of(sentences: Iterable[str], headings: Iterable[str]) -> str:
-    """Return the lines above the rows of a table: sentences behind #, then names with their units."""
+    """Return the lines above the rows of a table: sentences behind #, then the headings joined by commas."""
     return "".join(f"# {sentence}\n" for sentence in sentences) + ",".join(headings) + "\n"
 
 
 def csv_part(columns: Columns, _: str = "") -> bytes:
-    """Return rows of CSV as bytes: floats with the shortest digits that read back the same, an empty cell for NaN."""
+    """Return columns (N,) by name as N lines of CSV, in bytes; the second argument, a head, is not used.
+
+    Floats have the shortest digits that read back the same; NaN is an empty cell.
+    """
     cells = [map(_quoted, x.tolist()) if x.dtype.kind == "U" else _shortest(x) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
 
 
 def _quoted(text: str) -> str:
-    """Return a name for a CSV file, in quotes if it holds a comma."""
+    """Return a text for a cell of CSV, in quotes if it holds a comma."""
     return f'"{text}"' if "," in text else text
 
 
 def _shortest(column: NDArray[Any]) -> Iterable[str]:
-    """Return the numbers of a column (N,) as N texts that read back the same, "" for NaN."""
+    """Return the floats of a column (N,) as N texts of the shortest digits that read back the same, "" for NaN."""
     text_of = (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
     # of a parameter there are few values, each in many rows; by their bits, which tell 0.0 from -0.0
     bits, places = np.unique(np.ascontiguousarray(column).view(np.int64), return_inverse=True)
@@ -52,7 +55,7 @@ def _shortest(column: NDArray[Any]) -> Iterable[str]:
 
 
 def array_part(columns: Columns, head: str) -> bytes:
-    """Return the bytes of an NPZ file of the columns; the head is the comment of the archive."""
+    """Return the bytes of an NPZ file of the columns (N,) by name; the text `head` is the comment of the archive."""
     buffer = io.BytesIO()
     np.savez(buffer, **columns)  # type: ignore[arg-type]  # columns, not its options
     with zipfile.ZipFile(buffer, "a") as archive:
@@ -61,7 +64,10 @@ def array_part(columns: Columns, head: str) -> bytes:
 
 
 def parquet_part(columns: Columns, head: str) -> bytes:
-    """Return the bytes of a Parquet file of the columns, null where there is no value; the head is in its metadata."""
+    """Return the bytes of a Parquet file of the columns (N,) by name, null where there is no value.
+
+    The text `head` is in its metadata under "head". Raises AtlasError as `_pyarrow` does.
+    """
     buffer = io.BytesIO()
     with _pyarrow() as (arrow, parquet):
         table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
@@ -74,9 +80,10 @@ PARTS: Mapping[str, Callable[[Columns, str], bytes]] = {"csv": csv_part, "npz": 
 
 
 def write(out: Path, plan: Plan, part_files: Parts) -> Mapping[str, str]:
-    """Write a table from its parts to the path `out`; if a file is there, it may be written next to it.
+    """Write a table from its parts, paths in order of rows, to the path `out`, in the format of its suffix.
 
-    Returns the new names by old ones, see `atlas.files.settle`.
+    A file there that was edited is kept, and the new one is put next to it: returns its new name by the old one,
+    else {}.
     """
     with unfinished(out) as file:
         WRITERS[out.suffix[1:]](file, plan, part_files)
@@ -85,7 +92,7 @@ def write(out: Path, plan: Plan, part_files: Parts) -> Mapping[str, str]:
 
 
 def write_csv(out: Path, plan: Plan, part_files: Parts) -> None:
-    """Write the conventions as lines with #, the heading, and the rows."""
+    """Write a CSV file of the path `out`: the conventions as lines with #, the heading, the rows of the parts."""
     with out.open("wb") as file:
         file.write(head_of(plan.conventions, plan.headings).encode())
         for rows in part_files:
@@ -93,7 +100,7 @@ def write_csv(out: Path, plan: Plan, part_files: Parts) -> None:
 
 
 def write_npz(out: Path, plan: Plan, part_files: Parts) -> None:
-    """Write one array a column, each from one part after the other."""
+    """Write an NPZ file of the path `out`: for each column one array (rows,), joined from the parts in order."""
     with zipfile.ZipFile(out, "w") as archive:
         archive.comment = head_of(plan.conventions, plan.headings).encode()
         for name in plan.names:
@@ -110,7 +117,10 @@ def write_npz(out: Path, plan: Plan, part_files: Parts) -> None:
 
 
 def write_parquet(out: Path, _: Plan, part_files: Parts) -> None:
-    """Write a Parquet file of row groups of ROW_GROUP rows, the last one perhaps smaller."""
+    """Write a Parquet file of the path `out` from Parquet parts in order; the second argument is not used.
+
+    Row groups have ROW_GROUP rows, the last one perhaps fewer.
+    """
     with _pyarrow() as (arrow, parquet):
         rows = parquet.read_schema(part_files[0]).empty_table()
         with parquet.ParquetWriter(out, rows.schema) as writer:
@@ -126,7 +136,10 @@ def write_parquet(out: Path, _: Plan, part_files: Parts) -> None:
 
 @contextmanager
 def _pyarrow() -> Iterator[tuple[Any, Any]]:
-    """Yield pyarrow and pyarrow.parquet; pyarrow's own exceptions become AtlasError."""
+    """Yield the modules (pyarrow, pyarrow.parquet); pyarrow's own exceptions in the context become AtlasError.
+
+    Raises AtlasError where pyarrow is not installed; a MemoryError is passed on.
+    """
     arrow, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     try:
         yield arrow, parquet
@@ -146,7 +159,7 @@ WRITERS: Mapping[str, Callable[[Path, Plan, Parts], None]] = {
 
 
 def check_format(out: Path) -> None:
-    """Raise AtlasError for a file name that says no format, or one that cannot be written here."""
+    """Raise AtlasError for a path whose suffix is not .csv, .npz or .parquet, and for Parquet without pyarrow."""
     if out.suffix[1:] not in WRITERS:
         raise AtlasError(f"A table ends in {', '.join(f'.{name}' for name in WRITERS)}, not in {out.suffix!r}: {out}.")
     if out.suffix == ".parquet":
