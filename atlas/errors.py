@@ -60,7 +60,7 @@ class RelativisticWarning(AtlasWarning):
 
 
 def tell_nearest(fault: str, taken: str) -> None:
-    """Issue a NearestInputWarning "FAULT; used instead is TAKEN."
+    """Issue a NearestInputWarning with the text FAULT; used instead is TAKEN.
 
     `fault` describes the input that is impossible by its last digits, `taken` is the input used in its place.
     """

@@ -65,7 +65,7 @@ OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "ev
 
 
 def title(method: str) -> str:
-    """Return the title of a method for legends; an unknown method is its own title."""
+    """Return the title of a method, a key of METHODS, for legends; an unknown method is its own title."""
     return METHODS[method][0] if method in METHODS else method
 
 
@@ -75,7 +75,7 @@ def role(method: str) -> str:
 
 
 def case_title(case: str) -> str:
-    """Return the name of a case in words; an unknown case is its own name."""
+    """Return the name of a case, a key of CASES, in words; an unknown case is its own name."""
     return CASES.get(case, case)
 
 
@@ -95,8 +95,9 @@ class Machine(Item, frozen=True):
 class Run(Item, frozen=True):
     """One method on one case up to the time `horizon`: largest error and computing time, or None and a reason.
 
-    ``error`` is the largest over the samples, or over a few of them where true values take long; ``seconds`` is the
-    time for all samples once the method is set up. ``note`` is the reason where they are None.
+    ``case`` is a key of CASES, ``method`` one of METHODS, ``samples`` the number of times, ``tolerance`` that of an
+    integrator. ``error`` is the largest over the samples, or over a few of them where true values take long;
+    ``seconds`` is the time for all samples once the method is set up. ``note`` is the reason where they are None.
     """
 
     case: str
@@ -143,8 +144,10 @@ class Limit(Item, frozen=True):
 class Results(Item, frozen=True):
     """One run of the benchmark: the fields of its record that figures, pages and the README show.
 
-    `date` is YYYY-MM-DD in universal time; `runs` are pairs of error and time by case and method, `costs` the parts of
-    a time, `limits` the times that were aimed at, with the measured ones.
+    `format` is FORMAT, `command` the shell command that made the record, `date` is YYYY-MM-DD in universal time,
+    `versions` are those of libraries by name. `runs` are pairs of error and time by case and method, `costs` the
+    parts of a time, `limits` the times that were aimed at, with the measured ones, `narrow` some runs repeated
+    without AVX-512.
     """
 
     format: int
@@ -165,7 +168,7 @@ def stored() -> Path:
 
 
 def read(path: Path | None = None) -> Results:
-    """Return the `Results` of a benchmark record, by default the repository's.
+    """Return the `Results` of a benchmark record, by default (None) the repository's reports/data/bench.json.
 
     Raises AtlasError for a file that does not exist or is no such record.
     """
@@ -196,7 +199,10 @@ def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
 
 
 def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
-    """Return the points (x(item), y(item)), shape (N, 2); values below 1e-18 become 1e-18, for logarithmic axes."""
+    """Return the points (x(item), y(item)), shape (N, 2), of N items, for logarithmic axes.
+
+    Values below 1e-18 become 1e-18; no items give the shape (0, 2).
+    """
     points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
     return np.asarray(np.maximum(points, 1e-18))
 
@@ -215,8 +221,8 @@ def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tu
 def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
     """Return a `Plane` of layers on logarithmic axes whose limits hold the points of all layers in `every`.
 
-    `labels` are the texts of both axes, `name` is the title. `room` is ((below, above) in x, (below, above) in y), the
-    margins in powers of ten.
+    `labels` are the texts of the horizontal and the vertical axis, `name` is the title. `room` is ((below, above) in x,
+    (below, above) in y), the margins in powers of ten.
     """
     x, y = np.concatenate([layer.points for layer in every]).T
     return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
@@ -225,8 +231,8 @@ def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str]
 def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
     """Return one `Plane` for each case, all with the same limits; only the lowest row labels the horizontal axis.
 
-    `cases` maps names of cases to layers, `columns` is the number of panels in a row. Titles have letters (a), (b), ...
-    where there are several cases.
+    `cases` maps names of cases to layers, `labels` and `room` are those of `panel`, `columns` is the number of
+    panels in a row. Titles have letters (a), (b), ... where there are several cases, eight at most.
     """
     every, upper = [layer for runs in cases.values() for layer in runs], len(cases) - columns
     letters = [f"({letter}) " for letter in "abcdefgh"] if len(cases) > 1 else [""]
@@ -245,6 +251,6 @@ def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> 
 
 
 def power(value: float) -> str:
-    """Return TeX "10^{n}" for an exact power of ten, and "%g" text for any other number."""
+    """Return a positive number as TeX: "10^{n}" for an exact power of ten, else its "%g" text."""
     exponent = np.log10(value)
     return f"10^{{{exponent:.0f}}}" if exponent == round(exponent) else f"{value:g}"

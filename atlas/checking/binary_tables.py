@@ -38,7 +38,8 @@ READERS: Mapping[str, Callable[[Path], tuple[str, Columns]]] = {".npz": _npz, ".
 def head_and_columns(path: Path) -> tuple[list[str], Columns]:
     """Return the lines of the head, the last with names and units, and the columns, arrays (N,) by name.
 
-    Raises AtlasError for a file that is not of the kind of its ending, and for columns of other shapes.
+    Without a head in the file its only line has the names. The path ends in .npz or .parquet. Raises AtlasError for
+    a file that is not of the kind of its ending, for an empty one, and for columns of other shapes.
     """
     try:
         head, columns = READERS[path.suffix](path)

@@ -84,7 +84,7 @@ class Check:
         return f"{printable(self.file)}: {self.rows} row{'s' * (self.rows != 1)}, case {self.case}"
 
     def __str__(self) -> str:
-        """Return the grades as text: digits of each column, then drifts of constants, then notes."""
+        """Return the grades as text: digits of each column, then drifts of conserved quantities, then notes."""
         none = f"{self._title}: nothing to compare with, so no column is graded"
         lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
         if self.drifts:
@@ -119,13 +119,17 @@ class Check:
         return heading, rows
 
     def drift_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return (heading, rows) of the table of conserved quantities: six texts, and six texts for each quantity."""
+        """Return (heading, rows) of the table of conserved quantities: six texts, and six texts for each quantity.
+
+        They are its symbol, its meaning, its equation, the largest relative deviation, the time of that, and the
+        last deviation.
+        """
         heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
         rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
         return heading, rows
 
     def scene(self) -> Scene:
-        """Return a `Scene` of the error of each group of columns against time.
+        """Return a `Scene` of the largest error of R, Omega and quaternion against time, with a line at the threshold.
 
         Raises AtlasError where no column is graded.
         """
@@ -264,9 +268,10 @@ def check(
 
 
 def _arguments(motion: Any) -> dict[str, Any]:
-    """Return the parameters of a motion as keywords of `check_file`; of a motion by `atlas.motion` {"motion": motion}.
+    """Return the parameters of a motion as keywords of `check_file`, a top's as inertia, direction, coupling and so on.
 
-    Raises AtlasError for a motion of another class or made by another function, and for an array of motions.
+    A motion made by `atlas.motion` gives {"motion": motion}. Raises AtlasError for a motion of another class or made by
+    another function, and for an array of motions.
     """
     from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
 
@@ -310,9 +315,10 @@ def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Chec
 
 
 def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, Any]) -> Check:
-    """Return the `Check` of a trajectory, which is read once.
+    """Return the `Check` of a trajectory, which is read once; `threshold` is in correct digits.
 
-    Raises AtlasError for a threshold out of range, and where there is nothing to compare.
+    `parameters` replace those of the trajectory, by the names in `check_file`. Raises AtlasError for a threshold out of
+    range, and where there is nothing to compare.
     """
     if not 0 <= threshold <= MAX_DIGITS:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MAX_DIGITS:g}; it cannot be {threshold:g}.")
@@ -367,7 +373,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
 
 
 def _within(threshold: float, floor: float) -> None:
-    """Raise AtlasError for a threshold beyond the accuracy `floor` of the reference motion."""
+    """Raise AtlasError if 10^-threshold is at most twice `floor`, the accuracy of the reference motion."""
     if 10.0**-threshold <= 2 * floor:
         raise AtlasError(
             f"The threshold may be {-math.log10(2 * floor) - 0.05:.1f} digits at most for this motion at these times, "

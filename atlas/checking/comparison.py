@@ -17,7 +17,7 @@ ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eigh
 
 @dataclass(frozen=True)
 class Comparison:
-    """Grades of several trajectories, each against its reference motion."""
+    """Grades of several trajectories, each against its reference motion: `checks` has the `Check` of each."""
 
     checks: tuple[Check, ...]
 

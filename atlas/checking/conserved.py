@@ -39,7 +39,10 @@ Deviation: TypeAlias = tuple[str, str, str, Any]
 
 
 class Drifts:
-    """Deviations of the conserved quantities that follow from the columns of a trajectory, block by block."""
+    """Deviations of the conserved quantities that follow from the columns of a trajectory, block by block.
+
+    Made from a function that maps a block of columns (m,) by name to tuples (name, meaning, equation, deviations (m,)).
+    """
 
     def __init__(self, deviations: Callable[[Mapping[str, FloatArray]], Iterable[Deviation]]) -> None:
         self._deviations, self._found = deviations, dict[str, Drift]()
@@ -82,9 +85,10 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
 
 
 def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
-    """Yield (name, meaning, equation, values, size) of H, F, (M,K), K^2 and T for an inertia tensor J (3, 3).
+    """Yield (name, meaning, equation, values, size) of five conserved quantities, for an inertia tensor J (3, 3).
 
-    Omega and K have the shape (..., 3); sizes are sums of the magnitudes of the terms.
+    They are the Hamiltonian H, Clebsch's integral F, (M,K), K^2 and the kinetic energy T. Omega and K, the field in
+    the body, have the shape (..., 3); M = J (Omega + K); sizes are sums of the magnitudes of the terms.
     """
     M = (Omega + K) @ J
     H2, F, component, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
@@ -96,9 +100,10 @@ def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
 
 
 class AnyBody:
-    """Conserved quantities of a body of any inertia tensor (3, 3) in the field B' (3,): H, F, (M,K), K^2 and T.
+    """Conserved quantities of a body of any inertia tensor (3, 3) in the field B' (3,): those of `conserved`.
 
     Deviations are from the values at `start`, a pair (Omega, K), else from the values in the first row of the file.
+    Instances are functions of a block of columns.
     """
 
     def __init__(self, inertia: Any, field: Any, start: tuple[Any, Any] | None = None) -> None:
@@ -106,7 +111,7 @@ class AnyBody:
         self._start = start
 
     def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-        """Yield (name, meaning, equation, deviations (m,)) of a block; integrals only if it has R and Omega.
+        """Yield (name, meaning, equation, relative deviations (m,)) of a block; integrals only if it has R and Omega.
 
         Without `start` the first row of the first block becomes the start.
         """
@@ -122,9 +127,10 @@ class AnyBody:
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield (name, meaning, equation, deviations (m,)) of a top: orthogonality, norm, and the constants h, M3, p.
+    """Yield (name, meaning, equation, relative deviations (m,)) of a top: norm, orthogonality, h, M3 and p.
 
-    The constants, in units of I2, need R, or a quaternion, and Omega among the columns of the block.
+    h is the energy, M3 and p the momenta along the axis and the field, all over I2; they need R, or a quaternion,
+    and Omega among the columns of the block.
     """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
@@ -139,8 +145,8 @@ def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Devia
 def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> Iterable[Value]:
     """Yield (name, meaning, equation, values, size) of a top's constants h, M3 and p, for Omega and b (..., 3).
 
-    Moments, couplings k2, k3 and potentials a0 (linear), A0 (quadratic) are divided by I2; b is the unit vector of the
-    field in the body.
+    h is the energy, M3 and p are the momenta along the axis and the field, all over I2. Moments, couplings k2, k3 and
+    potentials a0 (linear), A0 (quadratic) are divided by I2; b is the unit vector of the field in the body.
     """
     w, nu = np.moveaxis(Omega, -1, 0), b[..., 2]
     M = np.stack([w[0] + k2 * b[..., 0], w[1] + k2 * b[..., 1], I * w[2] + k3 * nu], axis=-1)
@@ -152,16 +158,20 @@ def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> I
 
 
 def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
-    """Return the columns in extended precision, R (m, 3, 3) and Omega (m, 3); None for one that is missing."""
+    """Return (columns (m,) by name in extended precision, R (m, 3, 3), Omega (m, 3)) of a block of columns.
+
+    R is None without all nine entries and without a quaternion, Omega without all three components.
+    """
     columns = {name: values.astype(np.longdouble) for name, values in block.items()}
     R = _matrices(columns, len(block["t"]))
     return columns, R, np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None
 
 
 def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
-    """Yield (name, meaning, equation, deviations (m,)) of the quaternion's norm and of R^T R from 1.
+    """Yield (name, meaning, equation, deviations (m,)) of the quaternion's norm and of R^T R, both from 1.
 
-    Each is yielded only if the columns determine it; of R^T R the largest entry of the difference counts.
+    `columns` are arrays (m,) by name, R is (m, 3, 3) or None. A quantity that they do not determine is left out; of
+    R^T R the largest entry of the difference counts.
     """
     if QUATERNION[0] in columns:
         norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
@@ -178,9 +188,10 @@ def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviat
 
 
 def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> Iterable[Value]:
-    """Yield (name, meaning, equation, values, size) of the integrals that Omega and K (m, 3) determine.
+    """Yield (name, meaning, equation, values (m,), size) of the integrals that Omega and K (m, 3) determine.
 
-    Each of Omega and K may be None. Sizes are sums of the magnitudes of the terms at the start.
+    They are E', K^2, c3, c5 and (m,B') of the paper. K is the field in the body; each of Omega and K may be None.
+    Sizes are sums of the magnitudes of the terms at the start.
     """
     w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
     E, K2, c3, c5 = formulas.integrals(long(motion.I), w, k)

@@ -25,9 +25,10 @@ CHANGE = 0.01
 def conventions_that_fit(block: Mapping[str, FloatArray], errors: "Errors", limit: float) -> list[str]:
     """Return sentences on conventions in which half of the rows have errors below `limit`; [] if none fits.
 
-    At most one sentence each for matrices, quaternion and rates, and none for data that agree as given. Tried are
-    transposed matrices, conjugate and reordered quaternions, a constant rotation, and rates in the laboratory or in
-    other units. Fewer than three rows give [].
+    `block` has the columns (m,) by name, `errors` the true motion. At most one sentence each for matrices,
+    quaternion and rates, and none for data that agree as given. Tried are transposed matrices, conjugate and
+    reordered quaternions, a constant rotation, and rates in the laboratory or in other units. Fewer than three rows
+    give [].
     """
     rows = slice(None, None, max(1, len(block["t"]) // ROWS))
     if len(block["t"]) < LEAST:
@@ -48,7 +49,11 @@ def conventions_that_fit(block: Mapping[str, FloatArray], errors: "Errors", limi
 
 
 def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
-    """Yield (words, quaternions (N, 4)): as given, and rolled by one place to either side, each also conjugate."""
+    """Yield six pairs (words, quaternions (N, 4)), scalar first, of components (N, 4) in an unknown order.
+
+    The components are taken as given, and rolled by one place to either side, each also conjugate; "" are the words
+    of the first.
+    """
     conjugate = np.array([1.0, -1.0, -1.0, -1.0])
     orders = {"": 0, "with the scalar last": 1, "with the scalar first": -1}
     for order, places in orders.items():
@@ -75,7 +80,8 @@ def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: float) -> list[str]:
     """Return [sentence] on the first reading, matrices (N, 3, 3) by words, that equals R up to a constant rotation.
 
-    The first reading is the data as given. Returns [] if these agree, if R hardly changes, and if no reading fits.
+    R are the true matrices (N, 3, 3), `limit` is the largest median error of an entry. The first reading is the data as
+    given. Returns [] if these agree, if R hardly changes, and if no reading fits.
     """
     if not readings or _median_error(next(iter(readings.values())), R) <= limit or _median_error(R, R[0]) < CHANGE:
         return []
@@ -112,5 +118,5 @@ def _of_rates(rates: FloatArray, R: FloatArray, Omega: FloatArray, limit: float)
 
 
 def _median_error(x: FloatArray, y: FloatArray) -> float:
-    """Return the median over the rows of the largest absolute difference in a row."""
+    """Return the median over the rows of x, (N, ...), of the largest absolute difference from y in a row."""
     return float(np.median(np.abs(x - y).reshape(len(x), -1).max(-1)))

@@ -37,12 +37,12 @@ POINTS = 2048
 
 @dataclass(frozen=True)
 class Column:
-    """Grade of one column: median and least number of correct digits, time of the least, and time of the first failure.
+    """Grade of one column: median and least number of correct digits, time of the least, time of the first failure.
 
-    Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
-    The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls. Of a body
-    with three moments errors below the bound on those of its closed form count as that bound. `fails_at` is None for a
-    column that does not fail.
+    Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its
+    length. The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls.
+    Of a body with three moments errors below the bound on those of its closed form count as that bound. `fails_at`
+    is the time of the first row below the threshold, None for a column without one.
     """
 
     name: str
@@ -55,7 +55,8 @@ class Column:
 class Errors:
     """Errors of a trajectory's columns against the true motion; those of Omega are divided by `unit` in rad/time.
 
-    Whole blocks are compared to within `uncertainty`; a single row by balls.
+    Made from the certified `motion` and its fast evaluation `truth`. Whole blocks are compared to within
+    `uncertainty`, a single row by balls; errors below `floor` count as `floor`.
     """
 
     def __init__(self, motion: Any, truth: Truth | KernelTruth, unit: Real) -> None:
@@ -64,10 +65,10 @@ class Errors:
         self.uncertainty, self.floor = truth.uncertainty, truth.floor
 
     def of_block(self, block: Block) -> dict[str, FloatArray]:
-        """Return the magnitudes of the errors, an array (m,) by column, of a block of columns (m,).
+        """Return the magnitudes of the errors, an array (m,) by name of column, of a block of columns (m,) by name.
 
         A quaternion is compared with the true one of the nearer sign. Small errors, and times out of reach of the fast
-        evaluation, are computed by balls.
+        evaluation, are computed by balls; "t" itself has no entry.
         """
         t = block["t"]
         rows = self._truth.within(t)
@@ -89,7 +90,10 @@ class Errors:
         return differences
 
     def true(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return R (m, 3, 3) and Omega (m, 3) at a few times (m,), from balls where nothing faster is accurate."""
+        """Return R (m, 3, 3) and Omega (m, 3) in the body, in rad/time, at a few times (m,).
+
+        They are from balls where the fast evaluation does not reach.
+        """
         rows = self._truth.within(t)
         R, Omega, _ = self._truth.values(np.where(rows, t, 0.0)) if rows.any() else np.zeros((3, t.size, 9))
         R, Omega = R.reshape(-1, 3, 3).astype(np.float64), Omega[:, :3].astype(np.float64)
@@ -131,7 +135,10 @@ class Errors:
 
 
 class Grade:
-    """Summary of a column's errors: counts of rows by thousandths of a digit, worst row, first row that fails."""
+    """Summary of the errors of the column `name`: rows counted by thousandths of a digit, worst row, first failure.
+
+    `threshold` is the number of correct digits below which a row fails; `errors` decides close cases by balls.
+    """
 
     def __init__(self, name: str, threshold: float, errors: Errors) -> None:
         self.name, self._errors, self._limit = name, errors, 10.0**-threshold
@@ -140,7 +147,7 @@ class Grade:
         self._fails_at: float | None = None
 
     def add(self, block: Block, errors: FloatArray) -> None:
-        """Take the errors (m,) of this column in one more block."""
+        """Take one more block of columns (m,) by name, and the errors (m,) of this column in it."""
         t, counted = block["t"], np.maximum(errors, LEAST)
         values, counts = np.unique(np.rint(-1000 * np.log10(counted)).astype(int), return_counts=True)
         self._thousandths.update(dict(zip(values.tolist(), counts.tolist(), strict=True)))
@@ -155,7 +162,7 @@ class Grade:
                     break
 
     def column(self) -> Column:
-        """Return the grade of all rows so far, a `Column`."""
+        """Return the `Column` that grades all rows so far, of which there must be one."""
         values = np.array(sorted(self._thousandths))
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
@@ -168,7 +175,10 @@ class Grade:
 
 
 class Envelope:
-    """Largest error of each group of columns over consecutive rows, so grouped that at most `2 POINTS` remain."""
+    """Largest error of each group of columns over `rows` consecutive rows, so many that at most 2 POINTS values remain.
+
+    The groups are R, Omega and quaternion.
+    """
 
     def __init__(self) -> None:
         self.rows = 1
@@ -194,11 +204,14 @@ class Envelope:
                 self._points_kept, self.rows = _largest(self._points_kept, 2), 2 * self.rows
 
     def times(self) -> list[float]:
-        """Return the first time of each group of rows; [] where nothing is graded."""
+        """Return the first time of each set of consecutive rows; [] where nothing is graded."""
         return list(map(float, self._points()[:, 0])) if self._groups else []
 
     def errors(self) -> dict[str, list[float]]:
-        """Return, by group of columns, the list of largest errors of the groups of rows; {} where nothing is graded."""
+        """Return, by group ("R", "Omega", "quaternion"), the largest errors in each set of consecutive rows.
+
+        {} where nothing is graded.
+        """
         return dict(zip(self._groups, self._points()[:, 1:].T.tolist(), strict=True)) if self._groups else {}
 
     def _points(self) -> FloatArray:
@@ -230,6 +243,9 @@ def _precise(function: Callable[[], Any]) -> Any:
 
 
 def _largest(rows: FloatArray, count: int) -> FloatArray:
-    """Return rows (time, errors...): the first time and the largest errors of each `count` consecutive rows."""
+    """Return rows (time, errors...) with the first time and the largest errors of each `count` consecutive rows.
+
+    `rows` are (count n, columns), the result is (n, columns).
+    """
     blocks = rows.reshape(-1, count, rows.shape[1])
     return np.column_stack([blocks[:, 0, 0], blocks[:, :, 1:].max(axis=1)])

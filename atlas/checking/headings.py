@@ -46,7 +46,8 @@ QUESTIONS = {
 class Heading:
     """Columns of a table by canonical name: indices, names in the file, and factors to s and rad/s.
 
-    `places` has the indices, `written` the names, `sizes` the factors (1 without a unit), `units` the units as written.
+    `places` has the indices of the columns from 0, `written` the names in the file, `sizes` the factors (1 without
+    a unit), `units` the units as written, "" without one.
     """
 
     places: Mapping[str, int]
@@ -58,10 +59,10 @@ class Heading:
 
 
 def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -> Heading:
-    """Return the `Heading` of the cells of a line of names; `extra_names` are further known names.
+    """Return the `Heading` of the cells of a line of names; `extra_names` are further known names, such as "sigma".
 
-    Unknown columns are left out. Raises AtlasError, which names `source`, for a line of numbers, a column given twice,
-    an unknown unit, no column of times, and no other known column.
+    Unknown columns are left out. Raises AtlasError, which names `source`, for a line of numbers, a column given
+    twice, an unknown unit, no column of times, and no other known column.
     """
     titles = [heading(cell) for cell in cells]
     if all(re.fullmatch(r"[+-]?\.?\d.*", name) for name, _ in titles if name):
@@ -97,9 +98,10 @@ def headed(cells: Sequence[str], source: str, extra_names: Sequence[str] = ()) -
 
 
 def _canonical(names: Sequence[str], extra_names: Sequence[str]) -> dict[int, str]:
-    """Return the canonical names, such as "R11" or "q0", of the known columns, by index; unknown ones are left out.
+    """Return the canonical names, such as "R11" or "q0", of the known columns by index; unknown ones are left out.
 
-    `extra_names` are further known names. omega1 to omega3 in a sweep's table are parameters, not columns.
+    `names` are the columns' names in the file, `extra_names` further known ones. omega1 to omega3 in a sweep's
+    table are parameters, not columns.
     """
     bare = [re.sub(r"[\s_.]+", "", name).lower() for name in names]
     by_spelling = _NAMES | {name.lower(): name for name in extra_names}

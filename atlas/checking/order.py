@@ -80,7 +80,7 @@ class Convergence:
         return asdict(self)
 
     def scene(self) -> Scene:
-        """Return a `Scene` of the largest errors against the step, on logarithmic axes."""
+        """Return a `Scene` of the largest errors against the step, both axes logarithmic, a line for each quantity."""
         layers: list[Curve | Points] = []
         for name, errors in self.errors.items():
             points = np.column_stack([self.steps, np.maximum(errors, LEAST)])
@@ -96,7 +96,7 @@ class Convergence:
 
 
 def convergence(checks: Sequence[Any]) -> Convergence:
-    """Return the `Convergence` of two or more runs, each a `Check`, in any order.
+    """Return the `Convergence` of two or more runs of an integrator, each a `Check`, in any order.
 
     Raises AtlasError for fewer than two runs, for equal steps, and for runs whose columns, motions or final times
     differ.
@@ -131,7 +131,10 @@ def convergence(checks: Sequence[Any]) -> Convergence:
 
 
 def _slope(steps: Sequence[float], errors: Sequence[float]) -> float | None:
-    """Return the slope of log(errors) over log(steps) by least squares; None if an error is at most ROUNDING."""
+    """Return the slope of log(errors) over log(steps) by least squares: the order of the method.
+
+    None if an error is at most ROUNDING.
+    """
     if min(errors) <= ROUNDING:
         return None
     return float(np.polyfit(np.log(steps), np.log(errors), 1)[0])

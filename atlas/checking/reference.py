@@ -34,8 +34,9 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 class Reference:
     """Reference of a trajectory: a certified `motion`, None for a body of which only integrals are known.
 
-    `unit`, in rad/time, divides the errors of Omega. `deviations` maps a block of columns to tuples (name, meaning,
-    equation, deviations (m,)) of the conserved quantities. `case` names the type of motion.
+    `case` names the type of motion, `parameters` are its inputs by name as plain numbers and lists. `unit`, in
+    rad/time, divides the errors of Omega. `deviations` maps a block of columns to tuples (name, meaning, equation,
+    deviations (m,)) of the conserved quantities.
     """
 
     case: str
@@ -45,7 +46,10 @@ class Reference:
     unit: Real = 1
 
     def frequencies(self) -> dict[str, str]:
-        """Return omega3, k and phi of an elementary motion as texts by name; {} for other motions."""
+        """Return omega3, k and phi of an elementary motion as texts of 15 certified digits by name.
+
+        {} for other motions.
+        """
         if not isinstance(motion := self.motion, ElementaryMotion):
             return {}
         digits: dict[str, str] = certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15)
@@ -53,10 +57,11 @@ class Reference:
 
 
 def reference(of_file: Mapping[str, tuple[float, ...]], overrides: Given, file: str) -> Reference:
-    """Return the reference of a trajectory; `overrides` come before the parameters `of_file` in its # lines.
+    """Return the `Reference` of a trajectory; `overrides` replace the parameters `of_file` in its # lines.
 
-    Raises AtlasError, with the name of the file, for missing or contradictory parameters, and the errors of
-    the classes of motions for impossible bodies and starts.
+    Both are by name; {"motion": motion} gives the motion itself; None stands for no value. `file` is the name in
+    errors. Raises AtlasError for missing or contradictory parameters, and the errors of the classes of motions for
+    impossible bodies and starts.
     """
     if "motion" in overrides:
         return _in_given_axes(overrides["motion"])
@@ -99,7 +104,8 @@ def _in_given_axes(motion: Any) -> Reference:
 def _any_body(values: Given, start: Given, file: str) -> Reference:
     """Return the `Reference` of three moments or of six elements of a tensor, J11 J22 J33 J12 J13 J23.
 
-    Without a start only conserved quantities are known. Raises AtlasError for omega2 or omega3.
+    `values` are the parameters, `start` has omega (3,) or is empty: then only conserved quantities are known.
+    `file` is the name in errors. Raises AtlasError for omega2 or omega3.
     """
     inertia, B = values["inertia"], np.array(_parameter(values, "field", file), dtype=float)
     a, b, c, ab, ac, bc = (*inertia, 0.0, 0.0, 0.0)[:6]
@@ -131,9 +137,10 @@ def _moments(values: Given, file: str) -> tuple[float, ...]:
 
 
 def _top(values: Given, file: str) -> Reference:
-    """Return the `Reference` of a symmetric top; errors of Omega are in units of its largest rate.
+    """Return the `Reference` of a symmetric top with the parameters `values`; `file` is the name in errors.
 
-    Raises AtlasError for parameters of another body, and for missing ones.
+    Errors of Omega are in units of the top's largest rate. Raises AtlasError for parameters of another body, and
+    for missing ones.
     """
     strange = values.keys() & {"field", "omega2", "omega3", "ratio"}
     if strange or len(values.get("inertia", ())) != 2:
@@ -195,7 +202,7 @@ def _body(values: Given, file: str) -> Any:
 
 
 def _number(value: Any) -> Any:
-    """Return a parameter as a number: the first of a tuple, or the value itself."""
+    """Return a parameter as a number: the first element of a tuple, or any other value unchanged."""
     return value[0] if isinstance(value, tuple) else value
 
 

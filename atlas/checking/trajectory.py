@@ -63,9 +63,10 @@ POLICIES = ("omit", "raise")
 class Trajectory:
     """A trajectory: its file, the names of its columns, its parameters, and an iterator over blocks of rows.
 
-    The keys of `names` are canonical. Each block has an array (m,) for each column, NaN where a number is missing;
-    the blocks can be read once. `left_out` is a sentence on columns that are not used, `units` holds those of the
-    headings.
+    The keys of `names` are canonical ("R11", "q0"), its values the names in the file. `parameters` are tuples of
+    numbers by name. Each block has an array (m,) for each column, NaN where a number is missing; the blocks can be
+    read once. `left_out` is a sentence on columns that are not used, `units` holds those of the headings by
+    canonical name, None for arrays.
     """
 
     file: str
@@ -78,10 +79,10 @@ class Trajectory:
 
 @contextmanager
 def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
-    """Yield the `Trajectory` of a file, open while the context lasts; with `fields` K1 to K3 and sigma are columns too.
+    """Yield the `Trajectory` of a file, open while the context lasts.
 
-    Raises AtlasError, which names the line and the column, for a file that is no trajectory. Reading the blocks raises
-    the same error for a mistake in the rows.
+    With `fields` K1 to K3 and sigma are columns too. Raises AtlasError, which names the line and the column, for a
+    file that is no trajectory. Reading the blocks raises the same error for a mistake in the rows.
     """
     parameters: dict[str, tuple[float, ...]] = {}
     extra_names = (*FIELD, "sigma") if fields else ()
@@ -96,7 +97,10 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
         return
 
     def remark(number: int, text: str, above: bool) -> None:
-        """Read the parameters of a remark. Raises AtlasError for one below the names, and for one given twice."""
+        """Read the parameters of the remark `text` in line `number`; `above` says whether it is above the names.
+
+        Raises AtlasError for a parameter below the names, and for one given twice with other numbers.
+        """
         place = f"{path.name}, line {number}"
         for name, values in _parameters(text, place).items():
             if not above:
@@ -130,10 +134,11 @@ def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str,
 
 
 def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_policy: str = "omit") -> Trajectory:
-    """Return the `Trajectory` of times (N,) and arrays by name; None for an array that is left out.
+    """Return the `Trajectory` of times t (N,) and arrays by name in `quantities`, None for one that is left out.
 
-    The arrays are rotation (N, 3, 3), quaternion (N, 4) and angular_velocity (N, 3). Raises AtlasError for another
-    shape, and for an entry that is no number; with the policy "raise" also for NaN.
+    The arrays are rotation (N, 3, 3), quaternion (N, 4), its scalar first or last, and angular_velocity (N, 3).
+    Raises AtlasError for another shape, for no array, and for an entry that is no number; with the policy "raise"
+    also for NaN.
     """
     times = measured(t, "t", nan_policy)
     if times.ndim != 1 or not times.size:
@@ -157,7 +162,7 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_
 
 
 def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
-    """Return numbers as an array of floats, of any shape; NaN is allowed unless the policy is "raise".
+    """Return numbers as an array of floats of the same shape; NaN is allowed unless `nan_policy` is "raise".
 
     Raises AtlasError for an unknown policy, infinities, and values that are no numbers; `name` names the value.
     """
@@ -173,7 +178,10 @@ def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
 
 
 def whole_rows(block: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], int]:
-    """Return (block of the rows without missing numbers, count of the rows left out)."""
+    """Return (block of the rows without missing numbers, count of the rows left out).
+
+    A block has columns (m,) by name.
+    """
     is_whole = np.all([np.isfinite(x) for x in block.values()], axis=0)
     return {name: x[is_whole] for name, x in block.items()}, int(is_whole.size - is_whole.sum())
 
@@ -189,7 +197,11 @@ def holes_left_out(count: int, rows: int, file: str) -> str:
 
 
 def _blocks(rows: Iterator[tuple[int, list[str]]], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:
-    """Yield blocks of rows, arrays (m,) by column. Raises AtlasError without rows, and for a text that is no number."""
+    """Yield blocks of at most BLOCK rows, arrays (m,) by column, from pairs (line number, cells).
+
+    Times are in s and rates in rad/s where the heading `title` has units. Raises AtlasError, which names `file`,
+    without rows, and for a text that is no number.
+    """
     block = [*islice(rows, BLOCK)]
     if not block:
         raise AtlasError(f"{file} has a line of names, but no rows of numbers: add them.")
@@ -199,7 +211,11 @@ def _blocks(rows: Iterator[tuple[int, list[str]]], title: Heading, file: str) ->
 
 
 def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Iterator[dict[str, FloatArray]]:
-    """Yield blocks of rows, arrays (m,) by column, of columns (N,). Raises AtlasError for a column without numbers."""
+    """Yield blocks of at most BLOCK rows, arrays (m,) by canonical name, of columns (N,) by the names in the file.
+
+    Times are in s and rates in rad/s where the heading `title` has units. Raises AtlasError, which names `file`,
+    for a column without numbers.
+    """
     names = [*columns]
     used = {name: columns[names[i]] for name, i in title.places.items()}
     for name, x in used.items():
@@ -210,7 +226,10 @@ def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Ite
 
 
 def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatArray]:
-    """Return columns by name, times converted to s and rates to rad/s where the heading has a unit."""
+    """Return columns (m,) by canonical name, times converted to s and rates to rad/s where the heading has a unit.
+
+    `columns` stand in the order of `title.places`.
+    """
     sizes = ((name, title.sizes[name]) for name in title.places)
     return {
         name: x * float(size.numerator) / float(size.denominator)
@@ -221,7 +240,8 @@ def _in_units(title: Heading, columns: Iterable[FloatArray]) -> dict[str, FloatA
 def _numbers(rows: Sequence[tuple[int, list[str]]], title: Heading, file: str) -> FloatArray:
     """Return the numbers in the known columns, shape (rows, columns), from pairs (line number, cells).
 
-    Cells are decoded as JSON if possible, else one by one. Raises AtlasError for a cell without a number.
+    Cells are decoded as JSON if possible, else one by one; empty cells are NaN. Raises AtlasError, which names
+    `file`, for a cell with another text.
     """
     places = title.places.items()
     used = itemgetter(*title.places.values())  # t and another, so of tuples

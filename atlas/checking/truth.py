@@ -43,11 +43,14 @@ PHASE = 2.0**-6
 """Fraction of the largest phase, 2^50, up to which two words of a frequency cost less than a quarter of UNCERTAINTY."""
 
 EXTENDED = bool(np.finfo(np.longdouble).eps < 2e-19)
-"""Whether this machine has long doubles with 64 digits or more; without them balls decide everything."""
+"""Whether this machine has long doubles of 64 binary digits or more; without them balls decide everything."""
 
 
 class Truth:
-    """Reference R, Omega and quaternion of an elementary motion, accurate to `uncertainty`."""
+    """Reference R, Omega and quaternion of an elementary motion in long doubles, accurate to `uncertainty`.
+
+    Made from the certified motion. `near` and `floor` are 0 and `in_balls` is True, see `KernelTruth`.
+    """
 
     uncertainty = UNCERTAINTY
     near = floor = 0.0
@@ -61,11 +64,17 @@ class Truth:
         self.n2, self.n3, self.omega2, self.omega3 = map(long, values[2:])
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
-        """Return a mask (m,) of the times at which the reference is accurate to UNCERTAINTY."""
+        """Return a mask (m,) of the times (m,) at which the reference is accurate to UNCERTAINTY.
+
+        All False on a machine whose long doubles have no 64 bits.
+        """
         return np.asarray((np.abs(t) <= PHASE * self._phases.reach) & EXTENDED)
 
     def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
-        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by (84), (73)."""
+        """Return R (m, 9) row by row, Omega (m, 3) and one of the two quaternions (m, 4), scalar first; by (84), (73).
+
+        The times t (m,) must be `within`; Omega is in the body, in rad/time.
+        """
         half, left_out, sign, _ = self._phases.angles(t, room(2, t.size))
         x = half.astype(np.longdouble) + left_out  # half the phase, less whole quarter turns; sign tells their parity
         sines, cosines = np.sin(x), np.cos(x)
@@ -89,8 +98,9 @@ class Truth:
 class KernelTruth:
     """Reference R, Omega and quaternion of a motion by its kernel `single`, accurate to a few units in the last place.
 
-    It holds for |t| <= `reach`. The values are accurate to `uncertainty`; `in_balls` says whether there is a certified
-    counterpart. Errors below `near` are computed in balls; errors below `floor` cannot be distinguished from `floor`.
+    `single` has `rotation(t)` and `angular_velocity(t)`. The values hold for |t| <= `reach` and are accurate to
+    `uncertainty`; `in_balls` says whether there is a certified counterpart. Errors below `near` are computed in
+    balls; errors below `floor` cannot be distinguished from `floor`.
     """
 
     single: Any
@@ -101,11 +111,14 @@ class KernelTruth:
     in_balls: bool = True
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
-        """Return a mask (m,) of the times within `reach`."""
+        """Return a mask (m,) of the times t (m,) with |t| <= `reach`."""
         return np.asarray(np.abs(t) <= self.reach)
 
     def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
-        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`."""
+        """Return R (m, 9) row by row, Omega (m, 3) and one of the two quaternions (m, 4), scalar first.
+
+        The times t (m,) must be `within`; Omega is in the body, in rad/time.
+        """
         from scipy.spatial.transform import Rotation
 
         R, Omega = self.single.rotation(t), self.single.angular_velocity(t)
@@ -136,7 +149,7 @@ def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
 
 
 def long(value: Real) -> np.longdouble:
-    """Return the long double nearest to a number, or inf."""
+    """Return the long double nearest to a number (exact, a double or the middle of a ball), or inf."""
     number = middle(value)
     if number == 0:
         return np.longdouble(0)

@@ -200,9 +200,10 @@ def fit_file(
     sigma: RealArrayLike | None = None,
     **options: Any,
 ) -> Fit:
-    """Return the `Fit` to the data of a CSV file, read by `of_file`; `options` are passed to `fit`.
+    """Return the `Fit` to the data of a CSV file, read by `of_file`; `options` are further arguments of `fit`.
 
-    `kind` names the kind of data, by default the first complete one. `sigma` replaces the file's standard errors.
+    `kind` names the kind of data, such as "axis", by default the first complete one. `sigma` replaces the file's
+    standard errors. Raises AtlasError as `of_file` and `fit` do.
     """
     table = of_file(file, kind)
     result = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)
@@ -213,8 +214,9 @@ def fit_file(
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
     """Return the minima reached from the starts, pairs (chi square, varied parameters (n,)), the lowest first.
 
-    The search ends at a minimum that follows the data, or that is found from two times. With few data of unknown noise
-    all starts are tried, for a wrong motion may follow these. Raises AtlasError if no start leads to a motion.
+    The search ends at a minimum that follows the data, or that is found from two times. With few data of unknown
+    noise all starts are tried, for a wrong motion may follow these. Raises AtlasError if no start leads to a
+    motion.
     """
     minima: list[tuple[float, tuple[float, Any]]] = []
     is_clear = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)

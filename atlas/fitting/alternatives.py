@@ -113,9 +113,9 @@ def _differences(parameters: Parameters, values: Values) -> list[str]:
 def warnings_of(
     parameters: Parameters, equal: list[Alternative], wider: list[tuple[float, Alternative]]
 ) -> Iterator[str]:
-    """Yield a warning if there are equal solutions, and one for each wider family whose fall exceeds `BETTER`.
+    """Yield a warning if there are `equal` solutions, and one for each wider family whose fall exceeds `BETTER`.
 
-    `wider` has pairs (fall of chi square, alternative).
+    `parameters` are those of the fit; `wider` has pairs (fall of chi square, alternative).
     """
     if equal:
         count = f"{len(equal)} other sets of parameters give" if len(equal) > 1 else "Another set of parameters gives"
@@ -134,9 +134,9 @@ def warnings_of(
 
 @dataclass(frozen=True)
 class _Turned:
-    """Motion S R S' for the constant rotations `left` S and `right` S', both (3, 3), at the times of the data only.
+    """Motion S R S' for the constant rotations `left` S and `right` S', both (3, 3), at the first N times of the data.
 
-    `seen` holds the arrays of R (N, 3, 3), or of Omega or the field in the body (N, 3), by name.
+    `seen` holds the arrays of R (N, 3, 3), or of Omega or the field in the body (N, 3), by name of the method.
     """
 
     seen: Mapping[str, FloatArray]
@@ -196,9 +196,10 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
 
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
-    """Yield the parameters with B and omega2 reversed, if that elementary motion has the same axis R e3 at all times t.
+    """Yield the parameters with B and omega2 reversed, if that elementary motion has the same axis R e3 at all times.
 
-    Nothing is yielded otherwise, for other families, and for data other than axes.
+    `motion` is the motion of the parameters `values`. Nothing is yielded otherwise, for other families, and for
+    data other than axes.
     """
     if not problem.model.is_on_hyperbola or problem.data.kind != "axis":
         return
@@ -217,8 +218,9 @@ def _turned_parameters(
 ) -> Iterator[dict[str, float]]:
     """Yield the parameters by name of the motion S R body_turn, for rotations S and body_turn (3, 3).
 
-    Nothing is yielded where the family has no such motion. For tops there are two, with both signs of n. `omega` (3,)
-    is the angular velocity in the body at t = 0.
+    `values` are the parameters of the motion R, `omega` (3,) its angular velocity in the body at t = 0, in
+    rad/time. Nothing is yielded where the family has no such motion. For tops there are two, with both signs of the
+    field's direction n.
     """
     model = problem.model
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
@@ -250,9 +252,10 @@ def _same(problem: Problem, values: Values, others_values: Values) -> bool:
 
 
 def other_minima(problem: Problem, tried: list[tuple[float, Any]], freedom: float) -> list[Alternative]:
-    """Return the minima after the first of `tried`, each once, at most `SHOWN`, as alternatives.
+    """Return the minima after the first of `tried`, each once, at most `SHOWN`, as `Alternative` records.
 
-    `tried` has pairs (chi square, varied parameters), the lowest first. The reduced chi square is chi square/`freedom`.
+    `tried` has pairs (chi square, varied parameters (n,)), the lowest first. The reduced chi square is chi
+    square/`freedom`.
     """
     out: list[Alternative] = []
     for chi, x in tried[1:]:
@@ -269,9 +272,10 @@ def wider_families(
 ) -> list[tuple[float, Alternative]]:
     """Return pairs (fall of chi square, `Alternative`) for the wider families that fit well with other values.
 
-    A fit is good if its reduced chi square is within `BIASED` standard deviations of 1. A value is another one if it
-    differs by more than `BIASED` standard errors. `scale` is the estimated noise over the given sigma. Families without
-    such a motion are skipped, and all of them if parameters are expressions of others.
+    `x` (n,) are the varied parameters of the fit, `parameters` its result. A fit is good if its reduced chi square
+    is within `BIASED` standard deviations of 1. A value is another one if it differs by more than `BIASED` standard
+    errors. `scale` is the estimated noise over the given sigma. Families without such a motion are skipped, and all
+    of them if parameters are expressions of others.
     """
     alternatives = []
     values, chi_square = problem.values(x), problem.chi_square(x)
@@ -297,7 +301,10 @@ def wider_families(
 
 
 def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
-    """Return all values by name at x; for a top also `ratio` = I3 and B = k2 n, the names of a general motion."""
+    """Return all values by name at the varied parameters x (n,).
+
+    For a top also `ratio` = I3 and B = k2 n, the names of a general motion.
+    """
     values = problem.values(x)
     if problem.model.has_direction:
         field = values["k2"] * direction_of(values)
@@ -306,9 +313,10 @@ def _with_field(problem: Problem, x: FloatArray) -> dict[str, float]:
 
 
 def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dict[str, float]:
-    """Return (values - fit)/standard error by name, for free parameters where its magnitude exceeds `least`.
+    """Return (value - fitted value)/standard error by name, where its magnitude exceeds `least`.
 
-    Attitudes, and parameters without a standard error, are left out.
+    `parameters` are those of the fit, `values` others by name. Attitudes, parameters that were not free, and those
+    without a standard error are left out.
     """
     off = {
         name: (values[name] - p.value) / p.stderr
@@ -319,9 +327,10 @@ def biased(parameters: Parameters, values: Values, least: float = BIASED) -> dic
 
 
 def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:
-    """Return the pair (`Problem` of the wider family `model`, varied parameters (n,) of the present motion in it).
+    """Return (`Problem` of the wider family `model`, varied parameters (n,) of the present motion in it).
 
-    Parameters that were not varied stay fixed, and so does the largest component of a top's direction.
+    `values` are the present parameters by name. Parameters that were not varied stay fixed, and so does the largest
+    component of a top's direction.
     """
     parameters = problem.params
     inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}

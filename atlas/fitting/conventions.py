@@ -26,8 +26,8 @@ def other_conventions(
 ) -> Iterator[tuple[str, Problem]]:
     """Yield (sentence, problem) to be tried: a top's direction set free, then rotations read in other conventions.
 
-    A direction is freed only if all of it is held and the data are rotations or axes. `parameters` maps `Data` to the
-    pair (parameters, start values); `quaternions` says that the rotations were given as quaternions.
+    A direction is freed only if all of it is held and the data are rotations or axes. `parameters` maps `Data` to
+    the pair (parameters, start values by name); `quaternions` says that the rotations were given as quaternions.
     """
     data = problem.data
     is_held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
@@ -55,9 +55,10 @@ def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatA
 
 
 def minima_of(problem: Problem) -> Iterator[FloatArray]:
-    """Yield the varied parameters (n,) of the motion reached from each start about the first place of the data.
+    """Yield the varied parameters (n,) of the motion reached from each start about the middle of the data.
 
-    Starts that lead to no motion are skipped.
+    If a parameter of the state is given, fixed or bounded, the starts are about t = 0. Starts that lead to no
+    motion are skipped.
     """
     for centre, near_centre, start, count in tries_about(problem, 0):
         try:

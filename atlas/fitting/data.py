@@ -52,13 +52,16 @@ NEAR = 0.5
 
 @dataclass(frozen=True)
 class Entries:
-    """Signal of the entries R[rows[i], columns[i]], counted from 0; a class, so that a fit of a file can be pickled."""
+    """Signal of the entries R[rows[i], columns[i]], counted from 0.
+
+    A class, not a function, so that a fit of a file can be pickled.
+    """
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
 
     def __call__(self, R: FloatArray) -> FloatArray:
-        """Return the entries (N, k) of rotations (N, 3, 3)."""
+        """Return the k entries, shape (N, k), of rotations R (N, 3, 3)."""
         return R[:, self.rows, self.columns]
 
 
@@ -66,7 +69,8 @@ class Entries:
 class Data:
     """Data `values` (N, ...) of one `kind` at times `t` (N,), ascending, with standard errors `sigma` (N, 1).
 
-    `kind` is a key of `KINDS`, or "signal", of which `function` maps rotations (M, 3, 3) to values.
+    `kind` is a key of `KINDS`, but never "quaternion", or "signal", of which `function` maps rotations (M, 3, 3) to
+    values (M,) or (M, k). Standard errors of rotations and axes are in rad, else in the unit of the values.
     """
 
     kind: str
@@ -80,18 +84,22 @@ class Data:
     """Sentences on rows and columns that were left out."""
 
     def part(self, places: Any) -> "Data":
-        """Return the `Data` at these indices, or this slice, of the times."""
+        """Return the `Data` at these times: `places` is an index array or a slice."""
         return replace(self, t=self.t[places], values=self.values[places], sigma=self.sigma[places])
 
     @property
     def spread(self) -> float:
-        """Scale of variation: 1 for rotations and axes, else the largest standard deviation of a component."""
+        """Scale of variation: 1 for rotations and axes, else the largest standard deviation of a component.
+
+        It is 1 also for data that do not vary.
+        """
         return 1.0 if self.kind in ("rotation", "axis") else float(self.values.std(0).max()) or 1.0
 
     def of(self, motion: Any, t: FloatArray) -> FloatArray:
-        """Return the noise-free data of a motion at times t, shape (N, ...); for an axis all of R, (N, 3, 3).
+        """Return the noise-free data of a motion at times t (N,), shape (N, ...); for an axis all of R, (N, 3, 3).
 
-        Of a `Flow` of S motions the shape is (S, N, ...).
+        Of a `Flow` of S motions the shape is (S, N, ...). Raises AtlasError for a function of a signal that returns
+        another count of numbers than of rotations.
         """
         if self.kind == "angular_velocity":
             return np.asarray(motion.angular_velocity(t))
@@ -137,7 +145,8 @@ class Data:
         """Return the derivatives of the measured quantity in P parameters, shape (N, k, P): minus those of differences.
 
         `v` (N, P, 3) has dR/dp = [v]x R; for angular velocities dv/dt is given instead. `fields` (P, 3) are the
-        derivatives of the `field` (3,) in the laboratory. `differences` (N, 3) are used for rotations only.
+        derivatives of the `field` (3,) in the laboratory. `differences` (N, 3), from the method of this name, are
+        used for rotations only.
         """
         if self.kind == "rotation":
             # log(D exp(-[v]x)) is log(D) minus the inverse of the transposed Jacobian times v
@@ -164,7 +173,10 @@ class Data:
 
 
 def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
-    """Return the rotation vectors (..., 3), in the laboratory and in rad, from `origins` to `rotations` (..., 3, 3)."""
+    """Return the rotation vectors (..., 3), in rad, that turn `origins` into `rotations`, both (..., 3, 3).
+
+    They are along the axes of the laboratory, of angles up to pi.
+    """
     turn = rotations @ origins.swapaxes(-1, -2)
     skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
     sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
@@ -179,7 +191,7 @@ def difference(rotations: FloatArray, origins: FloatArray) -> FloatArray:
 
 
 def left_jacobian(a: FloatArray) -> FloatArray:
-    """Return the matrices J (..., 3, 3) with R(a + da) = (1 + [J da]x) R(a), for rotation vectors a (..., 3)."""
+    """Return the matrices J (..., 3, 3) with R(a + da) = (1 + [J da]x) R(a), for rotation vectors a (..., 3) in rad."""
     angle = np.linalg.norm(a, axis=-1)[..., None, None]
     hat = np.cross(np.eye(3), a[..., None, :])
     is_small = angle < SERIES
@@ -190,10 +202,12 @@ def left_jacobian(a: FloatArray) -> FloatArray:
 def of_arrays(
     t: Any, data: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool, nan_policy: str = "omit"
 ) -> Data:
-    """Return the `Data` of the one array in `data` that is not None, sorted by time, with t = 0 at `epoch`.
+    """Return the `Data` of the one array in `data`, by kind, that is not None, sorted by time, with t = 0 at `epoch`.
 
-    Quaternions become rotation matrices. Times with NaN are left out or refused by `nan_policy`. Raises AtlasError for
-    no array or several, a wrong shape, fewer than `LEAST` times, equal times, and data far from `epoch`.
+    `t` (N,) are the times, `sigma` standard errors, a number or (N,), None for unknown ones, which become 1.
+    Quaternions, scalar first or last, become rotation matrices. Times with NaN are left out or refused by
+    `nan_policy`. Raises AtlasError for no array or several, a wrong shape, fewer than `LEAST` times, equal times,
+    and data far from `epoch`.
     """
     kinds = [name for name, x in data.items() if x is not None]
     if len(kinds) != 1:
@@ -229,7 +243,8 @@ def of_arrays(
 def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
     """Return (values (N, ...), function of a signal or None) of the measured ``value`` of a ``kind``.
 
-    Raises AtlasError for another shape than N ``times`` ask for, and for a signal that is no pair (values, function).
+    Values of a signal get the shape (N, k). Raises AtlasError for another shape than N ``times`` ask for, and for a
+    signal that is no pair (values, function).
     """
     if kind != "signal":
         values, shape = measured(value, f"The {kind}", nan_policy), (times.size, *KINDS[kind])
@@ -250,9 +265,9 @@ def _values(kind: str, value: Any, times: FloatArray, nan_policy: str) -> tuple[
 def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.int_]) -> FloatArray:
     """Return the data of a kind made exact: rotation matrices (N, 3, 3), axes of length 1; other kinds unchanged.
 
-    Matrices become the nearest rotations, quaternions (scalar first if `scalar_first`) rotation matrices. `rows` are
-    the numbers of the data's rows for the error. Raises AtlasError for a matrix or a length farther than `NEAR` from a
-    rotation or from 1.
+    Matrices become the nearest rotations, quaternions (scalar first if `scalar_first`) rotation matrices. `rows`
+    (N,) are the numbers of the data's rows, for the error. Raises AtlasError for a matrix or a length farther than
+    `NEAR` from a rotation or from 1.
     """
     if kind == "rotation":
         U, size, V = np.linalg.svd(values)
@@ -279,7 +294,7 @@ def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.in
 class Table:
     """Columns of a file: times (N,), data as keyword arguments of `fit`, `sigma` (a number, an array (N,) or None).
 
-    `unit` is "s" or "time"; `left_out` is a sentence on unused columns, or "".
+    `unit` is that of the times, "s" or "time"; `left_out` is a sentence on unused columns, or "".
     """
 
     t: FloatArray

@@ -35,9 +35,9 @@ HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, 
 class Flow:
     """S motions from their states at t = 0, integrated together by Taylor series.
 
-    `moments` (in units of I2), `coupling` (the moments for a body in a field), `field` in the laboratory (1/time)
-    and `omega` in the body (rad/time) have the shape (S, 3), `attitude` R(0) (S, 3, 3); `error` is the allowed last
-    term of the series of an entry of R in a step.
+    `moments` (in units of I2), `coupling` (in units of I2; the moments themselves for a body in a field), `field`
+    in the laboratory (1/time; the unit vector n for a top) and `omega` in the body (rad/time) have the shape (S,
+    3), `attitude` R(0) (S, 3, 3); `error` is the allowed last term of the series of an entry of R in a step.
     """
 
     moments: FloatArray
@@ -57,8 +57,8 @@ class Flow:
     def at(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return R (S, N, 3, 3) and Omega in the body (S, N, 3) at times (N,), NaN beyond the limit of steps.
 
-        The fastest 5 % of the motions are too fast for the common step: their values are wrong, not NaN.
-        Times before t = 0 are computed together with the later ones, as motions with time reversed.
+        The fastest 5 % of the motions are too fast for the common step: their values are wrong, not NaN. Times
+        before t = 0 are computed together with the later ones, as motions with time reversed. Omega is in rad/time.
         """
         signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], self.order, abs(t).max(initial=0.0)
         S, sides = len(self.omega), len(signs)
@@ -111,9 +111,9 @@ class Flow:
         return self.at(t)[0]
 
     def angular_velocity(self, t: FloatArray) -> FloatArray:
-        """Return Omega in the body (S, N, 3) at times (N,), as `at` does."""
+        """Return Omega in the body (S, N, 3), in rad/time, at times (N,), NaN and wrong values as in `at`."""
         return self.at(t)[1]
 
     def field_in_body(self, t: FloatArray) -> FloatArray:
-        """Return the field in the body (S, N, 3) at times (N,), as `at` does."""
+        """Return the field in the body (S, N, 3), in the unit of `field`, at times (N,), NaN and wrong as in `at`."""
         return np.asarray(np.vecmat(self.field[:, None], self.at(t)[0]))

@@ -34,9 +34,10 @@ TURNING = 0.3
 def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
     """Return (minima, sentence on the free body that was put first, or "").
 
-    Minima are pairs (chi square, varied parameters (n,)). The minimum of a free body comes first if chi square rises by
-    less than `BEYOND` times the noise without a field. The minima are unchanged where the field is not varied, where
-    the angular momentum changes, and where no free body has the motion.
+    The minima `tried`, and those returned, are pairs (chi square, varied parameters (n,)). The minimum of a free
+    body comes first if chi square rises by less than `BEYOND` times the noise without a field. The minima are
+    unchanged where the field is not varied, where the angular momentum changes, and where no free body has the
+    motion.
     """
     if not set(B) <= set(problem.names):
         return tried, ""
@@ -71,8 +72,8 @@ def with_free_body(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[li
 def _moments(R: FloatArray, omega: FloatArray, inertia: FloatArray) -> tuple[FloatArray, float]:
     """Return the moments (3,) for which R I Omega is as constant as possible, and the relative change of R I Omega.
 
-    The moments are a least-squares solution over rotations (N, 3, 3) and angular velocities (N, 3) in the body.
-    Combinations of moments that these leave open stay near `inertia` (3,).
+    The moments are a least-squares solution over rotations R (N, 3, 3) and angular velocities `omega` (N, 3) in the
+    body. Combinations of moments that these leave open stay near `inertia` (3,), which gives their unit.
     """
     momenta = R * omega[:, None] / np.linalg.norm(omega, axis=1).max()  # one column for each moment
     change = (momenta - momenta.mean(0)).reshape(-1, 3)

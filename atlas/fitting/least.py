@@ -43,10 +43,11 @@ PROBE = 0.1
 
 
 class Crowd:
-    """M motions of one problem, refined together by least squares on some of the data: `X` (M, n) are the parameters.
+    """M motions of one problem, refined together by least squares on some of the data.
 
-    `costs` (M,) are the sums of the loss function, `damping` (M,) the damping factors of Levenberg and Marquardt's
-    steps.
+    `X` (M, n) are the varied parameters, moved inside the bounds at the start. `costs` (M,) are the sums of the
+    loss function of the squared residuals, infinite before `refine`; `damping` (M,) are the damping factors of
+    Levenberg and Marquardt.
     """
 
     def __init__(self, problem: Any, X: FloatArray) -> None:
@@ -79,9 +80,9 @@ class Crowd:
         return np.asarray(self.problem.inner(X))
 
     def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
-        """Return residuals (M, N k) and their derivatives (M, n, N k) in the coordinates of `_straight`.
+        """Return residuals (M, N k) and their derivatives (M, n, N k) of motions X (M, n), k numbers at N times.
 
-        `places` are the indices of the N data, or a slice.
+        The derivatives are in the coordinates of `_straight`. `places` are the indices of the data, or a slice.
         """
         r, J = self.problem.turned(X, places)
         if self.spin is not None:
@@ -100,10 +101,11 @@ class Crowd:
         return np.asarray(RHO[self.problem.loss](r * r).sum(-1))
 
     def refine(self, places: Any, rounds: int, decrement: float = 0.0) -> None:
-        """Make at most `rounds` steps on the data at the indices `places`; update X, costs and damping.
+        """Make at most `rounds` steps on the data at the indices `places`; update `X`, `costs` and `damping`.
 
-        If `decrement` is not zero the steps end when each motion's cost falls by less than this fraction per number,
-        when its damping exceeds 1000, or when its residuals are rounding.
+        A step that raises the cost is not taken. If `decrement` is not zero the steps end when each motion's cost
+        falls by less than this fraction per number, when its damping exceeds 1000, or when its residuals are
+        rounding.
         """
         problem = self.problem
         r, J = self._slopes(self.X, places)
@@ -140,7 +142,8 @@ class Crowd:
     def drop(self, count: int, largest: float = np.inf) -> None:
         """Keep at most `count` motions, by ascending cost; after the best, only those whose cost is at most `largest`.
 
-        Motions whose parameters differ by less than `EQUAL` natural units count as equal, and one of them is kept.
+        Of motions whose parameters differ by less than `EQUAL` natural units one is kept. `X`, `costs` and
+        `damping` shrink.
         """
         best: list[int] = []
         for i in np.argsort(self.costs, kind="stable"):

@@ -28,12 +28,15 @@ IN_BODY = ("angular_velocity", "field_in_body")
 
 
 def vector(p: Values, names: Sequence[str]) -> FloatArray:
-    """Return the parameters of these names as an array, zero for a missing name."""
+    """Return the parameters `names` from p as an array (len(names),), 0 for a missing name."""
     return np.array([p.get(name, 0.0) for name in names])
 
 
 def attitude(p: Values) -> FloatArray:
-    """Return the rotation matrix R (3, 3) at t = 0, from the rotation vector a; a missing component is 0."""
+    """Return the rotation matrix R (3, 3) at t = 0, from the rotation vector (a1, a2, a3) in rad.
+
+    A missing one is 0.
+    """
     return np.asarray(Rotation.from_rotvec(vector(p, ATTITUDE)).as_matrix())
 
 
@@ -43,14 +46,18 @@ def _general(p: Values) -> Any:
 
 
 def _elementary(p: Values) -> Any:
-    """Return the `ElementaryMotion` of parameters by name; omega2 is along the part of the field across e3."""
+    """Return the `ElementaryMotion` of the parameters ratio, B1 to B3, omega2 and a1 to a3 by name.
+
+    omega2 is the component of Omega along the part of the field across e3.
+    """
     return ElementaryMotion.in_laboratory(p["ratio"], vector(p, B), attitude(p), omega2=p["omega2"])
 
 
 def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
-    """Return Omega (3, ...) of elementary motions on the hyperbola (67), from the ratio r, K (3, ...) and w.
+    """Return Omega (3, ...) in the body of elementary motions on the hyperbola (67), from the ratio r = I3/I2, K and w.
 
-    K is the field in the body, w = omega2 the component of Omega along the part of K across e3.
+    K (3, ...) is the field in the body, w = omega2 the component of Omega along the part of K across e3. Not finite
+    where K is along e3, or w is minus its part across.
     """
     K_across = np.sqrt(K[0] * K[0] + K[1] * K[1])
     omega3 = K[2] * w * (w + (2 - r) * K_across) / (r * K_across * (K_across + w))
@@ -60,7 +67,8 @@ def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
 def _started(p: Values) -> dict[str, FloatArray]:
     """Return the derivatives (3,) of Omega in the body at t = 0 of an elementary motion, by name of the parameter.
 
-    Raises AtlasError where the derivatives are infinite, on a vertical line of the hyperbola.
+    `p` are its parameters by name. Raises AtlasError where the derivatives are infinite, on a vertical line of the
+    hyperbola.
     """
     A, field, h = attitude(p), vector(p, B), 1e-30
     x = np.array([p["ratio"], *(A.T @ field), p["omega2"]])
@@ -79,7 +87,10 @@ def _started(p: Values) -> dict[str, FloatArray]:
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
-    """Return the length of the part across e3 of a field K (3,), and the rotation (3, 3) about e3 taking it to e2."""
+    """Return the length of the part across e3 of a field K (3,), and the rotation (3, 3) about e3 that takes it to e2.
+
+    The rotation is 1 where K is along e3.
+    """
     size = float(np.hypot(K[0], K[1]))
     c, s = (K[1] / size, K[0] / size) if size else (1.0, 0.0)
     return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
@@ -94,9 +105,9 @@ def _top(p: Values) -> Any:
 
 
 def direction_of(p: Values) -> FloatArray:
-    """Return the direction n (3,) of a top's field from the parameters n1, n2, n3, scaled to length 1.
+    """Return the direction n (3,) of a top's field, of length 1, from the parameters n1, n2, n3 by name.
 
-    It is zero where all three are.
+    It is zero where all three are zero or missing.
     """
     n = vector(p, DIRECTION)
     return np.asarray(n / (np.linalg.norm(n) or 1.0))
@@ -113,10 +124,10 @@ def _asymmetric(p: Values) -> Any:
 
 
 def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
-    """Return the `Flow` of S motions from parameters by name, each a number or an array (S,).
+    """Return the `Flow` of S motions of the family `model` from parameters by name, each a number or an array (S,).
 
-    `error` is the allowed error of a step. Omega is NaN where the moments are those of no body, or where there is no
-    elliptic motion.
+    `error` is the allowed error of a step. Omega is NaN where the moments are those of no body, or where there is
+    no elliptic motion.
     """
     size = max(np.size(x) for x in p.values())
     parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
@@ -148,7 +159,7 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 class Model:
     """A family in a fit: its parameters' `names`, the function `make` from values by name to a motion.
 
-    `fixed` are the values at which parameters are held by default.
+    `name` is the family's name; `fixed` are the values by name at which parameters are held by default.
     """
 
     name: str
@@ -182,11 +193,12 @@ class Model:
     def vectors(
         self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any, *, certified: bool = True
     ) -> FloatArray:
-        """Return the vectors v (N, P, 3) with dR/dp = [v]x R, of the P named parameters at times t (N,).
+        """Return the vectors v (N, P, 3) with dR/dp = [v]x R, of the P parameters `names` at times t (N,).
 
-        They are exact, by `Motion.sensitivity`, or central differences of R for families without exact derivatives, and
-        where `sensitivity` raises an error, as on a separatrix; unless `certified`, also where only balls have eight
-        digits. `units` has the natural unit of each parameter.
+        `p` are the parameters of `motion` by name. The vectors are exact, by `Motion.sensitivity`, or central
+        differences of R for families without exact derivatives, and where `sensitivity` raises an error, as on a
+        separatrix; unless `certified`, also where only balls have eight digits. `units` has the natural unit of
+        each parameter.
         """
         if self.exact:
             with suppress(AtlasError, ZeroDivisionError):
@@ -227,7 +239,7 @@ class Model:
         return inputs, chain
 
     def _near_motion(self, p: Values, name: str, step: float) -> tuple[Any, float]:
-        """Return (motion at a parameter changed by `step`, step); (motion at p, 0.0) where there is none."""
+        """Return (motion with the parameter `name` changed by `step`, step); (motion of p, 0.0) where there is none."""
         try:
             return self.make({**p, name: p[name] + step}), step
         except AtlasError:
@@ -267,14 +279,17 @@ def model_of(family: Any) -> Model:
 
 
 def field_of(model: Model, p: Values) -> FloatArray:
-    """Return the field B, or a top's direction n, in the laboratory, shape (3,): `field_in_body` is this vector."""
+    """Return the field B in 1/time, or a top's direction n, in the laboratory, shape (3,).
+
+    The data `field_in_body` are this vector along the axes of the body.
+    """
     return direction_of(p) if model.has_direction else vector(p, B)
 
 
 def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
-    """Return the parameters p by name, with R (3, 3) and Omega in the body (3,) as the state at t = 0.
+    """Return the parameters p by name, with R (3, 3) and Omega in the body (3,), in rad/time, as the state at t = 0.
 
-    Attitude parameters that data of this kind do not determine get their conventional values; field and Omega are
+    Attitude parameters that data of the `kind` do not determine get their conventional values; field and Omega are
     changed so that the data stay the same. For elementary motions `omega2` is set from Omega.
     """
     field = vector(p, B)
@@ -308,13 +323,19 @@ def _named(names: Sequence[str], v: FloatArray) -> dict[str, float]:
 
 
 def units_of(model: Model, rate: float) -> dict[str, float]:
-    """Return the natural unit of each parameter by name: `rate` for rates, its square for potentials, else 1."""
+    """Return the natural unit of each of the model's parameters by name: `rate` for rates and fields, in rad/time.
+
+    The unit is `rate` squared for potentials, 1 for all other parameters.
+    """
     sizes = {**dict.fromkeys((*B, *OMEGA, "k2", "k3"), rate), "linear": rate * rate, "quadratic": rate * rate}
     return {name: sizes.get(name, 1.0) for name in model.names}
 
 
 def unseen(model: Model, kind: str) -> dict[str, float]:
-    """Return the parameters of the attitude that data of this kind do not determine, each with the value 0, by name."""
+    """Return the attitude parameters that data of this `kind` do not determine, each with the value 0, by name.
+
+    {} where the data determine all three.
+    """
     if kind in IN_BODY:
         return {"a3": 0.0} if model.has_direction else dict.fromkeys(ATTITUDE, 0.0)
     return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

@@ -71,10 +71,11 @@ def with_small_nutations(
 ) -> tuple[list[tuple[float, Any]], str, str]:
     """Return (minima, sentence on undetermined parameters or "", sentence on a second body or "").
 
-    Minima are pairs (chi square, varied parameters), the lowest first. Small nutations about an elementary motion are
-    sought, and added to the minima. If the best nutation lowers chi square by no more than noise does, some 2 log N for
-    N frequencies, the elementary motion is put first. The minima are returned unchanged for a nutation that is not
-    small, without a field, and where no elementary motion is near.
+    Minima are pairs (chi square, varied parameters (n,)), the lowest first, as those of `tried`; `is_followed` says
+    whether the first follows the data. Small nutations about an elementary motion are sought, and added to the
+    minima. If the best nutation lowers chi square by no more than noise does, some 2 log N for N frequencies, the
+    elementary motion is put first. The minima are returned unchanged for a nutation that is not small, without a
+    field, and where no elementary motion is near.
     """
     (_, x), data = tried[0], problem.data
     motion, values = problem.motion(x)
@@ -110,11 +111,12 @@ def with_small_nutations(
 
 
 def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
-    """Return the minima, pairs (chi square, varied parameters); one of a body of ratio 1 may be put before them.
+    """Return the minima `tried`, pairs (chi square, varied parameters (n,)), a body of ratio 1 first if it fits.
 
-    It is put first for data of axes whose fitted ratio is below `SMALL`, if chi square rises by less than `LEVEL` times
-    the noise. The axis determines M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios omega3 has no upper
-    limit, and derivatives at one point do not show how much the field changes with the ratio.
+    That is done for data of axes whose fitted ratio is below `SMALL`, if chi square rises by less than `LEVEL`
+    times the noise. The axis determines M3 = I3 (Omega3 + K3), the momentum along it, and hardly the ratio. At
+    small ratios omega3 has no upper limit, and derivatives at one point do not show how much the field changes with
+    the ratio.
     """
     best, x = tried[0]
     values, ratio = problem.values(x), problem.params["ratio"]
@@ -138,9 +140,9 @@ def with_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tup
 def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
     """Return (problem of elementary motions, its varied parameters (n,) at the minimum nearest to `motion`).
 
-    The given motion hardly nutates. The start has its mean rates of precession and spin, and the mean of its attitudes
-    with both rotations undone. For data of axes a second start is the circle through the data. Raises AtlasError on a
-    separatrix.
+    The given motion, of the parameters `values`, hardly nutates. The start has its mean rates of precession and
+    spin, and the mean of its attitudes with both rotations undone. For data of axes a second start is the circle
+    through the data. Raises AtlasError on a separatrix.
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
     params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
@@ -171,7 +173,8 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
 def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
     """Return (normal (3,) of the circle through axes (N, 3), rate on the circle in rad/time, attitude at t = 0).
 
-    The attitude, a SciPy `Rotation`, is the one of the smallest angle from e3 to the point of the circle at t = 0.
+    `t` (N,) are the times. The attitude, a SciPy `Rotation`, is the one of the smallest angle from e3 to the point
+    of the circle at t = 0.
     """
     n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
     e1 = np.cross(np.cross(n, axes[0]), n)
@@ -184,7 +187,10 @@ def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotatio
 
 
 def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> str:
-    """Return a sentence on the first other minimum of another ratio I3/I2 with nearly the same chi square, or ""."""
+    """Return a sentence on the first other minimum of another ratio I3/I2 with nearly the same chi square, or "".
+
+    `tried` has pairs (chi square, varied parameters (n,)), the lowest first; `scale` is the unit of chi square.
+    """
     best = problem.values(tried[0][1])["ratio"]
     for chi, x in tried[1:]:
         values = problem.values(x)
@@ -197,7 +203,10 @@ def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> st
 
 
 def _nutation(problem: Problem, x: FloatArray) -> float:
-    """Return the standard deviation, over the data's times, of the cosine between axis and field at parameters x."""
+    """Return the standard deviation, over the data's times, of the cosine between axis and field.
+
+    `x` (n,) are the motion's varied parameters.
+    """
     motion, values = problem.motion(x)
     return float((np.asarray(motion.column(3, problem.data.t)) @ vector(values, B)).std() / values["b"])
 
@@ -219,16 +228,17 @@ class _Modes(NamedTuple):
     spin: FloatArray
 
     def part(self, places: Any) -> "_Modes":
-        """Return the `_Modes` at these indices."""
+        """Return the `_Modes` at these indices (an array, a list or a slice)."""
         return _Modes(*(x[places] for x in self))
 
 
 class _Steady:
     """An elementary motion at t = 0, from which its small nutations follow.
 
-    `axis` is the field's unit vector in the laboratory, `omega` the angular velocity along the body's axes; `cosine`
-    and `sine` are those of the angle theta between axis and field; `rate` is the rate of precession about the field,
-    in rad/time, not finite where the sine is zero. `values` are all parameters by name, "b" among them.
+    Made from the `motion` and all its parameters `values` by name, "b" among them. `R` is the attitude (3, 3),
+    `axis` the field's unit vector (3,) in the laboratory, `omega` the angular velocity (3,) along the body's axes;
+    `cosine` and `sine` are those of the angle theta between axis and field; `rate` is the rate of precession about
+    the field, in rad/time, not finite where the sine is zero.
     """
 
     def __init__(self, motion: Any, values: Values) -> None:
@@ -239,9 +249,10 @@ class _Steady:
         self.rate = (K[:2] @ self.omega[:2]) / self.sine**2
 
     def modes(self, ratio: FloatArray, omega3: FloatArray | None = None) -> _Modes:
-        """Return the `_Modes` of small nutations, of bodies of the ratios (M,), with spins omega3 (M,) if given.
+        """Return the `_Modes` of small nutations, of bodies of the ratios I3/I2 (M,), with spins omega3 (M,).
 
-        Without `omega3` the spin is that of the elementary motion. The frequency is NaN where the motion is unstable.
+        Spins are in rad/time; without `omega3` the spin is that of the elementary motion. The frequency is NaN
+        where the motion is unstable.
         """
         r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
         k, u, s = self.rate, self.cosine, self.sine
@@ -253,9 +264,10 @@ class _Steady:
         return _Modes(r, w, b, frequency, precession, b * s - u * precession + s * k)
 
     def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
-        """Return the rotation vectors v (N, 2 M, 3), in the laboratory, of nutations of 1 rad at times t (N,).
+        """Return the rotation vectors v (N, 2 M, 3), in the laboratory, of M nutations of 1 rad at times t (N,).
 
-        First the M nutations that begin as cos(nu t), then the M that begin as sin(nu t).
+        First come the M nutations of `modes` that begin as cos(nu t), then the M that begin as sin(nu t), nu the
+        frequency.
         """
         e3 = np.asarray(self.motion.column(3, t))
         n = np.cross(self.axis, e3) / self.sine
@@ -265,9 +277,10 @@ class _Steady:
         return np.concatenate([c * n[:, None] + s * pace, s * n[:, None] - c * pace], 1)
 
     def beside(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
-        """Return the parameters by name of the elementary motion plus one small nutation `mode`.
+        """Return the parameters by name of the elementary motion plus one small nutation, a `mode` of arrays (1,).
 
-        `size` (2,) are the amplitudes of the parts that begin as cos(nu t) and sin(nu t).
+        `size` (2,) are the amplitudes, in rad, of the parts that begin as cos(nu t) and sin(nu t); `problem` gives
+        the model and the kind of data.
         """
         h = 1e-4 / problem.rate
         back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
@@ -282,9 +295,9 @@ class _Steady:
 def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> tuple[int, list[tuple[float, Values]]]:
     """Return (count of nutations tried, list of the best), the best as pairs (expected fall of chi square, parameters).
 
-    `motion` is an elementary motion with the parameters `values`, and `J` (N k, n) are the derivatives of the residuals
-    in its parameters. The count is 0 and the list empty for data of the field in the body, for an axis along the field,
-    and where no frequency is below the limit.
+    `motion` is an elementary motion with the parameters `values` by name, and `J` (N k, n) are the derivatives of
+    the residuals in its parameters. The count is 0 and the list empty for data of the field in the body, for an
+    axis along the field, and where no frequency is below the limit.
     """
     data = problem.data
     steady, span = _Steady(motion, values), float(np.ptp(data.t))
@@ -311,10 +324,10 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
 
 
 def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
-    """Return a list of one `_Modes` with nutations below the frequency `fastest` in rad/time; empty if there are none.
+    """Return a list of one `_Modes` with those of `modes` below the frequency `fastest` in rad/time.
 
-    Neighbours differ in phase by `PHASE_STEP` over the time `span`, or by more where there would be over
-    `MAX_NUTATIONS`.
+    [] if there are none. Neighbours differ in phase by `PHASE_STEP` over the time `span`, or by more where there
+    would be over `MAX_NUTATIONS`.
     """
     places = np.flatnonzero(modes.frequency < fastest)  # no nan
     if not places.size:
@@ -327,10 +340,11 @@ def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
 def _periodogram(
     problem: Problem, steady: _Steady, modes: _Modes, x: FloatArray, J: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the expected fall of chi square for each nutation (M,), and its amplitudes of cosine and sine (M, 2).
+    """Return the expected fall of chi square for each nutation (M,), and its amplitudes (M, 2) in rad.
 
-    `x` are the parameters of the elementary motion, `J` (N k, n) the derivatives of the residuals, whose span is
-    projected out of residuals and nutations.
+    The amplitudes are those of the parts that begin as cosine and sine. `steady` is the elementary motion, `modes`
+    are the M nutations, `x` (n,) the parameters of the elementary motion, `J` (N k, n) the derivatives of the
+    residuals, whose span is projected out of residuals and nutations.
     """
     data, M = problem.data, modes.ratio.size
     r = problem.residuals(x)

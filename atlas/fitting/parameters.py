@@ -36,12 +36,12 @@ class Parameter:
 
     @property
     def free(self) -> bool:
-        """Whether the fit varies the parameter itself."""
+        """Whether the fit varies the parameter itself: `vary` is True and there is no expression."""
         return self.vary and self.expr is None
 
 
 class Parameters(Mapping[str, Parameter]):
-    """Parameters of one fit by name."""
+    """Parameters of one fit: an immutable mapping from names to `Parameter`, in the family's order."""
 
     def __init__(self, parameters: Mapping[str, Parameter]) -> None:
         self._by_name = dict(parameters)
@@ -60,13 +60,14 @@ class Parameters(Mapping[str, Parameter]):
         return self.__dict__ | {"_lmfit": None}
 
     def changed(self, **parameters: Mapping[str, Any]) -> "Parameters":
-        """Return a copy with new attributes for the named parameters."""
+        """Return a copy with new attributes for the named parameters, as ``changed(ratio={"vary": False})``."""
         return Parameters(self._by_name | {name: replace(self[name], **new) for name, new in parameters.items()})
 
     def values_with(self, free_values: Values) -> dict[str, float]:
-        """Return the values of all parameters by name: from `free_values`, else the present value.
+        """Return the values of all parameters by name: from `free_values` by name, else the present value.
 
-        Expressions are evaluated. Raises AtlasError for an expression that has no value.
+        Expressions are evaluated, by lmfit except for the length `b`. Raises AtlasError for an expression that has
+        no value.
         """
         values = {name: free_values.get(name, p.value) for name, p in self.items()}
         tied = [name for name, p in self.items() if p.expr]
@@ -83,7 +84,10 @@ class Parameters(Mapping[str, Parameter]):
         return dict(self._lmfit.valuesdict())
 
     def to_lmfit(self) -> Any:
-        """Return `lmfit.Parameters`. Raises AtlasError for an expression that has no value."""
+        """Return an `lmfit.Parameters` object with the same names, values, bounds, expressions and errors.
+
+        Raises AtlasError for an expression that has no value.
+        """
         import lmfit
 
         parameters = lmfit.Parameters()
@@ -101,10 +105,11 @@ class Parameters(Mapping[str, Parameter]):
 
 
 def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tuple[Parameters, dict[str, float]]:
-    """Return the parameters of a family changed by `params` and `fix`, and the given start values of varied ones.
+    """Return (parameters of a family changed by `params` and `fix`, given start values by name of those that vary).
 
-    Raises AtlasError for an unknown name or attribute, a name in both `params` and `fix`, a fixed parameter without a
-    value, an attribute that is no number, and a fixed value outside its bounds.
+    `params` and `fix` are those of `atlas.fit`, or None; parameters that `data` do not determine are held at 0.
+    Raises AtlasError for an unknown name or attribute, a name in both `params` and `fix`, a fixed parameter without
+    a value, an attribute that is no number, and a fixed value outside its bounds.
     """
     user_attributes = _user_attributes(params) | _user_attributes(fix, is_fix=True)
     if twice := sorted({*(params or ())} & {*(fix or ())}):
@@ -134,9 +139,10 @@ def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tup
 
 
 def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str, Any]]:
-    """Return the attributes (value, vary, min, max, expr) that a user gave, by name of the parameter.
+    """Return the attributes (value, vary, min, max, expr) that a user gave in `params`, by name of the parameter.
 
-    Raises AtlasError for no mapping, an unknown attribute, an attribute that is no number, and min above max.
+    With `is_fix` each value is a number, at which the parameter is held. None gives {}. Raises AtlasError for no
+    mapping, an unknown attribute, an attribute that is no number, and min above max.
     """
     if params is not None and not isinstance(params, Mapping):
         raise AtlasError(f"{'fix' if is_fix else 'params'} is a mapping of names to values, not {params!r}.")
@@ -180,7 +186,10 @@ def _attributes(name: str, p: Any) -> dict[str, Any]:
 
 
 def _check_value(name: str, p: Parameter) -> None:
-    """Raise AtlasError for nan, and for a fixed value outside its bounds."""
+    """Raise AtlasError for NaN, and for a fixed value that is infinite or outside its bounds.
+
+    `name` is for the message.
+    """
     low, high = p.min, p.max
     below = LIMITS.get(name, (-inf, inf))[0]
     if isnan(p.value) or not (p.vary or (isfinite(p.value) and below < p.value and low <= p.value <= high)):

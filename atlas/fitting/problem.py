@@ -27,7 +27,7 @@ Vector: TypeAlias = Sequence[float] | FloatArray
 
 
 class Rotations(NamedTuple):
-    """Motions given by R (M, N, 3, 3), whatever times are asked for."""
+    """Motions given by their matrices R (M, N, 3, 3) at N fixed times."""
 
     R: FloatArray
 
@@ -43,7 +43,9 @@ MEDIAN = 0.4549364
 class Problem:
     """Least-squares problem of a family on data: N times, k numbers at each, n varied parameters `names`.
 
-    `rate` is a typical rate in rad/time, `given` the user's start values.
+    Made from the family `model`, the `data`, all parameters `params`, the name `loss` of a loss function, a typical
+    `rate` in rad/time, and the user's start values `given` by name. `units` are the natural units of the parameters
+    by name, `units_of_free` (n,) those of the varied ones.
     """
 
     def __init__(
@@ -64,7 +66,7 @@ class Problem:
         self._latest_slopes: tuple[Any, Any] = (None, None)
 
     def shifted(self, centre: float, rate: float) -> "Problem":
-        """Return the problem with t = 0 moved to `centre`, and another typical rate."""
+        """Return the problem with t = 0 moved to the time `centre`, and another typical rate in rad/time."""
         data = replace(self.data, t=self.data.t - centre)
         return Problem(self.model, data, self.params, self.loss, rate, self.given)
 
@@ -79,7 +81,7 @@ class Problem:
 
     @cached_property
     def gauge(self) -> dict[str, float]:
-        """Attitude parameters that data of this kind do not determine: their conventional values, 0, by name."""
+        """Attitude parameters that the data do not determine, with their conventional value 0, by name; {} for none."""
         return unseen(self.model, self.data.kind)
 
     @cached_property
@@ -113,11 +115,18 @@ class Problem:
         return np.asarray(np.clip(X, low + gap, high - gap))
 
     def inside(self, values: Values) -> FloatArray:
-        """Return the varied parameters (n,) moved inside the bounds; a name not in `values` keeps its value."""
+        """Return the varied parameters (n,) of `values` by name, moved inside the bounds as by `inner`.
+
+        A parameter that is not in `values` keeps its value.
+        """
         return self.inner(np.array([values.get(name, self.params[name].value) for name in self.names]))
 
     def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
-        """Return the motion at x, and the values of all parameters by name; the latest is cached."""
+        """Return (motion, values of all parameters by name) of the varied parameters x (n,); the latest is cached.
+
+        The motion is a `Flow` of one motion if motions are integrated. Raises AtlasError where the family has no
+        such motion.
+        """
         key = tuple(x)
         if self._latest[0] != key:
             values = self.values(x)
@@ -125,7 +134,7 @@ class Problem:
         return self._latest[1]  # type: ignore[no-any-return]
 
     def carried(self, x: Vector, time: float) -> dict[str, float]:
-        """Return the parameters by name that make the state of the motion at x at the time `time` the start."""
+        """Return the parameters by name of the motion with parameters x (n,), its state at `time` being the start."""
         motion, values = self.motion(list(x))
         R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
         return state(self.model, self.data.kind, values, R.reshape(3, 3), omega.reshape(3))
@@ -149,14 +158,17 @@ class Problem:
     def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
         """Return the residuals (M, N k) of the motions X (M, n) at the data `places`, in standard errors.
 
-        Entries are HUGE where there is no motion.
+        `places` are the indices or the slice of the N data. Entries are HUGE where there is no motion.
         """
         if self.is_closed_form:
             return np.stack([self.residuals(x, places) for x in X])
         return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.part(places))
 
     def _differences(self, motions: Any, data: Data) -> FloatArray:
-        """Return the residuals (M, N k) of a `Flow` or `Rotations`, in standard errors; HUGE without a motion."""
+        """Return the residuals (M, N k) of M motions, a `Flow` or `Rotations`, in standard errors.
+
+        HUGE without a motion.
+        """
         with np.errstate(all="ignore"):
             r = data.differences(motions) / data.sigma
         return np.where(abs(r) < LOST, r, HUGE).reshape(len(r), -1)
@@ -190,7 +202,7 @@ class Problem:
     def is_turned(self) -> bool:
         """Whether derivatives in the attitude follow from a rotation of the laboratory and those in the field.
 
-        That needs a free attitude, a field that is all free or zero, and no expressions or direction n.
+        That needs a varied attitude, a field that is all varied or zero, and no expressions or direction n.
         """
         free_field = {*B} & {*self.names}
         is_zero = not (free_field or any(self.params[name].value for name in B if name in self.params))
@@ -198,9 +210,11 @@ class Problem:
         return is_known and (is_zero or free_field == {*B}) and bool({*self.names} & {*ATTITUDE})
 
     def _turn(self, J: FloatArray, X: FloatArray, R: FloatArray, r: FloatArray, data: Data) -> None:
-        """Write into J (M, n, N k) the derivatives in the attitude of residuals r (M, N k) of motions R (M, N, 3, 3).
+        """Write into J (M, n, N k) the derivatives in the attitude of the residuals r (M, N k).
 
-        A rotation of the laboratory rotates the field too: the derivatives in the field are subtracted.
+        `X` (M, n) are the varied parameters of M motions with matrices R (M, N, 3, 3), `data` the N data. A
+        rotation of the laboratory rotates the field too: the derivatives in the field, already in J, are
+        subtracted.
         """
         values = self.values_of_all(X)
         a, field = (np.stack([values.get(name, np.zeros(len(X))) for name in names], -1) for names in (ATTITUDE, B))
@@ -216,7 +230,10 @@ class Problem:
             J[:, self.names.index(name)] = slopes
 
     def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
-        """Return the derivatives of the residuals, (n, N k); zero where there is no motion."""
+        """Return the derivatives (n, N k) of the residuals in the varied parameters x (n,) at the data `places`.
+
+        They are zero where there is no motion; of the residuals r (N k,) only the size is used.
+        """
         try:
             return np.asarray(self.jacobian(x, places).T)
         except AtlasError:
@@ -225,7 +242,8 @@ class Problem:
     def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return I3/I2 and (M3 - I3 omega3)/I2 at t = 0, each (M,), for M sets of varied parameters X (M, n).
 
-        The second, in 1/time, is the momentum that the field adds: I3 K3/I2, or k3 cos theta for a top.
+        M3 is the momentum along the axis. The second, in 1/time, is the part that the field adds: I3 K3/I2, K the
+        field in the body, or k3 cos theta/I2 for a top, theta the angle between axis and field.
         """
         motions = flow(self.model, self.values_of_all(X), self.error)
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
@@ -295,7 +313,10 @@ class Problem:
         return np.asarray(-(slopes @ chain[indices]) / data.sigma[:, :, None])
 
     def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
-        """Return the vectors v (N, P, 3) with dR/dp = [v]x R; for angular velocities the time derivatives dv/dt."""
+        """Return the vectors v (N, P, 3) with dR/dp = [v]x R, of the P parameters `names` at times t (N,).
+
+        For angular velocities these are the time derivatives dv/dt. `values` are all parameters of `motion` by name.
+        """
         if self.data.kind != "angular_velocity":
             return self.model.vectors(values, names, t, self.units, motion, certified=self.together)
         h = 1e-4 / self.rate
@@ -304,7 +325,10 @@ class Problem:
         return np.asarray((vectors[: t.size] - vectors[t.size :]) / (2 * h))
 
     def _field_by(self, name: str, values: Values) -> FloatArray:
-        """Return the derivative of the field, or of the direction of a top, in a parameter, in the laboratory, (3,)."""
+        """Return the derivative (3,) of the field, or of a top's direction, in the laboratory, in the parameter `name`.
+
+        It is zero for parameters of neither; `values` are all parameters by name.
+        """
         if name in B:
             return np.asarray(np.eye(3)[B.index(name)])
         if name in DIRECTION:
@@ -314,13 +338,16 @@ class Problem:
         return np.zeros(3)
 
     def reduced(self, r: FloatArray) -> float:
-        """Return chi square over degrees of freedom of residuals r; with a robust loss median(r^2) over `MEDIAN`."""
+        """Return chi square over the degrees of freedom of residuals r (any shape).
+
+        With a robust loss median(r^2)/`MEDIAN`.
+        """
         if self.loss == "linear":
             return float((r * r).sum() / (r.size - len(self.names)))
         return float(np.median(r * r)) / MEDIAN
 
     def correlation(self, x: Vector) -> float:
-        """Return the correlation of residuals at neighbouring times, 0 for white noise.
+        """Return the correlation of residuals at neighbouring times, 0 for white noise, for varied parameters x (n,).
 
         0 also where most residuals are below the error of an integration, as of data without noise.
         """
@@ -331,7 +358,7 @@ class Problem:
         return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
 
     def chi_square(self, x: Vector) -> float:
-        """Return the sum of the loss function of the squared residuals at x."""
+        """Return the sum of the loss function of the squared residuals at the varied parameters x (n,)."""
         z = self.residuals(x) ** 2
         return float(np.sum(RHO[self.loss](z)))
 
@@ -350,7 +377,8 @@ def minimum(
     """Return SciPy's least-squares solution (n,) from a start x (n,), and the Jacobian (N k, n) there.
 
     SciPy stops when a step lowers chi square by less than the fraction `ftol`, and after `count` evaluations of the
-    residuals, converged or not; with `steady` it stops at the start. With a robust loss SciPy weights the Jacobian.
+    residuals, converged or not; with `steady` it stops at the start. With a robust loss the Jacobian is weighted by
+    SciPy.
     """
     from scipy.optimize import least_squares
 

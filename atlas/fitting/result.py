@@ -132,9 +132,10 @@ class Fit:
     def of(
         cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
     ) -> "Fit":
-        """Return the fit at the first, lowest, of the minima `tried`, pairs (chi square, varied parameters).
+        """Return the fit at the first, lowest, of the minima `tried`, pairs (chi square, varied parameters (n,)).
 
-        With a sentence `steady` on an elementary motion the minimum is not refined; `doubt` becomes the first warning.
+        `epoch` is the time of the parameters. With a sentence `steady` on an elementary motion or a free body the
+        minimum is not refined; `doubt` becomes the first warning. Both are "" without such a sentence.
         """
         data = problem.data
         x, jac = minimum(problem.alone() if problem.loss == "linear" else problem, tried[0][1], steady=bool(steady))
@@ -320,7 +321,10 @@ class Fit:
             raise AtlasError(f"There are no confidence intervals of these parameters: {error}".strip()) from error
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
-        """Return (heading, rows) of the table of parameters: four texts, and four texts for each parameter."""
+        """Return (heading, rows) of the table of parameters: four texts, and four texts for each parameter.
+
+        They are its name, its value, its standard error ("-" if none), and a note such as "fixed".
+        """
         heading, rows = ["parameter", "value", "standard error", ""], []
         for name, p in self.parameters.items():
             note = "" if p.free else f"= {p.expr}" if p.expr else "fixed"
@@ -444,7 +448,7 @@ class Fit:
         )
 
     def predict_values(self, t: FloatArray) -> FloatArray:
-        """Return the curve that `scene` draws, shape (N, k): for rotations and axes the third axis."""
+        """Return the curve that `scene` draws at times t (N,), shape (N, k): for rotations and axes the third axis."""
         values = self.problem.data.of(self.motion, t - self.epoch)
         return values[:, :, 2] if values.ndim == 3 else values
 
@@ -468,8 +472,8 @@ class Fit:
 def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, freedom: int) -> list[str]:
     """Return warnings, one sentence each: a motion off the data, a surprising chi square, outliers, correlation.
 
-    `r` (N, k) are the residuals in standard errors, given or found; `redchi` is chi square over the degrees of
-    `freedom`. Without a fault the list is empty.
+    `x` (n,) are the varied parameters, `r` (N, k) the residuals in standard errors, given or found; `redchi` is chi
+    square over the degrees of `freedom`. Without a fault the list is empty.
     """
     out = []
     data, wider = problem.data, problem.model.wider

@@ -58,9 +58,10 @@ def turns(data: Data, i: Any, j: Any) -> FloatArray:
 
 
 def rate_of(data: Data, least: float = TURN) -> float:
-    """Return a typical rate in rad/time: change over time for the shortest gap at which it exceeds `least`.
+    """Return a typical rate in rad/time: change over time for the shortest gap at which the change exceeds `least`.
 
-    Changes are medians of `turns` over neighbours of the sorted data. For data that do not change it is 1/span.
+    Changes are medians of `turns` over neighbours of the sorted data. If none exceeds `least`, the largest gap
+    tried counts; for data that do not change the rate is 1/span.
     """
     rate, n = 0.0, data.t.size
     for k in np.unique(np.geomspace(1, max(n // 6, 1), 24).astype(int)):
@@ -88,10 +89,11 @@ def centre_of(data: Data, rate: float, share: float) -> float:
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
-    """Return the measured quantity and its derivative by time at t = 0, by a robust parabola through data near t = 0.
+    """Return the measured quantity and its time derivative at t = 0, by a robust parabola through data near t = 0.
 
-    ``rate`` is that of the motion in rad/time, which says what is near. Both results have the shape of a datum; for
-    rotations they are R (3, 3) and Omega (3,) in the body. Through six data or fewer a straight line is taken.
+    ``rate`` is that of the motion in rad/time, which decides which data are near. Both results have the shape of a
+    datum; for rotations they are R (3, 3) and Omega (3,) in the body. Through six data or fewer a straight line is
+    taken.
     """
     order = np.argsort(abs(data.t), kind="stable")
     rows = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
@@ -117,7 +119,8 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
 def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str, FloatArray]:
     """Return arrays (count,) of random start parameters by name, near the attitude and rates of the data at t = 0.
 
-    `seed` makes them reproducible; `largest` is the length of the largest field, in units of the problem's rate.
+    There are parameters of all families. `seed` makes them reproducible; `largest` is the length of the largest
+    field, in units of the problem's rate.
     """
     data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
     size = rng.permuted(np.geomspace(0.05, largest, count))[:, None] * rate
@@ -172,7 +175,8 @@ def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str,
 def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
     """Return the linear potential A (M,) and n in the body (M, 3) of tops with the measured dOmega/dt at t = 0.
 
-    I Omega' = [I Omega, Omega] + A [n, e3] determines the part of A n across e3; n3 is random. I3 (M,) are moments.
+    I Omega' = [I Omega, Omega] + A [n, e3] determines the part of A n across e3; n3 is drawn from `rng`. I3 (M,) are
+    the moments I3/I2; A, over I2, is in 1/time^2, and its sign respects the bounds of the problem.
     """
     w, slope = local(problem.data, problem.rate)
     J = np.stack([np.ones_like(I3), np.ones_like(I3), I3], -1)
@@ -192,7 +196,7 @@ def _unit_across(K: FloatArray) -> FloatArray:
 
 
 def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield tuples (time, problem shifted there, parameters x (n,), count of data fitted) for promising starts.
+    """Yield tuples (time, problem with t = 0 there, varied parameters (n,), count of data fitted) of good starts.
 
     A complete start given by the user comes first, on all data.
     """
@@ -203,7 +207,7 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
 
 
 def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield the starts of `tries` about the k-th place of PARTS, or about t = 0 if the problem is `pinned`."""
+    """Yield the starts, tuples as from `tries`, about the k-th of PARTS, or about t = 0 for a `pinned` problem."""
     # a fast nutation of small size, as in a strong field, is not seen in larger turns
     small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
     rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
@@ -219,8 +223,8 @@ def motions_of_arc(
 ) -> Iterator[tuple[FloatArray, int]]:
     """Yield pairs (x (n,), count): the best motions on the last arc of data about t = 0, and its number of data.
 
-    `starts` random motions, made with `seed` and fields up to `largest`, are refined on arcs that grow. Nothing is
-    yielded if all motions lose their phase, unless `is_last`.
+    `starts` random motions, made with `seed` and fields up to `largest` rates, are refined on arcs that grow.
+    Nothing is yielded if all motions lose their phase, unless `is_last`.
     """
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate
@@ -266,10 +270,10 @@ def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
 
 
 def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
-    """Return the number of data, in the `order` of their distance from t = 0, that the motion follows; `least` or more.
+    """Return the number of data, in the `order` of their distance from t = 0, that the crowd's one motion follows.
 
-    The phase counts as lost where the root mean square of neighbouring residuals, in standard errors, exceeds both
-    `_allowed` and 1.7 `misfit`.
+    The number is `least` or more. The phase counts as lost where the root mean square of neighbouring residuals, in
+    standard errors, exceeds both `_allowed` and 1.7 `misfit`.
     """
     problem, n = crowd.problem, len(order)
     if least >= n:

@@ -21,9 +21,11 @@ NULL = 1e-7
 
 
 class Seen:
-    """Standard errors of the varied parameters, and the combinations that the data do not determine.
+    """Standard errors of the n varied parameters, and the combinations that the data do not determine.
 
-    Both follow from the singular values of the Jacobian J.
+    Both follow from the singular values of the Jacobian J (N k, n) of the residuals at `x` (n,); `weighted` is J
+    with the weights of a robust loss, `scores` (N k,) are residuals times weights, `scale` is the noise over the
+    given sigma. `covariance` (n, n) and `errors` (n,) are in the parameters' units.
     """
 
     def __init__(
@@ -92,7 +94,7 @@ class Seen:
         return problem.params.changed(**marked)
 
     def words(self) -> list[str]:
-        """Return a sentence for each combination that the data do not determine."""
+        """Return a sentence for each combination of parameters that the data do not determine, [] for none."""
         out = []
         for k, u in enumerate(self.directions.T):
             indices = [int(i) for i in np.argsort(-abs(u)) if self.is_moved[i, k]]
@@ -116,9 +118,9 @@ class Seen:
 
 
 def _separated(directions: FloatArray) -> FloatArray:
-    """Return combinations (n, count) that span the same space as the columns of `directions` (n, count), of length 1.
+    """Return combinations (n, count) of length 1 that span the same space as the columns of `directions` (n, count).
 
-    Each has a parameter that no other one has.
+    Each has a parameter that no other one has; a single column is returned as it is.
     """
     if directions.shape[1] < 2:
         return directions
@@ -128,7 +130,7 @@ def _separated(directions: FloatArray) -> FloatArray:
 
 
 def gauge(problem: Problem) -> list[str]:
-    """Return a list of at most one sentence, on the attitude angles that data of this kind do not determine."""
+    """Return a list of at most one sentence, on the attitude angles that the problem's data do not determine."""
     hidden = unseen(problem.model, problem.data.kind)
     if not hidden:
         return []

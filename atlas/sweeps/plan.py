@@ -235,9 +235,7 @@ class Plan:
         return family.digits(inputs, self.quantities, self.digits, exact)
 
     def _deviations(self, row: int) -> list[float]:
-        """Return the standard deviations of the quantities `deviating` in a row (an index), NaN where one is infinite.
-
-        """
+        """Return the standard deviations of the quantities `deviating` in a row (an index); NaN for an infinite one."""
         parameters, own_names = (
             self._parameters(np.array([row])),
             [x.removesuffix("_principal") for x in self.deviating],
