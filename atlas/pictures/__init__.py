@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 else:
 
     def __getattr__(name: str) -> Any:
-        """Return the class `name` of `atlas.pictures.layers`. Raises AttributeError for a name in small letters."""
+        """Return the class `name` of `atlas.pictures.layers`, which is imported at first use.
+
+        Raises AttributeError for a name that begins with a small letter or that is no class there.
+        """
         if not name[0].isupper():
             raise AttributeError(f"module 'atlas.pictures' has no attribute {name!r}")
         import atlas.pictures.layers as classes

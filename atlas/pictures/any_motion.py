@@ -33,11 +33,12 @@ def course(
     level_name: str = "",
     pieces: int = 32,
 ) -> Plane:
-    """Return the panel of a vector's three components as curves over the time, from t = 0 to `stop`.
+    """Return the `Plane` panel of a vector's three components as curves over the time, from t = 0 to `stop`.
 
-    `vector` maps times (N,) to values (N, 3); `names` (three texts) stand at the curves. `size` is the panel's
-    (width, height) in millimetres. If `level` is given, a dashed line is drawn there, with the text `level_name`. The
-    time is first cut into `pieces` equal parts, then as finely as the curves need.
+    `vector` maps times (N,) to values (N, 3); `names` (three texts) stand at the curves. `x_label` and `y_label`
+    are the labels of the axes, `heading` is the title, `size` the panel's (width, height) in millimetres. If
+    `level` is given, a dashed line is drawn at this value, with the text `level_name`. The time is first cut into
+    `pieces` equal parts, then as finely as the curves need.
     """
     rough = vector(np.linspace(0.0, stop, 8 * pieces + 1))
     marks = rough if level is None else np.append(rough, level)
@@ -71,9 +72,10 @@ _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
 
 @dataclass(frozen=True)
 class Upright:
-    """The laboratory vector drawn upright: components along (e1, e2, e3), letter in TeX, letter in text, role.
+    """The vector drawn upright: components along (e1, e2, e3) of the laboratory, letter in TeX, letter in text, role.
 
-    The role is that of the arrow's colour; "" for a vector that is not drawn as an arrow.
+    Only the direction of `vector` counts. `role` gives the arrow's colour; "" for a vector that is not drawn as an
+    arrow.
     """
 
     vector: Sequence[float]
@@ -83,9 +85,10 @@ class Upright:
 
     @classmethod
     def of_motion(cls, motion: Any) -> "Upright":
-        """Return the `Upright` vector of a motion: the first of these that exists and is not zero.
+        """Return the `Upright` vector of a motion: the first of these that the motion has and that is not zero.
 
-        A top's direction n, the field, the angular momentum at t = 0, and e3 for a body at rest without a field.
+        They are a top's direction n, the field, the angular momentum at t = 0, and e3, for a body at rest without a
+        field.
         """
         if hasattr(motion, "direction"):
             return cls((0.0, *motion.direction), r"\mathbf{n}", "n", "direction")
@@ -110,13 +113,14 @@ def picture(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Return the figure of a motion over `periods` times its `period`, at most `MAX_AXIS_TURNS` turns.
+    """Return the `Scene` of a motion over `periods` times its `period`, at most `MAX_AXIS_TURNS` turns.
 
-    `setting` names the body and the start, first for a caption in TeX, then in plain words; `word` names the motion of
-    that period, "" if there is none. A `period` that is infinite or not positive is replaced by the time of one turn
-    at the start. `upright` replaces the motion's own upright vector; `elevation` is the height of view in degrees;
-    `unit` is the word for the unit of time on the axes. An axis that would not visibly move is shown for one
-    precession.
+    Panel (a) is the unit sphere with the path of the third axis, panel (b) the angular velocity over time.
+    `setting` names the body and the start, first for a caption in TeX, then in plain words; `word` names the motion
+    of that period, "" if there is none. A `period` that is infinite or not positive is replaced by the time of one
+    turn at the start. `upright` replaces the motion's own upright vector; `elevation` is the height of view in
+    degrees; `unit` is the word for the unit of time on the axes. An axis that would not visibly move is shown for
+    one precession.
 
     Raises AtlasError for `periods` that is not positive.
     """
@@ -161,9 +165,10 @@ def picture(
 
 
 def slow_turn(motion: Any, length: float) -> float:
-    """Return the time 2 pi/|precession_rate| if the axis hardly moves in a time `length`, else 0.0.
+    """Return the period 2 pi/|precession_rate| if the axis hardly moves in a time `length`, else 0.
 
-    It is 0.0 too where a motion has no such rate, or the rate is 0.
+    The axis hardly moves if no component changes by MIN_SEEN_LENGTH. The result is 0 too where a motion has no such
+    rate, or the rate is 0.
     """
     rate = _number(motion, "precession_rate")
     looks = motion.third_axis(np.linspace(0.0, length, 65))
@@ -171,9 +176,10 @@ def slow_turn(motion: Any, length: float) -> float:
 
 
 def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
-    """Return the function of times t (...) to the third axis (..., 3) that only precesses about `upright`.
+    """Return the function of times t (...) to the third axis (..., 3) that only precesses about `upright` (3,).
 
-    The rate is the mean rate of precession, so that the values are exact after each whole nutation.
+    It starts at the motion's axis at t = 0. The rate is the mean rate of precession, so that the values are exact
+    after each whole nutation.
     """
     n, start = np.asarray(upright) / np.linalg.norm(upright), motion.third_axis(0.0)
     parallel_part, rate = n * (n @ start), float(motion.precession_rate)
@@ -186,7 +192,10 @@ def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], 
 
 
 def scene_at(motion: Any, t: float, begin: float) -> Scene:
-    """Return the `Scene` of a motion at the time t: body, axis e3 with its path since `begin`, upright vector."""
+    """Return the `Scene` of a motion at the time t: body, axis e3 with its path since the time `begin`, upright vector.
+
+    The path is left out unless t > `begin`.
+    """
     R, upright = np.asarray(motion.rotation(t)), Upright.of_motion(motion)
     layers: list[Layer] = [
         *body_of(motion, R, _FINE),
@@ -212,9 +221,9 @@ def scene_at(motion: Any, t: float, begin: float) -> Scene:
 
 
 def period(motion: Any) -> float:
-    """Return the drawn time unit of a motion: the period of the axis, or the time of one turn without such a period.
+    """Return the time, always positive, for which a motion is drawn: the period of the axis, else that of one turn.
 
-    Raises AtlasError for an array of motions.
+    For a body at rest it is 1. Raises AtlasError for an array of motions.
     """
     if motion.shape:
         raise AtlasError(f"one motion can be drawn at a time, not an array of the shape {motion.shape}.")
@@ -225,7 +234,8 @@ def period(motion: Any) -> float:
 def axis_period(motion: Any) -> float:
     """Return the time after which the third axis of one motion repeats up to a rotation about the field.
 
-    It is 2 pi/rate of a steady precession, with the sign of the rate, otherwise `period`; 0 where there is none.
+    It is 2 pi/rate of a steady precession, with the sign of the rate, otherwise `period`, which may be infinite; 0
+    where there is none.
     """
     if name := FAMILIES[motion.family].axis_rate:
         rate = getattr(motion, name)
@@ -234,7 +244,7 @@ def axis_period(motion: Any) -> float:
 
 
 def _number(motion: Any, name: str) -> float:
-    """Return an attribute of a motion as a float; 0.0 if it has none, or if the attribute raises DomainError."""
+    """Return the attribute `name` of a motion as a float; 0.0 if it is missing, or if reading it raises DomainError."""
     try:
         return float(getattr(motion, name, 0.0))
     except DomainError:
@@ -242,12 +252,15 @@ def _number(motion: Any, name: str) -> float:
 
 
 def start(omega: Sequence[float]) -> tuple[str, str]:
-    """Return the initial angular velocity as two texts: in TeX for a caption, and in plain words."""
+    """Return the initial angular velocity, three components, as two texts: in TeX for a caption, and in plain words."""
     return rf"$\boldsymbol\omega={tex_vector(omega)}$", f"the angular velocity {plain_vector(omega)}"
 
 
 def turns(motion: Any, stop: float) -> float:
-    """Return the largest |Omega|/(2 pi) of a motion, in turns per unit of time, at 65 times from t = 0 to `stop`."""
+    """Return the largest |Omega|/(2 pi) of a motion, in turns per unit of time, at 65 times from t = 0 to `stop`.
+
+    For `stop` = 0 it is the value at t = 0.
+    """
     looks = motion.angular_velocity(np.linspace(0.0, stop, 65 if stop else 1))
     return float(np.linalg.norm(looks, axis=-1).max()) / (2 * pi)
 

@@ -42,7 +42,7 @@ class Arrangement:
 def arranged(scene: Scene, target: Target) -> Scene:
     """Return a scene as wide as a target, its panels in the arrangement that makes them largest.
 
-    `spare` panels are left out where all would be too small, and the caption says so.
+    Where all panels would be too small, those numbered in `scene.spare` are left out, and the caption says so.
 
     Raises
     ------
@@ -58,7 +58,10 @@ def arranged(scene: Scene, target: Target) -> Scene:
 
 
 def _reduced(scene: Scene) -> Scene:
-    """Return a scene with its panels that are not `spare` in one row, each with all its labels; the caption says so."""
+    """Return a scene without its `spare` panels, the others in one row, each with all its labels.
+
+    The caption says so.
+    """
     remaining = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
     letters = listed([scene.panels[k].title.partition(" ")[0] for k in scene.spare])
@@ -102,7 +105,10 @@ def _arranged(scene: Scene, target: Target) -> Scene:
 
 
 def suited(scene: Scene, targets: Sequence[Target]) -> Target:
-    """Return the first target with at least 0.7 of a scene's width, and not below its `narrowest`; else the last."""
+    """Return the first target with at least 0.7 of a scene's width, and not below its `narrowest`.
+
+    Else the last target.
+    """
     for target in targets[:-1]:
         if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):
             return target
@@ -125,9 +131,9 @@ def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrange
 
 
 def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
-    """Return the panels with the axis labels that they shared with a neighbour now placed elsewhere.
+    """Return the panels, to stand in `columns` columns, with the axis labels that they shared with a neighbour.
 
-    With columns = 0 each panel has both labels.
+    A label is shown where the neighbour that had it is now elsewhere. With columns = 0 each panel has both labels.
     """
     panels = list(scene.panels)
     for k, plane in enumerate(scene.panels):
@@ -167,7 +173,7 @@ def _fitted(
 
 
 def _has_bar(panel: Panel) -> bool:
-    """Return whether a panel with equal scales has a colour bar, which takes width from all panels."""
+    """Return whether a panel has equal scales on both axes and a colour bar, which takes width from all panels."""
     layers = panel.layers if isinstance(panel, Plane) and panel.equal else ()
     return any(isinstance(layer, Image) and layer.label for layer in layers)
 

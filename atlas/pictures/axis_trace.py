@@ -22,11 +22,11 @@ def sphere(
     elevation: float,
     role: str = "field",
 ) -> Space:
-    """Return a panel with the unit sphere and the path of the body's axis, rotated so that `upright` points upwards.
+    """Return a `Space` with the unit sphere and the path of the body's axis, rotated so that `upright` is upwards.
 
-    `upright` has components along e2 and e3, or all three. `third_axis` maps times (N,) to the axis R e3 (N, 3); the
-    path is drawn from t = 0 to `length`, sampled from `pieces` equal parts on. `name` is the panel's title, `label`
-    that of the upward arrow, `elevation` the height of view in degrees.
+    `upright` has components along e2 and e3, or all three. `third_axis` maps times (N,) to the axis R e3 (N, 3);
+    the path is drawn from t = 0 to `length`, sampled from `pieces` equal parts on. `name` is the panel's title,
+    `label` and `role` are those of the upward arrow, `elevation` is the height of view in degrees.
     """
     sag = tolerance(1.4)
     trace = curve(lambda t: erected(third_axis(t), upright), 0.0, length, sag, pieces=pieces)
@@ -34,7 +34,7 @@ def sphere(
 
 
 def erected(points: FloatArray, upright: Sequence[float]) -> FloatArray:
-    """Return points (N, 3) rotated so that `upright`, given along e2 and e3 or by three components, points upwards."""
+    """Return points (N, 3) rotated so that `upright`, of components along e2 and e3 or all three, becomes e3."""
     return np.asarray(points @ _turn(*(upright if len(upright) == 3 else (0.0, *upright))).T)
 
 
@@ -43,7 +43,8 @@ def traced_sphere(
 ) -> Space:
     """Return a `Space` with the unit sphere, an upward arrow of this `label` and `role`, and the path `trace` (N, 3).
 
-    The path is not rotated; its start is marked, and circles mark its least and largest height.
+    `name` is the title, `elevation` the height of view in degrees. The path is not rotated; its start is marked,
+    and circles mark its least and largest height.
     """
     sag = tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
@@ -58,7 +59,10 @@ def traced_sphere(
 
 
 def _turn(x: float, y: float, z: float) -> FloatArray:
-    """Return the matrix (3, 3) that turns (x, y, z) to e3: about e3 into the plane (e2, e3), then about e1."""
+    """Return the matrix (3, 3) that turns the direction of (x, y, z) to e3: first about e3, then about e1.
+
+    The first rotation takes the direction into the plane (e2, e3).
+    """
     level = float(np.hypot(x, y))
     cos, sin = (y / level, x / level) if level and x else (1.0, 0.0)
     tilt_sine, tilt_cosine = np.array((level if x else y, z)) / np.hypot(level, z)

@@ -19,7 +19,7 @@ _WINDINGS = 5.0
 
 
 def proportions(I: float, *, solid: bool = False) -> tuple[float, float]:
-    """Return radius and height of the cylindrical shell with I3/I2 = I whose farthest point is at the distance 1.
+    """Return (radius, height) of the cylindrical shell with I3/I2 = I whose farthest point is at the distance 1.
 
     I3 = m r^2 and I2 = m (r^2/2 + h^2/12), so h/r = sqrt(12/I - 6), for 0 < I <= 2: a ring for I = 2. A ``solid``
     cylinder has I3 = m r^2/2 and I2 = m (r^2/4 + h^2/12), so h/r = sqrt(6/I - 3): a disk for I = 2.
@@ -32,7 +32,7 @@ def proportions(I: float, *, solid: bool = False) -> tuple[float, float]:
 def row(count: int, step: float, azimuth: float) -> FloatArray:
     """Return centres (count, 3) with distances `step` on a line about the origin, which runs to the right as seen.
 
-    ``azimuth`` is that of the view in degrees.
+    ``azimuth`` is that of the view in degrees; the centres are in the unit of `step`.
     """
     rightward = frame(Space((), azimuth=azimuth))[0]
     return np.asarray(step * (np.arange(count) - (count - 1) / 2)[:, None] * rightward)
@@ -41,11 +41,11 @@ def row(count: int, step: float, azimuth: float) -> FloatArray:
 def drawn_body(
     I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float, lids: str = "solid"
 ) -> list[Layer]:
-    """Return the layers of a body with I3/I2 = I whose axes stand as the columns of ``attitude`` (3, 3).
+    """Return the layers of a body with I3/I2 = I whose axes are the columns of ``attitude`` (3, 3).
 
-    ``centre`` (3,) is its centre of mass, ``size`` the distance of its farthest point from there; ``tolerance`` as for
-    `atlas.pictures.sample.curve`. It is a cylindrical shell with ``lids`` of that role and a painted seam around R_1,
-    the last layer; for I = 2 a disk with a radius along R_1.
+    ``centre`` (3,) is its centre of mass, ``size`` the distance of its farthest point from there; ``tolerance`` as
+    for `atlas.pictures.sample.curve`. It is a cylindrical shell with ``lids`` of that role and a painted seam along
+    R_1, the first column, which is the last layer; for I = 2 a disk with a radius along R_1.
     """
     R1, R2, axis = np.asarray(attitude).T
     radius, height = (size * length for length in proportions(I))
@@ -71,6 +71,7 @@ def body_of(motion: Any, R: FloatArray, tolerance: float) -> list[Layer]:
     """Return the layers of a motion's body, rotated by the matrix R (3, 3), with its farthest point at the distance 1.
 
     A symmetric body is a cylindrical shell with the same I3/I2, a body with three moments a brick with these.
+    `tolerance` is as for `atlas.pictures.sample.curve`.
     """
     inertia = getattr(motion, "inertia", None)
     if inertia is None or np.ndim(inertia) == 0:

@@ -19,12 +19,12 @@ def tex(value: float) -> str:
 
 
 def tex_equals(value: float) -> str:
-    r"""Return '=0.5', or '\approx 0.658824' where six digits are not the whole number."""
+    r"""Return r"=0.5", or r"\approx 0.658824" where six digits are not the whole number, for a formula in TeX."""
     return f"={tex(value)}" if float(f"{value:.{DIGITS}g}") == value else rf"\approx {tex(value)}"
 
 
 def spelt(count: float) -> str:
-    """Return a number of periods in words: 'one period', '2.5 periods'."""
+    """Return a number of periods in words: "one period", "2.5 periods"; at most six digits."""
     return "one period" if count == 1.0 else f"{plain(count)} periods"
 
 
@@ -39,17 +39,17 @@ def tex_vector(components: Iterable[float]) -> str:
 
 
 def plain_vector(components: Iterable[float]) -> str:
-    """Return the components as plain text in brackets."""
+    """Return the components as plain text in brackets, such as "(0, 1, 2)", each as `plain` writes it."""
     return "(" + ", ".join(map(plain, components)) + ")"
 
 
 def listed(items: Sequence[str], conjunction: str = "and") -> str:
-    """Return the items as one text: "a", "a and b", "a, b and c", with another `conjunction` if given."""
+    """Return one or more items as one text: "a", "a and b", "a, b and c", with another `conjunction` if given."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {conjunction} {items[-1]}"
 
 
 def quotient(ratio: Any) -> float:
-    """Return I = I3/I2, (33), of a number or a body, as a float rounded from the exact quotient."""
+    """Return I = I3/I2, (33), of a number (which is I itself) or a body, as a float rounded from the exact quotient."""
     I2, I3 = moments(ratio)
     return float(I3 / I2)
 
@@ -68,14 +68,18 @@ def body_name(ratio: Any) -> str:
 
 
 def body_role(ratio: Any) -> str:
-    """Return the role, such as "loop_body", of a body's layers where several bodies are compared."""
+    """Return the role of a body's layers where bodies are compared: "loop_body", "ball_body", "short_body" or "long_body".
+
+    `ratio` is I = I3/I2 or a body; see `body_name`.
+    """
     return f"{body_name(ratio).partition(' ')[0]}_body"
 
 
 def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> str:
     """Return TeX such as 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption, from field = (B2, B3).
 
-    Without a field the text is 'a free loop with I = 2'. ``article`` is the first word, 'A' at a sentence's beginning.
+    `ratio` is I = I3/I2 or a body. Without a field the text is 'a free loop with I = 2'. ``article`` is the first
+    word, 'A' at a sentence's beginning.
     """
     body = f"{body_name(ratio)} with $I={tex(quotient(ratio))}$"
     if not any(field):
@@ -84,7 +88,10 @@ def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> st
 
 
 def plain_setting(ratio: Any, field: Sequence[float]) -> str:
-    """Return "a loop with I = 2 in the field B' = (0, 1, 2)", for an alternative text."""
+    """Return "a loop with I = 2 in the field B' = (0, 1, 2)", for an alternative text, from field = (B2, B3).
+
+    `ratio` is I = I3/I2 or a body. Without a field the text is "a free loop with I = 2".
+    """
     body = f"{body_name(ratio)} with I = {plain(quotient(ratio))}"
     return f"a {body} in the field B' = {plain_vector((0.0, *field))}" if any(field) else f"a free {body}"
 

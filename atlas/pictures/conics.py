@@ -26,9 +26,10 @@ def section(
 ) -> list[FloatArray]:
     """Return the curves (N, 3) in which (x, 1) Q (x, 1) = 0 meets the plane ``normal . x = distance``.
 
-    The curves end where they leave one of the half spaces (n1, n2, n3, d), n . x <= d. Without half spaces they reach
-    at least as far as the ball (centre, radius). The section may be an ellipse, hyperbola, parabola, two lines or one;
-    a single point, or no point, gives an empty list. Curves are sampled to the tolerance.
+    `quadric` is Q (4, 4). The curves end where they leave one of the `half_spaces`, rows (n1, n2, n3, d) for n . x
+    <= d. Without half spaces they reach at least as far as the `ball` (centre, radius). The section may be an
+    ellipse, hyperbola, parabola, two lines or one; a single point, or no point, gives an empty list. Curves are
+    sampled to `tolerance`, in the unit of x.
     """
     centre, radius = ball
     n = normal / np.linalg.norm(normal)
@@ -99,7 +100,7 @@ def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> lis
 
 
 def _line(m1: float, m2: float, c: float, r: float) -> list[_Arc]:
-    """Return the arc of 2 m1 x + 2 m2 y + c = 0 in a list; [] if it is far beyond r."""
+    """Return the arc of 2 m1 x + 2 m2 y + c = 0, out to 2 r, in a list; [] if the line is far beyond r."""
     square = m1 * m1 + m2 * m2
     if square * r * r <= _FLAT * c * c:
         return []
@@ -108,7 +109,7 @@ def _line(m1: float, m2: float, c: float, r: float) -> list[_Arc]:
 
 
 def _parallels(x0: float, square: float, r: float) -> list[_Arc]:
-    """Return the arcs of (x - x0)^2 + square = 0: two lines, one, or [] for square > 0."""
+    """Return the arcs of (x - x0)^2 + square = 0, out to 2 r: two lines, one, or [] for square > 0."""
     if square > 0.0:
         return []
     half = float(np.sqrt(-square))
@@ -120,7 +121,7 @@ def _parallels(x0: float, square: float, r: float) -> list[_Arc]:
 
 
 def _cross(x0: float, y0: float, l1: float, l2: float, r: float) -> list[_Arc]:
-    """Return the arcs of l1 (x - x0)^2 + l2 (y - y0)^2 = 0: two lines, or [] for a point."""
+    """Return the arcs of l1 (x - x0)^2 + l2 (y - y0)^2 = 0, out to about r: two lines, or [] for a point."""
     if l1 * l2 > 0.0:
         return []
     slope = float(np.sqrt(-l1 / l2))
@@ -133,7 +134,10 @@ def _cross(x0: float, y0: float, l1: float, l2: float, r: float) -> list[_Arc]:
 
 
 def _central(x0: float, y0: float, a2: float, b2: float, r: float) -> list[_Arc]:
-    """Return the arcs of (x - x0)^2/a2 + (y - y0)^2/b2 = 1: an ellipse, both branches of a hyperbola, or []."""
+    """Return the arcs of (x - x0)^2/a2 + (y - y0)^2/b2 = 1: an ellipse, both branches of a hyperbola, or [].
+
+    Branches reach out to about r; [] is for a2 and b2 below zero.
+    """
     a, b = float(np.sqrt(abs(a2))), float(np.sqrt(abs(b2)))
     if a2 > 0.0 and b2 > 0.0:
         return [(lambda s: (x0 + a * np.cos(s), y0 + b * np.sin(s)), 0.0, 2.0 * np.pi)]

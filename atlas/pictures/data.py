@@ -83,7 +83,7 @@ def _pieces(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:
 
 
 def _rows(points: FloatArray) -> list[list[Any]]:
-    """Return points (N, 2), (N, 3) or a single one as lists [x, y, z, value], with "" for the value.
+    """Return points (N, 2), (N, 3) or a single point as a list of rows [x, y, z, value], with "" for the value.
 
     In a plane z is "" too, and so is any coordinate that is not finite.
     """

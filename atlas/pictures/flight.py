@@ -26,10 +26,10 @@ Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit: str = "length") -> Scene:
-    """Return the figure of a flight, over `turns` turns of its centre of mass or, if given, until the time `stop`.
+    """Return the `Scene` of a flight, over `turns` turns of its centre of mass or, if given, until the time `stop`.
 
-    `unit` is the word for the unit of length on the axes. Raises AtlasError for several flights at once, DomainError
-    where the centre of mass moves without turns.
+    `unit` is the word for the unit of length on the axes. Raises AtlasError for several flights at once,
+    DomainError where the centre of mass moves without turns, and for more than `MAX_TURNS` turns.
     """
     particle = flight.particle
     if particle.shape or flight.point.ndim > 1 or flight.motion.rotation(0.0).ndim > 2:
@@ -52,13 +52,12 @@ def picture(
     stop: float | None,
     unit: str,
 ) -> Scene:
-    """Return the figure of a flight until `stop`, or, if that is None, over `turns` turns of its centre of mass.
+    """Return the `Scene` of a flight until `stop`, or, if that is None, over `turns` turns of its centre of mass.
 
-    `point` is the body point drawn, `setting` names the body and the fields, first in TeX, then in plain words. `rate`
-    is the body's largest rate of rotation, in turns per unit of time; `unit` is the word for the unit of length.
-
-    Raises AtlasError for `turns` or `stop` that is not positive; DomainError without a charge or a magnetic field, and
-    for more than `MAX_TURNS` turns.
+    `point` is the body point drawn, `setting` names the body and the fields, first in TeX, then in plain words.
+    `rate` is the body's largest rate of rotation, in turns per unit of time; `unit` is the word for the unit of
+    length. Raises AtlasError for `turns` or `stop` that is not positive; DomainError without a charge or a magnetic
+    field, and for more than `MAX_TURNS` turns.
     """
     particle = flight.particle
     cyclotron_frequency = float(particle.cyclotron_frequency)
@@ -103,26 +102,38 @@ def picture(
 def mark_path(
     position: Callable[[FloatArray], FloatArray], axes: FloatArray, t: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return identity matrices (N, D, D) and shifts (N, D) of a mark on a path, along the D columns of ``axes``."""
+    """Return identity matrices (N, D, D) and shifts (N, D) of a mark on a path at times t (N,), relative to t = 0.
+
+    `position` maps times to points (N, 3); the shifts are along the D columns of ``axes`` (3, D).
+    """
     return translations(position(t) @ axes, position(np.zeros(1))[0] @ axes)
 
 
 def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the rigid motions x -> R x + d of layers fixed in the body: R (N, 3, 3) and d (N, 3) at the times t."""
+    """Return the rigid motions x -> R x + d of layers fixed in the body: R (N, 3, 3) and d (N, 3) at times t (N,).
+
+    The layers are drawn at t = 0, about the centre of mass at that time.
+    """
     start = flight.particle.position(np.zeros(1))[0]
     turns = flight.rotation(t)
     return turns, flight.particle.position(t) - turns @ start
 
 
 def panel_axes(flight: Flight, B: FloatArray) -> FloatArray:
-    """Return the axes of panel (b) as columns, (3, 2): x along the drift [E, B], or along e1 without a drift."""
+    """Return the axes of panel (b) as columns, (3, 2): x along the drift [E, B], or along e1 without a drift.
+
+    The second is perpendicular to the magnetic field B (3,) and to the first.
+    """
     drifts = bool(flight.particle.drift.any())
     x_axis = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
     return np.stack([x_axis, np.cross(B / np.linalg.norm(B), x_axis)], axis=1)
 
 
 def side_view(flight: Flight, stop: float) -> Space:
-    """Return an empty `Space` for panel (a), seen nearly perpendicular to the displacement of the centre of mass."""
+    """Return an empty `Space` for panel (a), seen 25 degrees off the normal to the centre of mass's displacement.
+
+    The displacement is that from t = 0 to `stop`; without a horizontal one the view is `VIEW`.
+    """
     way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
     return (
         replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + VIEW_DEGREES) if way[:2].any() else VIEW
@@ -145,7 +156,11 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
 
 
 def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: str) -> Space:
-    """Return panel (a), a `Space`: the paths with arrows along the fields and a scale bar to the left of them."""
+    """Return panel (a), a `Space`: the paths with arrows along the fields and a scale bar to the left of them.
+
+    `B` (3,) is the magnetic field, `view` an empty `Space` with the direction of view, `path_points` is as from
+    `paths`; `unit` is the word for the unit of length.
+    """
     layers = bundle(*path_points)
     layers += [
         Curve(path_points[2][0], "velocity", rides="arm"),
@@ -166,7 +181,7 @@ def space(flight: Flight, B: FloatArray, view: Space, path_points: Paths, unit: 
 
 
 def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: str) -> list[Layer]:
-    """Return two layers: a bar from ``start`` along a unit vector, and its length with the ``unit`` as a label.
+    """Return two layers: a bar from ``start`` (3,) along a unit vector, and its length with the ``unit`` as a label.
 
     The length is 1, 2 or 5 times a power of ten, at most `longest`.
     """
@@ -177,7 +192,10 @@ def scale_bar(start: FloatArray, direction: FloatArray, longest: float, unit: st
 
 
 def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) -> Plane:
-    """Return panel (b), a `Plane`: the paths projected on the plane across B by the columns of ``axes`` (3, 2)."""
+    """Return panel (b), a `Plane`: the paths projected on the plane across B by the columns of ``axes`` (3, 2).
+
+    `path_points` is as from `paths`; `unit` is the word for the unit of length.
+    """
     centre, point, arms = (path @ axes for path in path_points)
     layers = bundle(centre, point, arms, " below")
     drifts = bool(flight.particle.drift.any())
@@ -195,7 +213,8 @@ def projection(flight: Flight, axes: FloatArray, path_points: Paths, unit: str) 
 def bundle(centre: FloatArray, point: FloatArray, arms: FloatArray, suffix: str = "") -> list[Layer]:
     """Return a panel's layers: arms, paths of the centre of mass and of the point, and a moving mark on each path.
 
-    The marks ride on the paths "point" and "centre", followed by `suffix`.
+    `centre` (N, D) and `point` (N', D) are the paths, `arms` (M, 2, D) lines between them. The marks ride on the paths
+    "point" and "centre", followed by `suffix`.
     """
     return [
         *(Curve(arm, "guide") for arm in arms),

@@ -20,7 +20,7 @@ NAMES = ("B2", "B3")
 
 @dataclass(frozen=True)
 class Window:
-    """A rectangle of the plane with omega2 as abscissa, by its limits (lowest, highest) along x and y."""
+    """A rectangle of the plane (omega2, omega3), in 1/time, by its limits (lowest, highest) along x and y."""
 
     x: tuple[float, float]
     y: tuple[float, float]
@@ -44,16 +44,20 @@ class Window:
         return np.array([[self.x[0], height], [self.x[1], height]])
 
     def band(self, start: float, stop: float) -> FloatArray:
-        """Return the corners of the upright band between two values of omega2, shape (4, 2)."""
+        """Return the corners (4, 2) of the upright band across the window between two values of omega2."""
         return np.vstack([self.upright(start), self.upright(stop)[::-1]])
 
     def panel(self, layers: Iterable[Layer], unit: str, **options: Any) -> Plane:
-        """Return the panel of (omega2, omega3), in 1 over ``unit``, with other arguments of `Plane`."""
+        """Return the `Plane` of (omega2, omega3) with these layers and the window's limits.
+
+        Axes are in 1 over ``unit``.
+        `options` are further arguments of `Plane`.
+        """
         return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **options)
 
 
 def components(field: Any) -> tuple[float, float]:
-    """Return (B2, B3) of B'. Raises DomainError if both vanish."""
+    """Return (B2, B3) of B', in 1/time, from a `Field` or a pair. Raises DomainError if both vanish."""
     B2, B3 = map(number, parts(field, NAMES, "The field"), NAMES)
     if B2 == 0 and B3 == 0:
         raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
@@ -61,10 +65,10 @@ def components(field: Any) -> tuple[float, float]:
 
 
 def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
-    """Return the window that reaches ``reach`` times each component of the field from the centre.
+    """Return the `Window` about -B' that reaches ``reach`` times each component of the field from this centre.
 
-    For a component that is zero the larger one is taken; if ``square``, the larger one in both directions. Raises
-    DomainError without a field.
+    ``field`` is a `Field` or (B2, B3). For a component that is zero the larger one is taken; if ``square``, the
+    larger one in both directions. Raises DomainError without a field.
     """
     B2, B3 = components(field)
     largest = max(abs(B2), abs(B3))
@@ -75,9 +79,10 @@ def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
 def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, float]) -> tuple[FloatArray, ...]:
     """Return the pieces (N, 2) of the curve (67) in the window `view`, as (omega2, omega3), a tuple.
 
-    `millimetres` are (width, height) of the panel on paper. With x = (omega2 + B2)/B2 each branch (71) is sampled in
-    log |x| from the edge of the window to the pole. For B2 = 0 the only piece is the line omega2 = 0; for I = 1 or
-    B3 = 0 the pieces are a sloping or level line and the pole omega2 = -B2. Raises DomainError without a field.
+    `ratio` is I3/I2 or a body, `field` a `Field` or (B2, B3), `millimetres` are (width, height) of the panel on
+    paper. With x = (omega2 + B2)/B2 each branch (71) is sampled in log |x| from the edge of the window to the pole.
+    For B2 = 0 the only piece is the line omega2 = 0; for I = 1 or B3 = 0 the pieces are a sloping or level line and
+    the pole omega2 = -B2. Raises DomainError without a field.
     """
     B2, B3 = components(field)
     I, one_less, _ = shape_factors(ratio)
@@ -100,10 +105,10 @@ def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, flo
 def graph(
     function: Callable[[FloatArray], Any], B2: float, view: Window, inner: float, millimetres: tuple[float, float]
 ) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2), in the window, of a graph over omega2 with a pole at -B2.
+    """Return the pieces (N, 2), in the window `view`, of a graph over omega2 with a pole at -B2, a tuple.
 
-    ``function`` maps x = (omega2 + B2)/B2 (N,) to ordinates (N,). It is sampled in log |x| from |x| = ``inner``, where
-    the graph has left the window near the pole.
+    ``function`` maps x = (omega2 + B2)/B2 (N,) to ordinates (N,). It is sampled in log |x| from |x| = ``inner``,
+    where the graph has left the window near the pole. ``millimetres`` are (width, height) of the panel on paper.
     """
     outer = max(abs(edge + B2) for edge in view.x) / abs(B2)
     inner = min(inner, outer / 2)
@@ -120,7 +125,7 @@ def graph(
 
 
 def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
-    """Return a mask (N,) of the points of a polyline in the window, or adjacent to one that is."""
+    """Return a mask (N,) of the points (N, 2) of a polyline in the window `view`, or adjacent to a point in it."""
     low, high = view.box
     inside = np.asarray(((points >= low) & (points <= high)).all(axis=1))
     chosen = inside.copy()
@@ -132,7 +137,7 @@ def visible_mask(points: FloatArray, view: Window) -> NDArray[np.bool_]:
 def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
     """Return the intervals (low, high) of omega2, in rad/time, of unstable elementary motions: none, one or two.
 
-    ``ratio`` is I3/I2 or a body, ``field`` a `Field` or (B2, B3). None are given for B2 = 0.
+    ``ratio`` is I3/I2 or a body, ``field`` a `Field` or (B2, B3). For B2 = 0 the tuple is empty.
     """
     B2, _ = components(field)
     band = Hyperbola(ratio, field).unstable_band if B2 else None
@@ -149,7 +154,7 @@ def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
 def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
     """Return two points (2, 2), (omega2, omega3) each, of the asymptote through -B' along I^-1 B'.
 
-    They lie at the border of the window ``view``.
+    ``ratio`` is I3/I2 or a body, ``field`` a `Field` or (B2, B3). The points lie at the border of the window ``view``.
     """
     I, _, _ = shape_factors(ratio)
     B2, B3 = components(field)
@@ -161,7 +166,7 @@ def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
 
 @dataclass(frozen=True)
 class Place:
-    """A named point of the hyperbola: name in a figure, name in a sentence, (omega2, omega3), and role."""
+    """A named point of the hyperbola: name in a figure (TeX), name in a sentence, (omega2, omega3) in 1/time, role."""
 
     text: str
     words: str
@@ -170,10 +175,10 @@ class Place:
 
 
 def places(ratio: Any, field: Any) -> tuple[Place, ...]:
-    """Return the named points of the hyperbola (67): rest, -2 B', and omega2 = -(2-I) B2, where omega3 = 0 again.
+    """Return two or three named points of the hyperbola (67): rest, -2 B', and the second point with omega3 = 0.
 
-    The third is left out for I = 2, where it is the state of rest, for I = 1, where it is the pole, and for B2 = 0 or
-    B3 = 0.
+    ``ratio`` is I3/I2 or a body, ``field`` a `Field` or (B2, B3). The third, omega2 = -(2-I) B2, is left out for I
+    = 2, where it is the state of rest, for I = 1, where it is the pole, and for B2 = 0 or B3 = 0.
     """
     B2, B3 = components(field)
     special = Hyperbola(ratio, field).special
@@ -188,7 +193,10 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
 
 
 def marked(named: Sequence[Place], field: Any) -> list[Layer]:
-    """Return layers: points at the centre -B' and at the named places, and labels of the centre and the first three."""
+    """Return layers: points at the centre -B' and at the `named` places, and labels of the centre and three places.
+
+    ``field`` is a `Field` or (B2, B3).
+    """
     centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
     return [
         Points(centre[None], "centre"),

@@ -21,7 +21,10 @@ Path: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A polyline through ``points`` (N, 2) or (N, 3)."""
+    """A polyline through ``points`` (N, 2) or (N, 3), drawn in the look of its ``role``, with a ``label`` at its end.
+
+    ``rides`` names the path of the scene that moves it; "" for a curve at rest.
+    """
 
     points: FloatArray
     role: str
@@ -31,7 +34,10 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Marked points (N, 2) or (N, 3)."""
+    """Marked ``points`` (N, 2), (N, 3) or one (D,), drawn in the look of their ``role``, with a ``label`` at the first.
+
+    ``rides`` names the path of the scene that moves them; "" for points at rest.
+    """
 
     points: FloatArray
     role: str
@@ -41,9 +47,10 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Arrow:
-    """A vector drawn from ``tail`` to ``tip``, with its name ``offset`` printer's points away from the tip.
+    """A vector drawn from ``tail`` to ``tip``, points (2,) or (3,), its name ``offset`` printer's points from the tip.
 
-    Without an offset the name stands just beyond the tip. The name is moved a little where it would cover something.
+    Without an offset the name stands just beyond the tip. The name is moved a little where it would cover
+    something. ``role`` gives the look, ``rides`` names the path of the scene that moves the arrow, "" for none.
     """
 
     tail: FloatArray
@@ -92,7 +99,7 @@ class Surface:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A filled polygon (N, 2) in the plane."""
+    """A filled polygon ``points`` (N, 2) in the plane, in the look of its ``role``, with a ``label`` in its middle."""
 
     points: FloatArray
     role: str
@@ -101,9 +108,11 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """A map of ``values`` (len(y)-1, len(x)-1) over the cells between the edges ``x`` and ``y``.
+    """A map of ``values`` (len(y)-1, len(x)-1) over the cells between the edges ``x`` and ``y``, two arrays.
 
-    On the scales of its panel the edges are at equal steps.
+    On the scales of its panel the edges are at equal steps. ``label`` stands at the bar of colours, which is left
+    out for ""; ``scale`` is that of the colours, ``limits`` their least and largest value, by default those of the
+    values. NaN has no colour.
     """
 
     x: FloatArray
@@ -119,10 +128,11 @@ Layer: TypeAlias = Curve | Points | Arrow | Label | Surface | Region | Image
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A panel with two axes.
+    """A panel with two axes: its ``layers``, the axes' labels, limits and scales, and its ``title``.
 
-    With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel if that is not made
-    narrower); without it they stand at the layers themselves.
+    Limits are (lowest, highest), None for those that the layers need. With ``equal`` both axes have one scale on
+    paper. With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel if that
+    is not made narrower); without it they stand at the layers themselves.
     """
 
     layers: tuple[Layer, ...]
@@ -196,12 +206,15 @@ def frame(space: Space) -> FloatArray:
 
 
 def cloud(space: Space) -> FloatArray:
-    """Return all points (N, 3) of a panel's layers. Raises AtlasError for a `Region` or an `Image`."""
+    """Return all points (N, 3) of a panel's layers, wires aside. Raises AtlasError for a `Region` or an `Image`."""
     return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in points_of(layer)])
 
 
 def points_of(layer: Layer) -> Iterator[FloatArray]:
-    """Yield arrays (..., 2) or (..., 3) of the points of a layer. Raises AtlasError for a `Region` or an `Image`."""
+    """Yield arrays (..., 2) or (..., 3) of the points of a layer; of a `Surface` meshes and rims.
+
+    Raises AtlasError for a `Region` or an `Image`.
+    """
     if isinstance(layer, Curve | Points):
         yield layer.points
     elif isinstance(layer, Arrow):
@@ -220,7 +233,10 @@ _SIDES = np.array([1.0, 1.0, 1.0, -1.0])
 
 
 def mapped(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
-    """Return a layer under the map x -> A x + s, A (D, D) regular; a region or a map stays as it is."""
+    """Return a copy of a layer under the map x -> A x + s, A (D, D) regular, s (D,).
+
+    A region or a map stays as it is.
+    """
 
     def image(points: FloatArray) -> FloatArray:
         return np.asarray(np.asarray(points, dtype=float) @ A.T + s)
@@ -238,7 +254,10 @@ def mapped(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
 
 
 def moved_surface(surface: Surface, A: FloatArray, s: FloatArray) -> Surface:
-    """Return a surface under the map x -> A x + s, with the forms Q, W carried to the new points."""
+    """Return a copy of a surface, its quadrics and half spaces too, under the map x -> A x + s.
+
+    A (3, 3) is regular, s is (3,).
+    """
     back = np.eye(4)
     back[:3, :3] = np.linalg.inv(A)
     back[:3, 3] = -back[:3, :3] @ s

@@ -42,12 +42,12 @@ def body_path(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArr
 
 
 def translations(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return identity matrices (N, D, D) and the translations (N, D) from the point ``start`` (D,) to ``places``."""
+    """Return identity matrices (N, D, D) and the translations (N, D) from the point ``start`` (D,) to N ``places``."""
     return np.broadcast_to(np.eye(len(start)), (*places.shape, len(start))), places - start
 
 
 def riding(layers: list[Layer], path: str) -> list[Layer]:
-    """Return copies of layers whose attribute `rides` is the name `path`."""
+    """Return copies of layers with their attribute `rides` set to the name `path`. A region or a map is a TypeError."""
     return [replace(layer, rides=path) for layer in layers]  # type: ignore[arg-type]  # no map or region rides
 
 
@@ -61,7 +61,7 @@ def closes(scene: Scene) -> bool:
 
 
 def _riders(panel: Panel) -> FloatArray:
-    """Return the points (N, 2) or (N, 3) of a panel that ride on a path."""
+    """Return the points (N, 2) or (N, 3) of a panel's layers that ride on a path, (0, 2) or (0, 3) for none."""
     flat = 2 if isinstance(panel, Plane) else 3
     point_sets = [points for layer in panel.layers if getattr(layer, "rides", "") for points in points_of(layer)]
     return np.concatenate([np.empty((0, flat)), *(np.reshape(points, (-1, flat)) for points in point_sets)])

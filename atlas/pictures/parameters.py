@@ -55,9 +55,9 @@ COUNTS = {2: "two", 3: "three", 4: "four"}
 def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tuple[float, float]] = RANGES) -> Any:
     """Return a parameter's value converted to the annotation `hint`, or if that is None to its default's type.
 
-    A list becomes a tuple, an integer a float, one number a tuple of one where any length is allowed, and a flat list
-    is divided into tuples of the annotated length. `ends` are (least, greatest) by name. Raises AtlasError, which names
-    the parameter and the expected value, for another type and beyond the limits.
+    A list becomes a tuple, an integer a float, one number a tuple of one where any length is allowed, and a flat
+    list is divided into tuples of the annotated length. `ends` are (least, greatest) by name of parameter. Raises
+    AtlasError, which names the parameter and the expected value, for another type and beyond the limits.
     """
     kind = _kind(default) if hint is None else hint
     try:
@@ -72,7 +72,10 @@ def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tu
 
 
 def described(hint: Any, default: Any) -> str:
-    """Return the type of a parameter in a few words: a number, two numbers, a list of numbers, left or right."""
+    """Return the type of a parameter in a few words: "a number", "two numbers", "a list of numbers", "left or right".
+
+    `hint` is its annotation, None for none: then the type of its `default` counts.
+    """
     kind = _kind(default) if hint is None else hint
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
@@ -89,7 +92,7 @@ def described(hint: Any, default: Any) -> str:
 
 
 def typed(value: Any) -> str:
-    """Return a value as it is typed after ``--set``; nested lists are flattened."""
+    """Return a value as it is typed after ``--set``: "1.5", "1,2", "true"; nested lists are flattened."""
     if isinstance(value, tuple | list):
         return ",".join(map(typed, value)) + ("," if len(value) == 1 and not isinstance(value[0], tuple | list) else "")
     if isinstance(value, bool):
@@ -109,7 +112,10 @@ def _kind(default: Any) -> Any:
 
 
 def _fit(value: Any, kind: Any) -> Any:
-    """Return a value converted to an annotation, NumPy's types to Python's. Raises _Unfit."""
+    """Return a value converted to an annotation `kind`, NumPy's types to Python's; a body may stand for a number.
+
+    Raises _Unfit, whose message is the expected type in words.
+    """
     if hasattr(value, "tolist"):
         value = value.tolist()
     origin, inner = get_origin(kind), get_args(kind)

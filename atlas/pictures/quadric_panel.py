@@ -59,14 +59,15 @@ def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) ->
 
 
 def tolerance(reach: float) -> float:
-    """Return a quarter of a pixel at 300 dots an inch, in 1/time, for a figure that shows about ``2 reach``."""
+    """Return a quarter of a pixel at 300 dots an inch, in 1/time, for a figure that shows a width of ``2 reach``."""
     return quarter_pixel(2.0 * reach, WIDTH)
 
 
 def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
-    """Return the drawn lengths of a sheet along its axis from -B', in 1/time: towards the origin, and away.
+    """Return the drawn lengths (towards the origin, away) of a sheet along its axis from -B', in 1/time.
 
-    On the origin's side a sheet extends past the origin, towards the tip of B'; a tube is at most as long as wide.
+    ``field`` is (B2, B3). On the origin's side a sheet extends past the origin, towards the tip of B'; a tube is at
+    most as long as wide.
     """
     b = float(np.hypot(*field))
     w = quadrics.sheet_axis(quadric)
@@ -82,8 +83,8 @@ def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
 def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str = "both") -> list[Surface]:
     """Return the drawn sheets of a hyperboloid or cone (51), one `Surface` each, the one on the origin's side first.
 
-    ``field`` is (B2, B3) of B', of which neither vanishes. `choice` is "both", or "origin" for only the first sheet. A
-    hyperboloid of one sheet and a cone are one surface.
+    ``I`` is I3/I2, ``field`` is (B2, B3) of B', of which neither vanishes. `choice` is "both", or "origin" for only
+    the first sheet. A hyperboloid of one sheet and a cone are one surface.
     """
     high, low = extent(quadric, field)
     sag = tolerance(high if choice == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
@@ -94,12 +95,19 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str =
 
 
 def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
-    """Return whether the origin lies upwards from -B' along the axis of the sheets."""
+    """Return whether the origin lies upwards from -B' along the axis of the quadric's sheets.
+
+    True also at equal height.
+    ``field`` is (B2, B3).
+    """
     return not float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
 
 
 def planes(field: tuple[float, float]) -> list[Layer]:
-    """Return layers of the planes omega_3 = 0 and omega_2 = -B2, to which the quadric (51) reduces for B3 = 0."""
+    """Return layers of the planes omega_3 = 0 and omega_2 = -B2, to which the quadric (51) reduces for B3 = 0.
+
+    ``field`` is (B2, 0); each plane has its name and its line omega_1 = 0.
+    """
     B2, reach = field[0], 1.6 * abs(field[0])
     corner = in_plane(-B2, 0.0)
     layers: list[Layer] = []
@@ -146,14 +154,17 @@ def quadric_layers(ratio: Any, field: tuple[float, float], choice: str = "both")
 
 
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
-    """Return the sections omega_1 = 0, the hyperbola (67), of surfaces of a quadric, as `Curve` layers."""
+    """Return the sections omega_1 = 0, the hyperbola (67), of surfaces of a quadric, as `Curve` layers.
+
+    ``I`` is I3/I2, ``field`` (B2, B3).
+    """
     Q = quadrics.quadric_matrix(I, field)
     sag = tolerance(float(np.hypot(*field)))
     return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, sag)]
 
 
 def basis(lengths: tuple[float, float, float]) -> list[Layer]:
-    """Return the laboratory axes e1, e2, e3 as arrows of these lengths from the origin."""
+    """Return the laboratory axes e1, e2, e3 as `Arrow` layers of these three lengths, in 1/time, from the origin."""
     return [
         Arrow(O, length * e, "basis", rf"$\mathbf{{e}}_{k}$")
         for k, (e, length) in enumerate(zip((E1, E2, E3), lengths, strict=True), 1)
@@ -161,7 +172,11 @@ def basis(lengths: tuple[float, float, float]) -> list[Layer]:
 
 
 def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
-    """Return arrows B' and I^-1 B', the angle ``beta`` in radians between e2 and the latter, and the line to -B'."""
+    """Return layers: arrows B' and I^-1 B', the angle ``beta`` in rad between e2 and the latter, the line to -B'.
+
+    ``I`` is I3/I2, ``field`` (B2, B3). The two arrows are one for equal vectors; a long arrow I^-1 B' is cut at
+    MAX_ARROW_RATIO times B', which its name says.
+    """
     B2, B3 = field
     prime, inverse = in_plane(B2, B3), in_plane(B2, B3 / I)
     inverse_name = r"\mathrm{I\!I}^{-1}\mathbf{B}'"  # mathtext's blackboard I is slanted

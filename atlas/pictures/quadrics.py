@@ -17,8 +17,8 @@ _WIRES, _PARALLELS = 12, 5
 def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
     """Return the (4, 4) matrix Q of (50), (w, 1) Q (w, 1) = 0, negative inside the sheets (around their axis).
 
-    It is B3 (w1^2 + w2^2) - I B2 w2 w3 + (2 - I) B2 B3 w2 - I B2^2 w3, divided by B3 where that is not zero;
-    ``field`` is (B2, B3).
+    w is the angular velocity. The form is B3 (w1^2 + w2^2) - I B2 w2 w3 + (2 - I) B2 B3 w2 - I B2^2 w3, divided by
+    B3 where that is not zero; ``I`` is I3/I2, ``field`` is (B2, B3).
     """
     B2, B3 = field
     unit = B3 or 1.0
@@ -28,16 +28,17 @@ def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
 
 
 def sheet_axis(quadric: Quadric) -> int:
-    """Return the row in `axes` of the canonical axis the sheets lie around: omega'_2 for B3/B2 > 0, else omega'_3."""
+    """Return the index in `axes` of the canonical axis the sheets lie around: 1 (omega'_2) for B3/B2 > 0, else 2."""
     return 1 if quadric.a2 > 0.0 else 2
 
 
 def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: float, role: str = "surface") -> Surface:
     """Return the part of the quadric between ``low`` and ``high`` along the axis of its sheets, from its centre.
 
-    With D = (1, -1/a2, 1/a3), negative for the axis w of the sheets, the cross section at w is the ellipse
-    D_i x_i^2 + D_j x_j^2 = |D_w| w^2 + (1 - I) B2^2; ``low`` and ``high`` lie on one sheet. The parameter along the
-    sheet is hyperbolic. It is cut where its steepest and flattest meridians and its narrowest and widest rings bend.
+    ``Q`` (4, 4) is its matrix; lengths are in 1/time, chords within ``tolerance``. With D = (1, -1/a2, 1/a3),
+    negative for the axis w of the sheets, the cross section at w is the ellipse D_i x_i^2 + D_j x_j^2 = |D_w| w^2 +
+    (1 - I) B2^2; ``low`` and ``high`` lie on one sheet. The parameter along the sheet is hyperbolic. It is cut
+    where its steepest and flattest meridians and its narrowest and widest rings bend.
     """
     D = np.array([1.0, -1.0 / quadric.a2, 1.0 / quadric.a3])
     w = sheet_axis(quadric)
@@ -100,7 +101,10 @@ def profile(constant: float, slope: float, sign: float) -> tuple[_Line, _Line, C
 
 
 def top_matrix(I: float, quadric: TopQuadric) -> FloatArray:
-    """Return the (4, 4) matrix of the quadric of a top, theorem-top-quadric, divided by n3, which is not zero."""
+    """Return the (4, 4) matrix of the quadric of a top, theorem-top-quadric, divided by n3, which is not zero.
+
+    ``I`` is I3/I2; n = (0, n2, n3) is the direction of the field.
+    """
     n2, n3 = quadric.direction
     sine, c = n2 / float(np.hypot(n2, n3)), np.asarray(quadric.centre)
     form = np.diag([1.0, 1.0, 0.0])

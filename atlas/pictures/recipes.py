@@ -33,6 +33,8 @@ class Recipe:
 
     Attributes
     ----------
+    source : Path
+        The recipe's file.
     seen : str
         ``SEEN = "..."``: one sentence, true for all parameters, that states the picture's point and begins the caption.
     row : str
@@ -56,9 +58,10 @@ class Recipe:
     row: str = ""
 
     def scene(self, **parameters: Any) -> "Scene":
-        """Return the scene for these parameters, defaults for the others; all are noted in the scene.
+        """Return the `Scene` for these parameters, defaults for the others; all values are noted in its `parameters`.
 
-        Raises AtlasError for an unknown parameter or a recipe that fails.
+        The recipe's file is executed. Raises AtlasError for an unknown parameter, a value that does not fit, or a
+        recipe that fails; errors of the package from the recipe, such as DomainError, are passed on.
         """
         from atlas.pictures.layers import Scene
 
@@ -96,7 +99,7 @@ class Recipe:
 
 
 def names() -> list[str]:
-    """Return the names of all recipes in alphabetical order."""
+    """Return the names of all recipes in figures/ in alphabetical order."""
     return sorted(path.stem for path in folder("figures").glob("*.py") if not path.stem.startswith("_"))
 
 
@@ -116,7 +119,7 @@ def source(name: str) -> Path:
 
 
 def title(name: str) -> str:
-    """Return the title of a recipe, the first line of its file's docstring."""
+    """Return the title of a recipe: the first line of its file's docstring, without the full stop."""
     return load(name).title
 
 
@@ -156,7 +159,7 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
 
 
 def _tree(source: Path) -> ast.Module:
-    """Return the syntax tree of a recipe. Raises AtlasError for a file that is no Python."""
+    """Return the syntax tree of the recipe's file `source`. Raises AtlasError for a file that is no Python."""
     try:
         return syntax_tree(source.read_bytes(), str(source))
     except (SyntaxError, ValueError) as error:
@@ -230,7 +233,7 @@ def _run(source: Path, _stamp: tuple[int, int]) -> tuple[Callable[..., "Scene"],
 
 
 def _broken(source: Path, error: Exception) -> AtlasError:
-    """Return an error that says in one sentence why a recipe failed, and in which line."""
+    """Return, without raising it, an AtlasError that says in one sentence why a recipe failed, and in which line."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(source)]
     if isinstance(error, SyntaxError):
         lines, error_text = [error.lineno], error.msg
@@ -246,6 +249,9 @@ def _short(source: Path) -> str:
 
 
 def _unknown(noun: str, name: str, choices: Iterable[str], owner: str) -> AtlasError:
-    """Return an error that lists the known names, with the most similar one."""
+    """Return, without raising it, an AtlasError for an unknown `name`, with all `choices` and the most similar one.
+
+    `noun` is the kind of the name, `owner` the thing that has none: "no parameter 'x' in the figure 'y'; known: a, b."
+    """
     options = list(choices)
     return AtlasError(f"no {noun} {name!r} in {owner}{nearest(name, options)}; known: {', '.join(options) or 'none'}.")

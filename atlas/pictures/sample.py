@@ -45,7 +45,7 @@ def curve(
 
 
 def room(values: Collection[float], share: float) -> tuple[float, float]:
-    """Return limits that hold all values, with the fraction ``share`` of their extent free on either side."""
+    """Return limits (low, high) that hold all values, with the fraction ``share`` of their extent free on each side."""
     low, high = min(values), max(values)
     margin = share * (high - low)
     return float(low - margin), float(high + margin)
@@ -73,7 +73,7 @@ def flat(
 def knots(
     function: Callable[[FloatArray], FloatArray], start: float, stop: float, tolerance: float, pieces: int = 8
 ) -> FloatArray:
-    """Return the parameter values (N,) at which `curve` places its points on `function`."""
+    """Return the parameter values (N,) at which `curve` places its points on `function`; arguments as there."""
     return _cut(function, start, stop, tolerance, pieces, None, 1.0)[0]
 
 
@@ -153,10 +153,11 @@ def cuts(
     stop: float,
     tolerance: float,
 ) -> FloatArray:
-    """Return parameters (N,), common to several ``lines`` on a quadric, at which its mesh is divided.
+    """Return parameters (N,), common to several ``lines`` on a quadric, at which the quadric's mesh is divided.
 
-    Between two neighbours no chord of the lines is further than ``tolerance`` from the quadric, and the unit normal is
-    linear up to `SHADE`, so that the shade of a face is right to its last bit.
+    ``quadric`` is its matrix (4, 4); a line maps parameters (N,), from ``start`` to ``stop``, to points (N, 3).
+    Between two neighbours no chord of the lines is further than ``tolerance`` from the quadric, and the unit normal
+    is linear up to `SHADE`, so that the shade of a face is right to its last bit.
     """
 
     def of_line(line: Callable[[FloatArray], FloatArray]) -> Callable[[FloatArray], FloatArray]:
@@ -170,7 +171,10 @@ def cuts(
 
 
 def normals(quadric: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the unit normals of a quadric at points (..., 3); zero in the apex of a cone, where there is none."""
+    """Return the unit normals (..., 3) of a quadric, matrix (4, 4), at points (..., 3), to its outer side.
+
+    The form of the quadric grows to that side. Normals are zero in the apex of a cone, where there is none.
+    """
     gradient = points @ quadric[:3, :3] + quadric[:3, 3]
     length = np.linalg.norm(gradient, axis=-1, keepdims=True)
     return np.asarray(gradient / np.where(length > 0.0, length, 1.0))

@@ -20,7 +20,10 @@ def transverse_axes(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
-    """Return points (N, 3) on the circle around ``axis`` (unit vector), with chords within ``tolerance`` of it."""
+    """Return points (N, 3) on the circle about ``centre`` (3,), across the unit vector ``axis``, closed.
+
+    The chords between them are within ``tolerance``, a length, of the circle.
+    """
     east, north = transverse_axes(axis)
     return arc(centre, radius * east, radius * north, 0.0, TURN, tolerance)
 
@@ -30,13 +33,17 @@ def arc(
 ) -> FloatArray:
     """Return points (N, 3) of centre + east cos s + north sin s for s from start to stop, in rad.
 
-    The chords between them are within ``tolerance``, a length, of the curve.
+    ``centre``, ``east`` and ``north`` are (3,). The chords between the points are within ``tolerance``, a length,
+    of the curve.
     """
     return sample.curve(ellipse(centre, east, north), start, stop, tolerance)
 
 
 def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable[[FloatArray], FloatArray]:
-    """Return the function centre + east cos s + north sin s of s (N,), with values (N, 3)."""
+    """Return the function centre + east cos s + north sin s of s (N,), in rad, with values (N, 3).
+
+    The vectors are (3,).
+    """
     return lambda s: centre + np.cos(s)[:, None] * east + np.sin(s)[:, None] * north
 
 
@@ -51,7 +58,10 @@ def around(
 
 
 def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
-    """Return the (4, 4) matrix of x.form.x + linear.x + constant."""
+    """Return the symmetric (4, 4) matrix of the function x.form.x + linear.x + constant.
+
+    Form is (3, 3), linear (3,).
+    """
     Q = np.zeros((4, 4))
     Q[:3, :3], Q[3, 3] = form, constant
     Q[:3, 3] = Q[3, :3] = 0.5 * linear
@@ -83,7 +93,8 @@ def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sph
 def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolerance: float) -> Surface:
     """Return a cone as a `Surface`: half-angle ``angle`` in rad about the unit vector ``axis``, slant ``length``.
 
-    At a right angle a disk is returned, for the quadratic form of the cone is then a square and has no normal.
+    Its mesh is within ``tolerance``, a length. At a right angle a disk is returned, for the quadratic form of the
+    cone is then a square and has no normal.
     """
     c, s = float(np.cos(angle)), float(np.sin(angle))
     if abs(c) < _FLAT:
@@ -134,7 +145,11 @@ def cylinder(
 
 
 def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str = "plane", label: str = "") -> Surface:
-    """Return the rectangle centre + a east + b north with a, b in [-1, 1]; east and north are orthogonal."""
+    """Return the rectangle centre + a east + b north with a, b in [-1, 1] as a `Surface`.
+
+    East and north are orthogonal.
+    The vectors are (3,); the outer side is that of east x north.
+    """
     units = [v / np.linalg.norm(v) for v in (east, north)]
     normal = np.cross(units[0], units[1])
     sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
@@ -153,6 +168,6 @@ def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str
 
 
 def extent(surfaces: Sequence[Surface], direction: FloatArray) -> tuple[float, float]:
-    """Return least and largest coordinate of the surfaces' mesh points along the unit vector ``direction`` (3,)."""
+    """Return (least, largest) coordinate of the surfaces' mesh points along the unit vector ``direction`` (3,)."""
     heights = np.concatenate([np.ravel(grid @ direction) for surface in surfaces for grid in surface.grids])
     return float(heights.min()), float(heights.max())

@@ -170,7 +170,7 @@ def contrast(colour: str, ground: str = WHITE) -> float:
 
 
 def _luminance(colour: str) -> float:
-    """Return the relative luminance of a colour, from 0 to 1."""
+    """Return the relative luminance of a colour "#rrggbb", from 0 (black) to 1 (white), as WCAG 2 defines it."""
     channels = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
     linear = [channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4 for channel in channels]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
@@ -178,7 +178,7 @@ def _luminance(colour: str) -> float:
 
 @cache
 def is_dark(ground: str) -> bool:
-    """Return whether white is more readable on a colour than black."""
+    """Return whether white is more readable on the colour `ground`, "#rrggbb", than black."""
     return contrast(WHITE, ground) > contrast("#000000", ground)
 
 
@@ -198,7 +198,7 @@ def readable(colour: str, ground: str = WHITE) -> str:
 
 @cache
 def style(role: str) -> Style:
-    """Return the `Style` of a role. Raises AtlasError for an unknown role."""
+    """Return the `Style` of a role, a key of STYLES. Raises AtlasError for an unknown role."""
     if role in STYLES:
         return STYLES[role]
     raise AtlasError(f"no style for the role {role!r}{nearest(role, STYLES)}; known: {', '.join(STYLES)}")

@@ -12,7 +12,7 @@ GRAZE = 1e-9
 
 
 def on_torus(u: FloatArray, v: FloatArray) -> FloatArray:
-    """Return points (..., 3) of the torus at angles u around its axis e3 and v around its tube, in rad."""
+    """Return points (..., 3) of the torus at angles u around its axis e3 and v around its tube, both (...) in rad."""
     distance = RADII[0] + RADII[1] * np.cos(v)
     return np.stack([distance * np.cos(u), distance * np.sin(u), RADII[1] * np.sin(v)], axis=-1)
 

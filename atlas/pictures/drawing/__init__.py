@@ -88,7 +88,7 @@ def plotter(name: str, *, off_screen: bool = True, **parameters: object) -> "Plo
 
 
 def __getattr__(name: str) -> Any:
-    """Return a public name, loaded from its module. Raises AttributeError for another name."""
+    """Return the public function `name`, imported from its module. Raises AttributeError for another name."""
     if name not in _HOMES:
         raise AttributeError(f"module 'atlas.pictures.drawing' has no attribute {name!r}")
     return getattr(import_module(_HOMES[name]), name)

@@ -36,8 +36,9 @@ Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
 class Frames:
     """Frames of an animation in one figure; `make(k)` returns the scene of frame k, 0 <= k < `count`.
 
-    Each scene is made twice, first to find a view that contains all scenes, so that no scene stays in memory. Raises
-    AtlasError for scenes with different panels.
+    `style` is as for `atlas.figure`; `progress` is called with (steps done, steps, "view" or "frames"). Each scene
+    is made twice, first to find a view that contains all scenes, so that no scene stays in memory. `figure` is the
+    Matplotlib figure. Raises AtlasError for scenes with different panels.
     """
 
     def __init__(self, make: Callable[[int], Scene], count: int, style: Any, progress: Progress) -> None:
@@ -83,14 +84,15 @@ class Frames:
 class Moving(FuncAnimation):
     """A Matplotlib animation that a notebook shows as a GIF, since Matplotlib's player loads icons from another host.
 
-    `jumps` is True where the last frame certainly does not lead back to the first.
+    `fps` is the number of frames a second; `jumps` is True where the last frame certainly does not lead back to the
+    first.
     """
 
     fps = FPS
     jumps = False
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """Return the animation as a GIF for a notebook."""
+        """Return the animation as a GIF for a notebook, {"image/gif": base 64, "text/plain": text}."""
         with TemporaryDirectory() as folder:
             path = Path(folder) / "moving.gif"
             save(self, path, "gif", fps=min(max(self.fps, 1.0), FASTEST["gif"]), dpi=_SCREEN)
@@ -112,7 +114,7 @@ def _extents(scene: Scene) -> Iterator[Extent]:
 
 
 def _reduced(panel: Space) -> Space:
-    """Return a panel of equal extent with few points: the extreme ones along the axes and on paper, and names."""
+    """Return a panel with the same extent and few points: the extremes along the axes and on paper, and the names."""
     eye = frame(panel)
     points = cloud(panel)
     heights = points @ np.concatenate([np.eye(3), eye[:2]]).T
@@ -130,9 +132,11 @@ def animation(
     style: StyleLike = None,
     progress: Progress | None = None,
 ) -> Moving:
-    """Return the scenes `make(k)`, 0 <= k < count, as a Matplotlib animation.
+    """Return the scenes `make(k)`, 0 <= k < count, as a Matplotlib animation of `fps` frames a second.
 
-    Raises AtlasError unless 2 <= count <= 2000, for `fps` that is not positive, and for scenes with different panels.
+    `style` is as for `atlas.figure`; `progress`, if given, is called with (steps done, steps, "view" or "frames").
+    Raises AtlasError unless 2 <= count <= 2000, for `fps` that is not positive, and for scenes with different
+    panels.
     """
     if not 2 <= count <= MAX_FRAMES:
         raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
@@ -209,11 +213,12 @@ def animate(
 
 
 def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> Moving:
-    """Return the animation of a motion, a frame for each of the times; `options` as for `animation`.
+    """Return the animation of a motion, a frame for each of the `times`; `options` as for `animation`.
 
-    Without times the animation lasts the least number of periods, up to `MAX_PERIODS`, that brings the body back to its
-    attitude; if no number does, one period, and `jumps` is True. If the body comes back, every frame has the whole path
-    of the axis.
+    Without times the animation lasts the least number of periods, up to `MAX_PERIODS`, that brings the body back to
+    its attitude; if no number does, one period, and `jumps` is True. If the body comes back, every frame has the
+    whole path of the axis, else the path of the last period. Raises AtlasError as `animation` does, and for an
+    array of motions.
     """
     length, count, closed = any_motion.period(motion), 1, False
     if times is None:
@@ -235,8 +240,8 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
 def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
     """Return (function of k that makes the scene of frame k, number of frames) of a scene with paths.
 
-    `times` are those of the frames, by default `FRAMES` equal steps over the scene's duration. Raises AtlasError for a
-    scene without paths.
+    `times` are those of the frames, by default `FRAMES` equal steps over the scene's duration; `recipe` is for the
+    message. Raises AtlasError for a scene without paths.
     """
     if not scene.paths:
         raise AtlasError(
@@ -248,10 +253,11 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
 
 
 def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -> None:
-    """Write an animation as an mp4, gif or apng; the file at `path` is replaced only by a complete one.
+    """Write an animation as a `kind` "mp4", "gif" or "apng"; the file at `path` is replaced only by a complete one.
 
-    Raises AtlasError where `check` does, and where the new file was written beside an edited one, see
-    `atlas.files.keeping`; OSError where the file can't be written.
+    `fps` is the number of frames a second, `dpi` the resolution. Raises AtlasError where `check` does, and where
+    the new file was written beside an edited one, see `atlas.files.keeping`; OSError where the file can't be
+    written.
     """
     check(kind, fps)
     writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
@@ -265,7 +271,10 @@ def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -
 
 
 def check(kind: str, fps: float) -> None:
-    """Raise AtlasError for a format that cannot be written here, or not at `fps` frames a second."""
+    """Raise AtlasError for a `kind` of file that cannot be written here, or not at `fps` frames a second.
+
+    The kinds are "mp4", which needs ffmpeg, "gif" and "apng".
+    """
     if not 1 <= fps <= FASTEST[kind]:
         raise AtlasError(f"{kind} has from 1 to {FASTEST[kind]} frames a second, not {fps:g}")
     if kind == "mp4" and not FFMpegWriter.isAvailable():

@@ -109,7 +109,7 @@ def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
 
 
 def _short(svg: str) -> str:
-    """Return an SVG a third as long: relative paths in hundredths of a point, without repeated points.
+    """Return an SVG, as text, a third as long: relative paths in hundredths of a point, without repeated points.
 
     Positions are rounded, not steps, so that roundings don't add up.
     """
@@ -132,13 +132,13 @@ def _short(svg: str) -> str:
 
 @lru_cache(1 << 16)
 def _hundredths(number: int) -> str:
-    """Return a number of hundredths as text, preceded by its sign or a space."""
+    """Return a number of hundredths as decimal text, preceded by a minus sign or a space: 150 gives " 1.5"."""
     digits = re.sub(r"^(-?)0\.", r"\1.", str(number / 100).removesuffix(".0"))
     return digits if number < 0 else f" {digits}"
 
 
 def _opaque(path: Path) -> None:
-    """Rewrite a PNG without alpha, with its text and resolution."""
+    """Rewrite the PNG at `path` without alpha; its text and resolution are kept."""
     from PIL import Image as Pictures
     from PIL.PngImagePlugin import PngInfo
 
@@ -151,7 +151,7 @@ def _opaque(path: Path) -> None:
 
 
 def _write_pgf(figure: "Figure", path: Path) -> None:
-    r"""Write a figure as PGF commands, for ``\input`` in a LaTeX document; primes are TeX again.
+    r"""Write a figure to `path` as PGF commands, for ``\input`` in a LaTeX document; primes are TeX again.
 
     Texts are measured by Matplotlib, which would otherwise ask LaTeX: no LaTeX needs to be installed.
     """
@@ -188,7 +188,7 @@ def _formulas_parsed_once() -> Iterator[None]:
 
 @contextmanager
 def _replaced(owner: Any, name: str, value: Any) -> Iterator[None]:
-    """Context in which an attribute of `owner` has another value."""
+    """Context in which the attribute `name` of `owner` has another value; the former value is restored at the end."""
     before = getattr(owner, name)
     setattr(owner, name, value)
     try:

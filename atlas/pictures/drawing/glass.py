@@ -62,7 +62,8 @@ def cut(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: F
 def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards: FloatArray) -> FloatArray:
     """Return the painting rank (T,) of triangles `corners` (T, 3, K) from `cut`, its other arguments the same.
 
-    The least is painted first. Each quadric adds 0 to 2: more, the more of its sheets lie behind the triangle.
+    The triangle with the least rank is painted first. Each quadric adds 0 to 2: more, the more of its sheets lie
+    behind the triangle.
     """
     total = np.zeros(len(corners))
     for number, form in enumerate(forms):
@@ -79,9 +80,10 @@ def _snapped(heights: FloatArray) -> FloatArray:
 
 
 def _cut(corners: FloatArray, field: Field) -> FloatArray:
-    """Return triangles (T, 3, K) cut along the zeros of `field`, so that it has one sign on each.
+    """Return triangles (T, 3, K) cut along the zeros of `field`, so that the field has one sign on each; T may grow.
 
-    `field` maps points (..., 3), the first three of the K numbers, to values (...); it is at most quadratic.
+    `field` maps points (..., 3), the first three of the K numbers of a corner, to values (...), at most quadratic
+    in them.
     """
     height = _snapped(field(corners[..., :3]))
     above, below = height > 0.0, height < 0.0
@@ -99,9 +101,9 @@ def _cut(corners: FloatArray, field: Field) -> FloatArray:
 
 
 def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: Field) -> FloatArray:
-    """Return the points, (N, K), between a and b (N, K) where the function ``field`` is zero, by a parabola.
+    """Return the points (N, K) between a and b (N, K) where the function ``field`` is zero, by a parabola.
 
-    ``u`` and ``v`` (N,) are its values at a and b, of different signs; it is asked for the value half way.
+    ``u`` and ``v`` (N,) are the field's values at a and b, of different signs; the field is evaluated half way.
     """
     middle = field(0.5 * (a + b)[:, :3])
     square, slope = 2.0 * (u - 2.0 * middle + v), 4.0 * middle - 3.0 * u - v
@@ -145,7 +147,7 @@ def glass(view: View, pixel: float) -> Triangles:
 
 
 def lattice(rows: int, columns: int) -> NDArray[np.int64]:
-    """Return the triangles (T, 3) of a mesh of rows x columns corners, as indices of corners numbered row by row."""
+    """Return the triangles (T, 3) of a mesh of `rows` x `columns` corners, as indices of the corners row by row."""
     corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
     lower, neighbour, diagonal = corner + columns, corner + 1, corner + columns + 1
     return np.stack([corner, lower, diagonal, corner, diagonal, neighbour], axis=1).reshape(-1, 3)
@@ -175,7 +177,8 @@ def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
 def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatArray, bool]]:
     """Yield (triangles (T, 3, 7), whether of a wire) for the meshes and wires of a surface.
 
-    The seven numbers of a corner are a point of the surface, an offset from there, and an opacity.
+    The seven numbers of a corner are a point of the surface, an offset from there, and an opacity from 0 to 1;
+    `pixel` is the size of a pixel in the panel's unit.
     """
     for grid in surface.grids:
         mesh = _refined(grid)
@@ -189,7 +192,10 @@ def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatA
 
 
 def _refined(grid: FloatArray) -> FloatArray:
-    """Return a mesh (M, N, 3) with its long cells divided in both directions: thin triangles are drawn badly."""
+    """Return a mesh (M, N, 3) with its long cells divided in both directions; M and N may grow.
+
+    Thin triangles would be drawn badly.
+    """
     for _ in range(2):
         longest = np.linalg.norm(np.diff(grid, axis=0), axis=2).max(axis=1)
         counts = np.maximum(1, np.ceil(longest / _CELL)).astype(int)
@@ -202,9 +208,10 @@ def _refined(grid: FloatArray) -> FloatArray:
 
 
 def _ribbon(line: FloatArray, width: float, view: View, pixel: float) -> FloatArray:
-    """Return a line of a given width as triangles (T, 3, 7) across the ray, its edges fading over one pixel.
+    """Return a line (N, 3) of a given width as triangles (T, 3, 7) across the ray, its edges fading over one pixel.
 
-    A line thinner than a pixel is drawn one pixel wide, and fainter.
+    The seven numbers are those of `_pieces`; `width` and `pixel` are in the panel's unit. A line thinner than a
+    pixel is drawn one pixel wide, and fainter.
     """
     rightward, up = view.frame[:2]
     step = np.diff(line @ view.frame[:2].T, axis=0)
@@ -225,9 +232,10 @@ def _ribbon(line: FloatArray, width: float, view: View, pixel: float) -> FloatAr
 def _painted(
     corners: FloatArray, surface: Surface, view: View, *, wire: bool
 ) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
-    """Return points (T, 3, 3), normals (T, 3, 3) and colours (T, 3, 4) at the corners of triangles.
+    """Return points (T, 3, 3), normals (T, 3, 3) and colours (T, 3, 4) at the corners of triangles (T, 3, 7).
 
-    Each side of a surface has its colour, more opaque where the line of sight grazes the surface. A wire is not lit.
+    The seven numbers are those of `_pieces`, a colour is bytes red, green, blue, opacity. Each side of a surface
+    has its colour, more opaque where the line of sight grazes the surface. A `wire` is not lit.
     """
     on = corners[..., :3]
     outer = facing(surface.quadric, on, view.towards) @ _ALL > 0.0
@@ -254,7 +262,7 @@ def _rgb(colour: str) -> FloatArray:
 def _to_the_eye(
     points: FloatArray, side_normals: FloatArray, paint: NDArray[np.uint8], view: View
 ) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
-    """Return points, normals and colours of triangles (T, 3, ...) with their corners anticlockwise as seen.
+    """Return points, normals and colours of triangles, each (T, 3, ...), with corners anticlockwise as seen.
 
     The arguments are the same three in any order of corners, normals on the side that is seen.
     """

@@ -35,7 +35,8 @@ _MARGIN = 0.02
 def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[tuple[FloatArray, bool]]:
     """Return the pieces of a polyline (N, 3) as pairs (points (M, 3), is visible), in order; [] for no length.
 
-    ``towards`` is the unit vector to the eye; a surface nearer than 1e-7 to a point does not hide it.
+    ``towards`` (3,) is the unit vector to the eye; `surfaces` are those that may hide the line. A surface nearer
+    than 1e-7 to a point does not hide that point.
     """
     start, step = points[:-1], np.diff(points, axis=0)
     if len(start) == 0:
@@ -63,7 +64,10 @@ def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) 
 
 
 def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> BoolArray:
-    """Return a mask (N,) of the hidden points among points (N, 3)."""
+    """Return a mask (N,) of the points (N, 3) that one of the `surfaces` hides from the eye.
+
+    ``towards`` (3,) is the unit vector to the eye.
+    """
     answer = np.zeros(len(points), dtype=bool)
     for surface in _before(points, surfaces, towards):
         answer |= _hides(surface, points, towards, _on(surface.quadric, points))
@@ -71,7 +75,10 @@ def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray)
 
 
 def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[Surface]:
-    """Return the surfaces whose images overlap the image of the points: other surfaces hide none of them."""
+    """Return the surfaces whose images overlap the image of the points (N, 3): other surfaces hide none of them.
+
+    Images are rectangles in the plane across `towards` (3,), the unit vector to the eye.
+    """
     plane_axes = np.linalg.svd(towards[None])[2][1:]
     flat = points @ plane_axes.T
     low, high = flat.min(axis=0), flat.max(axis=0)
@@ -83,9 +90,9 @@ def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray
 
 @lru_cache(maxsize=4096)
 def _image(surface: Surface, plane_axes: bytes) -> tuple[FloatArray, FloatArray]:
-    """Return two corners (2,) of a rectangle with a surface's image: that of its mesh and a margin.
+    """Return the lower and the upper corner (2,) of a rectangle with a surface's image: that of its mesh and a margin.
 
-    Without a mesh the rectangle is the whole plane.
+    `plane_axes` are the bytes of the plane's two axes (2, 3). Without a mesh the rectangle is the whole plane.
     """
     if not surface.grids:
         return np.full(2, -np.inf), np.full(2, np.inf)
@@ -108,33 +115,35 @@ def _lift(x: FloatArray, weight: float = 1.0) -> FloatArray:
 
 
 def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the values a.Q.b of a quadric (4, 4) for homogeneous coordinates a and b (..., 4)."""
+    """Return the values (...) of the bilinear form a.Q.b of a quadric Q (4, 4) for homogeneous a and b (..., 4)."""
     return np.einsum("...i,ij,...j->...", a, quadric, b)
 
 
 def _weight(quadric: FloatArray, points: FloatArray) -> FloatArray:
     """Return the sums (...) of the magnitudes of F's terms at points (..., 3): F counts as zero relative to these.
 
-    ``quadric`` (4, 4) is the matrix of F, see `values`.
+    ``quadric`` (4, 4) is the matrix of F, see `values`. The sums are at least 0.001 of its largest quadratic
+    coefficient.
     """
     x = np.abs(_lift(points))
     return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * 1e-3)
 
 
 def _on(quadric: FloatArray, points: FloatArray) -> BoolArray:
-    """Return a mask of the points (..., 3) that lie on the quadric, but for rounding."""
+    """Return a mask (...) of the points (..., 3) that lie on the quadric (4, 4), but for rounding."""
     return np.abs(values(quadric, points)) <= _ON * _weight(quadric, points)
 
 
 def _is_flat(quadric: FloatArray) -> bool:
-    """Return whether the quadric is a plane."""
+    """Return whether the quadric (4, 4) is a plane: its quadratic part is zero but for rounding."""
     return bool(np.abs(quadric[:3, :3]).max() <= _NOTHING * np.abs(quadric[:3, 3]).max())
 
 
 def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) -> BoolArray:
-    """Return a mask of the points x (..., 3) that the surface hides, seen along the unit vector `towards` the eye.
+    """Return a mask (...) of the points x (..., 3) that the surface hides, seen along the unit vector `towards`.
 
-    The mask `on` tells the points on the surface: one root, t = 0, does not count there.
+    That vector points to the eye. The mask `on` (...) tells the points on the surface: one root, t = 0, does not
+    count there.
     """
     quadric, d = surface.quadric, _lift(towards, 0.0)
     A = float(_form(quadric, d, d))
@@ -212,20 +221,23 @@ def _coefficients(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[Fl
 
 
 def _ratio(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return a / b, NaN where b is zero."""
+    """Return a / b (...), NaN where b is zero."""
     with np.errstate(all="ignore"):
         return np.where(b != 0.0, a / b, np.nan)
 
 
 def _roots(c2: FloatArray, c1: FloatArray, c0: FloatArray) -> list[FloatArray]:
-    """Return both roots of c2 s^2 + c1 s + c0, without cancellation; NaN where they are not real."""
+    """Return both roots s of c2 s^2 + c1 s + c0 = 0, two arrays (...), without cancellation; NaN where not real.
+
+    For c2 = 0 one is the root of the linear equation, the other NaN.
+    """
     with np.errstate(all="ignore"):
         q = -0.5 * (c1 + np.copysign(np.sqrt(c1 * c1 - 4.0 * c2 * c0), c1))
     return [_ratio(q, c2), _ratio(c0, q)]
 
 
 def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> FloatArray:
-    """Return half of grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen.
+    """Return half of grad F . d, shape (...), at points (..., 3): above zero where the outer side (F > 0) is seen.
 
     ``quadric`` (4, 4) is the matrix of F, see `values`; ``towards`` (3,) is d, the direction to the eye.
     """
@@ -248,10 +260,10 @@ def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]
 
 
 def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:
-    """Return, for each of `levels`, the edge of the near part where the cosine of the angle to the light is below it.
+    """Return, for each of `levels`, the outline of the near part where the cosine of the angle to the light is less.
 
-    ``light`` and ``towards`` are the unit vectors to the light and to the eye; the light falls on the side that is
-    seen. An edge is (points (K, 3), Matplotlib's path codes (K,)), both empty where no part is so dark.
+    ``light`` and ``towards`` (3,) are the unit vectors to the light and to the eye; the light falls on the side
+    that is seen. An outline is (points (K, 3), Matplotlib's path codes (K,)), both empty where no part is so dark.
     """
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
     bands: list[list[Edge]] = [[] for _ in levels]

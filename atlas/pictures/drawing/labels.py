@@ -51,12 +51,16 @@ class Tag:
 
 
 def spot(tag: Tag) -> FloatArray:
-    """Return the preferred centre (2,) of a tag's text, in points, from the same origin as its anchor."""
+    """Return the preferred centre (2,) of a tag's text, in printer's points, from the same origin as its anchor."""
     return _candidate_centres(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
 
 def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
-    """Return text centres (N, 2) beside anchors (N, 2), the offset rotated by `turns` and lengthened by `steps`."""
+    """Return text centres (N, 2) beside anchors (N, 2), the tag's offset rotated and lengthened, in printer's points.
+
+    `turns` (N,) are the angles in rad, `steps` (N,) the added lengths. A tag with the offset (0, 0) stays at its
+    anchors.
+    """
     length = float(np.hypot(*tag.offset))
     if length == 0.0:
         return anchors
@@ -69,10 +73,11 @@ def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: 
 
 
 def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
-    """Return the centre (2,) of each tag's text, in points: the cheapest candidate, in two rounds, deterministically.
+    """Return the centre (2,) of each tag's text, in points: the cheapest candidate, chosen in two rounds.
 
-    ``inks`` are (points (N, 2), cost of covering one, index of the layer): lines and marks to be kept free. ``window``
-    is (left, bottom, right, top); texts should not leave it.
+    ``inks`` are (points (N, 2), cost of covering one, index of the layer): lines and marks to be kept free.
+    ``window`` is (left, bottom, right, top); texts should not leave it. Tags with the offset (0, 0) stay at their
+    anchors.
     """
     point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
     ink, counts = np.concatenate(point_sets), list(map(len, point_sets))
@@ -148,7 +153,11 @@ def _covers(
     weights: FloatArray,
     window: tuple[float, float, float, float],
 ) -> FloatArray:
-    """Return the cost (N,) of texts at centres (N, 2): ink covered, and area outside the window."""
+    """Return the cost (N,) of a text at centres (N, 2): the ink that it covers, and its part outside the window.
+
+    `extent` is the text's (width, height), `ink` (M, 2) the points, `weights` (M,) their costs, `window` (left,
+    bottom, right, top), all in printer's points.
+    """
     half = 0.5 * np.array(extent) + _AIR
     low, high = centres - half, centres + half
     is_near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
@@ -172,7 +181,10 @@ def _meets(centres: FloatArray, extent: tuple[float, float], obstacles: FloatArr
 
 
 def ink_points(points: FloatArray, step: float = 2.0) -> FloatArray:
-    """Return points at most ``step`` apart along a polyline (N, 2), which texts should not cover."""
+    """Return points (M, 2), at most ``step`` apart, along a polyline (N, 2), which texts should not cover.
+
+    Points that are not finite are left out; there are at most 4000 points, then farther apart.
+    """
     finite = points[np.isfinite(points).all(axis=1)]
     if len(finite) < 2:
         return finite
@@ -183,9 +195,10 @@ def ink_points(points: FloatArray, step: float = 2.0) -> FloatArray:
 
 
 def write(axes: Axes, tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
-    """Write the texts about their centres (points from the lower left corner), as annotations of their anchors.
+    """Write the texts into `axes` about their centres (2,), in points from the lower left corner, as annotations.
 
-    Below each lies its outline in the background colour, which is no text, or a white box on a coloured image.
+    Each annotates the tag's anchor. Below each lies its outline in the background colour, which is no text, or if
+    `boxed` a white box, for texts on a coloured image.
     """
     corner = axes.get_window_extent().p0
     face = WHITE if boxed else ground(axes.get_facecolor() if axes.axison else axes.figure.get_facecolor())

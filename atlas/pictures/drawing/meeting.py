@@ -12,7 +12,10 @@ _ACROSS, _UP = 0.1, 0.35
 
 
 class Texts(RendererBase):
-    """Renderer of Matplotlib that draws nothing, and keeps in `texts` each text with its box in pixels."""
+    """Renderer of Matplotlib that draws nothing, and lists each text of a figure with its box in pixels.
+
+    `texts` has pairs (`matplotlib.text.Text`, box) after the renderer is made from the figure.
+    """
 
     def __init__(self, figure: Figure) -> None:
         super().__init__()
@@ -21,18 +24,18 @@ class Texts(RendererBase):
         figure.draw(self)
 
     def get_canvas_width_height(self) -> tuple[float, float]:
-        """Return the canvas' size in pixels."""
+        """Return (width, height) of the canvas in pixels, which Matplotlib asks for."""
         return self.figure.bbox.width, self.figure.bbox.height
 
     def points_to_pixels(self, points: float) -> float:
-        """Return a length in pixels, from printer's points."""
+        """Return a length in pixels, from printer's points, at the figure's resolution."""
         return points * self.figure.dpi / 72.0
 
     def draw_path(self, *_: Any) -> None:
-        """Draw no line."""
+        """Draw no line: Matplotlib calls this for each."""
 
     def draw_image(self, *_: Any) -> None:
-        """Draw no image."""
+        """Draw no image: Matplotlib calls this for each."""
 
     def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
         """Append (text, box in pixels) to `texts`, unless the text is blank."""

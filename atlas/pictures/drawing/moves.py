@@ -31,7 +31,7 @@ _TURN = np.radians(12.0)
 
 
 def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
-    """Return the JavaScript call with a scene's motions; "" for a scene without paths."""
+    """Return the JavaScript call with a scene's motions, see `data`; "" for a scene without paths."""
     if not scene.paths:
         return ""
     return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
@@ -61,7 +61,7 @@ def _riders(panel: Any) -> Iterator[Any]:
 
 
 def _steps(path: Path, lasts: float) -> int:
-    """Return the number of table steps of a path: its whole turn over `_TURN`, at most `_MOST`."""
+    """Return the number of table steps of a path over a time `lasts`: its whole turn over `_TURN`, at most `_MOST`."""
     R, _ = path(np.linspace(0.0, lasts, _LOOKS))
     traces = np.einsum("nij,nij->n", R[1:], R[:-1])
     angle = np.arccos(np.clip(0.5 * (traces - 1.0), -1.0, 1.0))
@@ -92,7 +92,10 @@ def _quaternions(R: FloatArray) -> FloatArray:
 
 
 def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
-    """Return a dict: "size" of the figure in points, "spaces" as `_riding` gives them, "marks" of panels with axes."""
+    """Return a dict: "size" of the figure in points, "spaces" as `_riding` gives them, "marks" as `_marks` does.
+
+    `figures` has the scene's figure if it is already drawn.
+    """
     figure = next(iter(figures), None) or laid_out(scene)[0]
     panels = list(zip(figure.axes, scene.panels, strict=True))
     times = np.linspace(0.0, scene.lasts, _MOST + 1)
@@ -107,10 +110,10 @@ def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
 
 
 def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
-    """Return [[centre and size of a panel's view], [[kind, start, stop, path], ...]].
+    """Return [[centre and size of a panel's view], [[kind, start, stop, path], ...]], five and more numbers.
 
-    For each layer that rides on a path, start and stop are the half-open range of its items among the viewer's of a
-    kind.
+    `room` is the panel's (width, height) in points. For each layer that rides on a path, start and stop are the
+    half-open range of its items among the viewer's items of a kind.
     """
     view = fit(panel, room)
     counts: Counter[str] = Counter()

@@ -63,7 +63,10 @@ class SceneFigure(Figure):
             super().savefig(*args, **options)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
-        """Return the picture that a notebook shows, at the size on paper, with twice the pixels of a screen."""
+        """Return (PNG bytes, {"width", "height"} in pixels) for a notebook, at the size on paper.
+
+        The PNG has twice as many pixels, for fine screens.
+        """
         file, dots = BytesIO(), 2 * _SCREEN
         self.savefig(file, format="png", dpi=dots)
         width, height = (round(_SCREEN * length) for length in self.get_size_inches())
@@ -97,7 +100,7 @@ def to_figure(
 
 
 def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
-    """Return the `Figure` of a scene arranged for a target.
+    """Return the `Figure` of a scene arranged for a target; `options` are those of `_drawing`.
 
     Raises AtlasError where texts overlap or leave the page, with the least width that would do, if there is one.
     """
@@ -128,9 +131,9 @@ def _drawing(
     boxes: Sequence[Bbox] = (),
     hold: Hold | None = None,
 ) -> Figure:
-    """Return the `Figure` of a scene at its size, with the target's type and lines; `figure` is filled if given.
+    """Return the `Figure` of a scene at its size, with the target's type and lines.
 
-    Panels in space are drawn by VTK if `shaded`.
+    The arguments are those of `to_figure`; a `figure` is filled if given. Panels in space are drawn by VTK if `shaded`.
     """
     with context(style, target):
         figure, panels = laid_out(scene, figure, boxes)
@@ -145,7 +148,7 @@ def _drawing(
 
 
 def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
-    """Draw a panel into the user's own axes. Raises AtlasError for other objects, and for 3d axes."""
+    """Draw a panel into the user's own axes. Raises AtlasError if `axes` are no Matplotlib axes, or 3d axes."""
     if not isinstance(axes, Axes):
         raise AtlasError(f"ax must be axes of Matplotlib, not {reprlib.repr(axes)}.")
     if axes.name == "3d":
@@ -157,7 +160,10 @@ def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
 
 
 def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
-    """Draw the parts of a panel that may move its axes: of a `Plane` all but the names, of a `Space` the title."""
+    """Draw the parts of a panel that may move its axes: of a `Plane` all but the names, of a `Space` the title.
+
+    `number` is the panel's number in the figure, from 1.
+    """
     if isinstance(panel, Plane):
         draw_plane(axes, panel, number)
     else:
@@ -166,7 +172,11 @@ def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
 
 
 def _complete(axes: Axes, panel: Panel, number: int = 1, hold: Hold | None = None) -> None:
-    """Draw the remaining parts of a panel, once its axes have their position: a plane's names, a space's layers."""
+    """Draw the other parts of a panel, once its axes have their position: a plane's names, a space's layers.
+
+    `number` is the panel's number, from 1; `hold` maps (number - 1, window size) to the `Placement` of a panel in
+    space, None for the best one.
+    """
     if isinstance(panel, Plane):
         write_names(axes, panel)
     else:
@@ -201,7 +211,10 @@ def laid_out(
 
 
 def places(scene: Scene) -> list[Bbox]:
-    """Return the box of each panel in fractions of the figure; no axes are made for panels that fill the figure."""
+    """Return the box of each panel of a scene in fractions of the figure, Matplotlib's `Bbox`, row by row.
+
+    No axes are made for panels that fill the figure.
+    """
     if _framed(scene):
         return [axes.get_position() for axes, _ in laid_out(scene)[1]]
     figure = Figure()
@@ -209,12 +222,12 @@ def places(scene: Scene) -> list[Bbox]:
 
 
 def _framed(scene: Scene) -> bool:
-    """Return whether a panel has ticks and labels, or a title."""
+    """Return whether a panel of the scene has ticks and labels, or a title, which take room in the figure."""
     return any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
 
 
 def _cells(scene: Scene, figure: Figure) -> list[SubplotSpec]:
-    """Return the cells of the panels of a figure, row by row."""
+    """Return the grid cells for the panels of a scene in the figure, row by row."""
     full = {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
     rows = -(-len(scene.panels) // scene.columns)
     edges = {} if _framed(scene) else full
@@ -235,7 +248,7 @@ _FRAME = 1.5
 
 
 def write_names(axes: Axes, panel: Plane) -> None:
-    """Write the names of a panel where they cover nothing; the axes must be in position."""
+    """Write the names of a panel's layers where they cover least; the axes must be in position."""
     axes.apply_aspect()
     box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
     size = (float(box.width * scale), float(box.height * scale))
@@ -267,8 +280,8 @@ def _requests(
 ) -> Iterator[tuple[str, FloatArray, tuple[float, float], str]]:
     """Yield (text, positions (N, 2), offset, role) for each name of a layer to be written, in printer's points.
 
-    `size` is the panel's (width, height), `places` maps coordinates to positions. If `keyed`, labels of curves, points
-    and regions are left to the legend.
+    Of several positions the first is the preferred one. `size` is the panel's (width, height), `places` maps
+    coordinates (N, 2) to positions. If `keyed`, labels of curves, points and regions are left to the legend.
     """
     if isinstance(layer, Label):
         yield layer.text, places(layer.at), layer.offset, layer.role

@@ -73,7 +73,7 @@ def _unclip_marks(axes: Axes) -> None:
 
 
 def _ticks(axes: Axes) -> None:
-    """Remove minor ticks between many powers of ten, and format as many numbers as fit."""
+    """Remove minor ticks on axes of more than six powers of ten, and write linear axes' numbers as plain text."""
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_tick_params(labelsize=mpl.rcParams[f"{axis.axis_name}tick.labelsize"])
         if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
@@ -92,9 +92,10 @@ def _scale(axes: Axes, panel: Plane) -> None:
 
 
 def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
-    """Draw one layer other than a label; return its artist for a legend, or None.
+    """Draw one layer other than a label; return Matplotlib's artist of it, None for a label.
 
-    `rise` is the order of drawing, `edge` the edge colour of dark marks. Raises AtlasError for a layer of a `Space`.
+    `rise` is added to the order of drawing, `edge` is the edge colour of dark marks. Raises AtlasError for a layer of a
+    `Space`.
     """
     if isinstance(layer, Label):
         return None
@@ -120,7 +121,10 @@ def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
 
 
 def gid(layer: Layer, panel: int, place: int, piece: int = 1) -> str:
-    """Return the group id of a layer's artist: ROLE-PANEL-LAYER, and the number of a further artist."""
+    """Return the group id of a layer's artist: "ROLE-PANEL-LAYER", and "-PIECE" for pieces after the first.
+
+    Panels and layers (`place`) count from 1; a map has "map" for a role.
+    """
     name = f"{getattr(layer, 'role', 'map')}-{panel}-{place}"
     return name if piece == 1 else f"{name}-{piece}"
 
@@ -152,7 +156,7 @@ def _map(axes: Axes, image: Image) -> Any:
 
 
 class _Formatter(ScalarFormatter):
-    """Formatter of ticks: numbers as plain text, drawn four times faster than a formula, their factor as TeX."""
+    """Formatter of ticks: numbers as plain text, drawn four times faster than a formula, their common factor as TeX."""
 
     def get_offset(self) -> str:
         self.set_useMathText(True)
@@ -170,9 +174,10 @@ def _factor(axis: Axis) -> str:
 
 
 def _threshold(panel: Plane, column: int) -> float:
-    """Return the end of a symmetric logarithmic axis' linear part, a power of ten at or below the least magnitude.
+    """Return the end of a symmetric logarithmic axis' linear part: a power of ten at or below the least magnitude.
 
-    `column` is 0 for x and 1 for y. Zeros and values that are not finite do not count; 1.0 if no others are left.
+    `column` is 0 for x and 1 for y of the panel's curves and points. Zeros and values that are not finite do not
+    count; 1.0 if no others are left.
     """
     columns = [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
     sizes = np.abs(np.concatenate([np.empty(0), *columns]))

@@ -40,7 +40,10 @@ _SHARP = float(np.cos(np.radians(25.0)))
 
 
 def still_picture(view: View, width: int, height: int) -> NDArray[np.uint8]:
-    """Return a picture of a panel as colours (height, width, 3) from 0 to 255, with its surfaces in exact order."""
+    """Return a picture of a panel as colours (height, width, 3) from 0 to 255, with its surfaces in exact order.
+
+    `width` and `height` are in pixels; the rows run from top to bottom.
+    """
     view = replace(view, centre=np.zeros(3), size=1.0)
     plotter = pv.Plotter(off_screen=True, window_size=[width, height], lighting="none")
     plotter.enable_anti_aliasing("msaa", multi_samples=_SAMPLES)
@@ -61,7 +64,10 @@ def still_picture(view: View, width: int, height: int) -> NDArray[np.uint8]:
 
 
 def _add(plotter: pv.Plotter, mesh: pv.PolyData, view: View, **options: Any) -> pv.Actor:
-    """Add a mesh, given in the coordinates of the view, to the plotter and return its actor, shaded by its normals."""
+    """Add a mesh, given in the coordinates of the view, to the plotter and return its actor, shaded by its normals.
+
+    The points of `mesh` are changed to the scene's coordinates; `options` are those of `Plotter.add_mesh`.
+    """
     mesh.points = mesh.points * view.size + view.centre
     actor = plotter.add_mesh(mesh, show_scalar_bar=False, reset_camera=False, render=False, **options)
     actor.prop.interpolation = "Phong"
@@ -93,7 +99,8 @@ def _add_solids(plotter: pv.Plotter, view: View, pixel: float) -> None:
 def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterator[pv.PolyData]:
     """Yield the meshes of a line (N, 3) drawn as tubes, one for each dash, with balls at its corners.
 
-    Nothing is yielded for a role without a tube.
+    `look` gives diameter and dashes, `pixel` is a pixel's size in the panel's unit. Nothing is yielded for a role
+    without a tube.
     """
     if look.tube <= 0.0:
         return
@@ -118,7 +125,10 @@ def _sides(radius: float) -> int:
 
 
 def _arrow(arrow: Arrow, look: Style, view: View, pixel: float) -> Iterator[pv.PolyData]:
-    """Yield the meshes of an arrow, shaft and cone; nothing for an arrow without a head."""
+    """Yield the meshes of an arrow in the style `look`, shaft and cone; nothing for an arrow without a head.
+
+    `pixel` is a pixel's size in the panel's unit.
+    """
     tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
     base = head_base(tail, tip, look, view.scale)
     head = float(np.linalg.norm(tip - base))
@@ -135,7 +145,10 @@ def _arrow(arrow: Arrow, look: Style, view: View, pixel: float) -> Iterator[pv.P
 
 
 def _ball(centre: FloatArray, look: Style, view: View, pixel: float) -> pv.PolyData:
-    """Return the mesh of a marked point, a ball as wide as a tube of this ``look``; ``pixel`` is a pixel's size."""
+    """Return the mesh of a marked point, a ball about `centre` (3,) as wide as a tube of this ``look``.
+
+    ``pixel`` is a pixel's size in the panel's unit.
+    """
     radius = 0.5 * look.tube / view.scale
     sides = _sides(radius / pixel)
     return pv.Sphere(radius=radius, center=centre, theta_resolution=sides, phi_resolution=sides // 2)

@@ -36,8 +36,8 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 def draw_space(axes: Axes, panel: Space, number: int = 1, placement: Placement | None = None) -> None:
     """Draw a panel with hidden lines into axes, then its names; the axes must be in position.
 
-    ``number`` is the panel's, for ids of artists. The scale is the largest at which the panel fits, or that of
-    ``placement``. The limits of the axes become the panel's size in points.
+    ``number`` is the panel's number in the figure, from 1, for ids of artists. The scale is the largest at which
+    the panel fits, or that of ``placement``. The limits of the axes become the panel's size in points.
     """
     view = fit(panel, window(axes), placement)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
@@ -64,7 +64,7 @@ def window(axes: Axes) -> tuple[float, float]:
 
 
 def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]]) -> None:
-    """Write the names of a panel into axes where they cover least ink.
+    """Write the names of a panel, the tags of its `view`, into axes where they cover least ink.
 
     ``ink`` has pairs (points (N, 2) in printer's points, cost of covering one).
     """
@@ -73,7 +73,10 @@ def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]])
 
 
 class _Drawing:
-    """The artists of a panel in space; `ink` has pairs (points (N, 2) of lines and marks, cost of covering one)."""
+    """The artists of a panel in space, added to `axes`; `view` is the panel's projection.
+
+    `ink` has pairs (points (N, 2) of lines and marks, cost of covering one); `rise` is added to the order of drawing.
+    """
 
     def __init__(self, axes: Axes, view: View) -> None:
         self.axes, self.view = axes, view
@@ -122,7 +125,8 @@ class _Drawing:
     def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
         """Draw a polyline (N, 3): visible parts in the style ``look``, hidden parts thin and dashed, or not at all.
 
-        ``height`` is the order of visible parts, ``weight`` the cost for names of covering them.
+        Hidden parts are left out if `look.hidden` is False. ``height`` is the order of visible parts, ``weight``
+        the cost for names of covering them.
         """
         for piece, visible in split(points, self.view.surfaces, self.view.towards):
             length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
@@ -167,7 +171,10 @@ class _Drawing:
         self.ink += [(flat, MARK), (around.reshape(-1, 2), 4.0)]
 
     def _area(self, edge: Edge, colour: str, opacity: float, height: float = _TINT) -> None:
-        """Fill the area inside an edge."""
+        """Fill the area inside an `edge` (points (K, 3), path codes (K,)); an empty edge is not drawn.
+
+        `height` is the order of drawing.
+        """
         points, codes = edge
         if len(points):
             path = Path(self.view.on_paper(points), codes)

@@ -27,7 +27,8 @@ HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> FloatArray:
     """Return the base of an arrow's head, a point (3,) or (2,) as its ``tail`` and ``tip`` are.
 
-    The head has a fixed length on paper, ``scale`` points to a unit of the panel, but at most half of the arrow's.
+    The head has a fixed length on paper, ``scale`` points to a unit of the panel, but at most half of the arrow's;
+    `look` gives the width of its line. An arrow of no length has no head: the base is the tip.
     """
     step = tip - tail
     length = float(np.linalg.norm(step))
@@ -90,7 +91,10 @@ def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
 
 
 def _target_settings(target: Target) -> dict[str, Any]:
-    """Return the Matplotlib settings for a target, derived from the current ones."""
+    """Return the Matplotlib settings by name for a target: type, widths and lengths, kinds of fonts, resolution.
+
+    Widths and lengths are derived from the current settings.
+    """
     now = mpl.rcParams
     return {
         **dict.fromkeys(_TEXTS, target.type),
@@ -103,7 +107,7 @@ def _target_settings(target: Target) -> dict[str, Any]:
 
 
 def zoom() -> float:
-    """Return the target's factor for lengths in points, 1 for a journal's figure and without a target."""
+    """Return the current target's factor for lengths in points, 1 for a journal's figure and without a target."""
     target = _TARGET.get()
     return target.zoom if target else 1.0
 
@@ -124,7 +128,7 @@ def dashes(pattern: Sequence[float]) -> Any:
 
 @contextmanager
 def _complaints() -> Iterator[list[str]]:
-    """Context that yields a list of Matplotlib's messages on skipped lines of a style sheet."""
+    """Context that yields a list, to be filled with Matplotlib's messages on skipped lines of a style sheet."""
     messages: list[str] = []
     logger, handler = logging.getLogger("matplotlib"), logging.Handler(logging.WARNING)
     handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]  # the way to a list
@@ -171,7 +175,10 @@ def _apply(style: Any) -> None:
 
 
 def _use(styles: Sequence[Any]) -> None:
-    """Apply a user's styles in order. Raises AtlasError for a setting that is not finite, and for missing LaTeX."""
+    """Apply a user's styles, each a name, file or dict, in order to Matplotlib's settings.
+
+    Raises AtlasError as `_apply` does, for a setting that is not finite, and for missing LaTeX.
+    """
     for sheet in styles:
         _apply(sheet)
     for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend
@@ -182,20 +189,18 @@ def _use(styles: Sequence[Any]) -> None:
 
 
 def ground(face: Any = None) -> str:
-    """Return the first of these colours that is not transparent: ``face``, the panels' ground, the figure's.
+    """Return, as "#rrggbb", the first of these colours that is not transparent: ``face``, the figure's; else white.
 
-    The result is "#rrggbb".
-
-    ``face`` is by default the panels' ground. White is returned if all are transparent.
+    ``face`` is by default (None) the colour of the panels' ground.
     """
     faces = mpl.rcParams["axes.facecolor"] if face is None else face, mpl.rcParams["figure.facecolor"]
     return next((to_hex(colour) for colour in faces if to_rgba(colour)[3]), WHITE)
 
 
 def style_of(role: str) -> Style:
-    """Return the look of a role; plotted lines take the cycle of the style sheet, ``axes.prop_cycle``.
+    """Return the `Style` of a role; plotted lines take the cycle of the style sheet, ``axes.prop_cycle``.
 
-    A sheet's ``lines.linewidth`` holds before the widths of the atlas's own cycle. On a dark ground lines and marks are
+    A sheet's ``lines.linewidth`` replaces the widths of the atlas's own cycle. On a dark ground lines and marks are
     as light as a text is there, but for lines of a cycle of the user's.
     """
     look = style(role)

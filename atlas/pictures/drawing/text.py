@@ -28,20 +28,23 @@ def points(setting: str) -> float:
 
 
 def line(text: str, size: float) -> tuple[float, float, float]:
-    """Return width, ascent and descent of a text in points, at least those of its font."""
+    """Return (width, ascent, descent) of a text in points, set in `size` points.
+
+    Ascent and descent at least the font's.
+    """
     width, ascent, descent = _line(text, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
     return size * width, size * ascent, size * descent
 
 
 def extent(text: str, size: float) -> tuple[float, float]:
-    """Return width and height of a text in points."""
+    """Return (width, height) of a text in points, set in `size` points."""
     width, ascent, descent = line(text, size)
     return width, ascent + descent
 
 
 @cache
 def _line(text: str, family: tuple[str, ...], fontset: str) -> tuple[float, float, float]:
-    """Return width, ascent and descent of a text at size 1, cached by text and font settings."""
+    """Return (width, ascent, descent) of a text in the unit of the font size, cached by text and font settings."""
     size = text_to_path.FONT_SCALE
     font = FontProperties(family=list(family), size=size, math_fontfamily=fontset)
 

@@ -13,7 +13,10 @@ from atlas.pictures.style import Style, readable
 
 
 def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
-    """Return the panel in the coordinates y = (x - centre)/size, each quadric divided by its largest coefficient."""
+    """Return the panel in the coordinates y = (x - centre)/size, each quadric divided by its largest coefficient.
+
+    `centre` is (3,); `size` is a length in the panel's unit.
+    """
     return replace(panel, layers=tuple(_scaled(layer, centre, size) for layer in panel.layers))
 
 
@@ -97,7 +100,7 @@ def hold(panels: Sequence[Space], window: tuple[float, float]) -> Placement:
 
 
 def fit(panel: Space, window: tuple[float, float], placement: Placement | None = None) -> View:
-    """Return the view of a panel in a window (width, height) in points, with the best or the given placement."""
+    """Return the `View` of a panel in a window (width, height) in points, with the best or the given placement."""
     placement = placement or hold([panel], window)
     panel = scaled(panel, placement.centre, placement.size)
     eye = frame(panel)
@@ -112,7 +115,10 @@ def fit(panel: Space, window: tuple[float, float], placement: Placement | None =
 
 
 def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
-    """Yield the name of a layer as a `Tag` anchored on paper at scale 1; nothing without a name."""
+    """Yield the name of a layer as a `Tag` anchored on paper at scale 1; nothing for a layer without a name.
+
+    `eye` (3, 3) has the rows right, up, towards the eye.
+    """
     request = named(layer, eye)
     if request is not None:
         text, place, offset, role = request
@@ -122,7 +128,10 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
 
 
 def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
-    """Return (text, positions (3,) or (N, 3), offset in points, role) of a layer's name; None if the name is empty."""
+    """Return (text, positions (3,) or (N, 3), offset in points, role) of a layer's name; None for no name.
+
+    `eye` (3, 3) has the rows right, up, towards the eye. Of several positions the first is the preferred one.
+    """
     request: tuple[str, FloatArray, tuple[float, float], str] | None = None
     if isinstance(layer, Label):
         request = layer.text, layer.at, layer.offset, layer.role
@@ -178,7 +187,7 @@ def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArra
 def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
     """Return the dashes (M, 3) of a polyline (N, 3) as a list; [points] for a solid line.
 
-    Lengths of dashes are those of ``look``, in points on paper.
+    Lengths of dashes and gaps are those of ``look``, in points on paper.
     """
     if not look.dash:
         return [points]

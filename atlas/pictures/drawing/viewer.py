@@ -35,14 +35,14 @@ _WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"
 
 
 def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
-    """Return the JavaScript call with a scene for the viewer; "" for a scene without a panel that can be rotated."""
+    """Return the JavaScript call with a scene for the viewer, see `data`; "" for a scene that cannot be rotated."""
     if not deep(scene):
         return ""
     return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def deep(scene: Scene) -> bool:
-    """Return whether a scene has a panel that can be rotated."""
+    """Return whether a scene has a panel in space whose points differ in depth, so that the viewer can rotate it."""
     return any(isinstance(panel, Space) and _deep(panel) for panel in scene.panels)
 
 
@@ -88,13 +88,19 @@ def _deep(panel: Space) -> bool:
 
 
 def _place(box: Bbox, view: View) -> list[float]:
-    """Return a panel's left, top, width, height as fractions of the figure, and size, scale, shift in points."""
+    """Return nine numbers on a panel's place: left, top, width, height in the figure, window (2), scale, shift (2).
+
+    The first four are fractions of the figure; the others are those of `View`, in points.
+    """
     x_low, y_low, x_high, y_high = box.extents
     return [*map(_short, (x_low, 1.0 - y_high, x_high - x_low, y_high - y_low, *view.window, view.scale, *view.shift))]
 
 
 def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
-    """Return a panel's layers as a dict for the viewer; names refer to texts by index in `texts`, which grows."""
+    """Return a panel's layers as a dict for the viewer: "frame", "matt", "surfaces", "lines", "wires" and so on.
+
+    Names refer to texts by index in `texts`, which grows.
+    """
     record: dict[str, Any] = {"frame": _list(view.frame)}
     # a glare would falsify a colour that is a class of a value
     record["matt"] = int(any(surface.role.startswith("rate_") for surface in view.surfaces))
@@ -158,7 +164,7 @@ def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
 
 
 def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, list[Any]]]:
-    """Yield (kind, data) for a line, or for each of its dashes."""
+    """Yield ("lines", data) for a line (N, 3), or for each of its dashes; nothing for a role without a tube."""
     for dash in dashes(curve, look, view) if look.tube > 0.0 else ():
         polyline = distinct(dash)
         if len(polyline) > 1:
@@ -173,7 +179,7 @@ def _packed(curve: FloatArray) -> str:
 
 
 def _form(quadric: FloatArray) -> list[float]:
-    """Return the upper triangle of a quadric's matrix, normalised to a largest coefficient of one."""
+    """Return the upper triangle of a quadric's matrix (4, 4), ten numbers, divided by the largest coefficient."""
     return _list(quadric[_UPPER] / np.abs(quadric).max())
 
 

@@ -30,7 +30,7 @@ _CLOSER = 4.0
 
 
 class ScenePlotter(pv.Plotter):
-    """A PyVista plotter that a notebook shows as its scene in the pages' viewer, where it can be rotated.
+    """A PyVista plotter that a notebook shows as its `scene` in the pages' viewer, where the scene can be rotated.
 
     Meshes added to the plotter later appear in ``show`` and ``screenshot``, but not in the notebook.
     """
@@ -38,15 +38,16 @@ class ScenePlotter(pv.Plotter):
     scene: Scene | None = None
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """Return the scene's HTML and plain text for a notebook."""
+        """Return the scene's HTML and plain text for a notebook, by MIME type."""
         return mimebundle(self.scene)
 
 
 def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
     """Return the panels in space of a scene as a plotter, side by side, in the coordinates of the scene.
 
-    The plotter may be rotated: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a
-    scene without a panel in space, and where no GL library can draw.
+    With `off_screen` False a window is opened by ``show``. The plotter may be rotated: translucent surfaces are
+    depth-peeled, without antialiasing. Raises AtlasError for a scene without a panel in space, and where no GL
+    library can draw.
     """
     panels = [panel for panel in scene.panels if isinstance(panel, Space)]
     if not panels:
@@ -73,7 +74,7 @@ def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
 
 
 def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
-    """Add the meshes of a surface, each side in its colour."""
+    """Add the meshes of a surface, given in the coordinates of the view, to the plotter, each side in its colour."""
     look = style_of(surface.role)
     for grid in surface.grids:
         rows, columns = grid.shape[:2]
@@ -83,7 +84,10 @@ def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
 
 
 def _add_names(plotter: pv.Plotter, view: View) -> None:
-    """Add the names of layers as labels of constant size in front of all; Matplotlib typesets formulas."""
+    """Add the names of layers to the plotter, as labels of constant size in front of all.
+
+    Matplotlib typesets formulas.
+    """
     import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
 
     requests = [named(layer, view.frame) for layer in view.panel.layers]
@@ -121,7 +125,7 @@ still.complete ? start() : still.addEventListener("load", start);
 
 
 def mimebundle(scene: Scene) -> dict[str, str]:
-    """Return a scene by MIME type for a notebook: "text/html" with the viewer in a frame, "text/plain" in words."""
+    """Return a scene by MIME type for a notebook: "text/html", the viewer in a frame, and "text/plain", its words."""
     width, height = (round(_SCREEN * length / _INCH) for length in scene.size)
     frame = (
         f'<iframe width="{width}" height="{height}" style="border:0;max-width:100%" sandbox="allow-scripts" '
@@ -131,7 +135,10 @@ def mimebundle(scene: Scene) -> dict[str, str]:
 
 
 def document(scene: Scene) -> str:
-    """Return the HTML document of the viewer, complete in itself; its policy forbids all requests."""
+    """Return the text of an HTML document with a scene in the viewer, complete in itself.
+
+    Its policy forbids all requests; without WebGL 2 the scene stays a still picture.
+    """
     file = BytesIO()
     to_figure(scene).savefig(file, format="png", dpi=_STILL)
     picture = b64encode(file.getvalue()).decode()
