@@ -35,7 +35,8 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) and Omega(t) from ``omega``, for ``turns`` times 2 pi over the larger of |omega|, |B'|.
 
-    ``omega`` is along the principal axes, in 1/time as ``field``, which is B'. The elevation of the view is in degrees.
+    ``inertia`` are the principal moments; ``omega`` is along the principal axes, in 1/time as ``field``, which is
+    B'. The elevation of the view is in degrees; ``unit`` is the word for the unit of time on the axes.
     """
     motion = AsymmetricMotion(inertia, field, omega)
     rate = float(max(np.linalg.norm(omega), np.linalg.norm(field))) or 1.0

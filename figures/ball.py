@@ -26,7 +26,8 @@ def scene(
 ) -> Scene:
     """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field along e3.
 
-    ``larmor`` is Larmor's frequency; zero raises DomainError. Azimuth and elevation of the view are in degrees.
+    ``larmor`` is Larmor's frequency, in rad/time; zero raises DomainError. Azimuth and elevation of the view are in
+    degrees.
     """
     if not larmor:
         raise DomainError("figure ball needs a field, larmor other than 0: without one the momentum stays as it is.")

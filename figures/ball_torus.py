@@ -33,8 +33,8 @@ def scene(
 ) -> Scene:
     """Draw torus and ball (I0 = 1) for each gamma/alpha in ``ratios``, over as many ``turns`` of alpha = ``larmor``.
 
-    ``m3`` is the momentum along B. Raises DomainError unless there are one to four ratios, as many turns, and a
-    ball with each ratio.
+    gamma is the rate about k, alpha Larmor's frequency, ``m3`` the momentum along B at t = 0. Raises DomainError
+    unless there are one to four ratios, as many turns, 400 turns of gamma at most, and a ball with each ratio.
     """
     larmor = positive(larmor, "larmor")
     least = abs(1.0 + m3 / larmor)

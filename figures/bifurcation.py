@@ -29,9 +29,11 @@ def scene(
     momentum: tuple[float, ...] = (1.6, 0.8, 0.2, 0.0),
     reach: float = 2.2,
 ) -> Scene:
-    """Draw the critical values of the body for each ``momentum`` along the field, (M, K)/b.
+    """Draw the critical values of H and F of the body for each ``momentum`` along the field, (M, K)/b.
 
-    ``reach`` is the width of a panel in that of the three spins.
+    ``inertia`` are the principal moments, ``b`` is |B'| in 1/time; H is the energy in Larmor's frame, F Clebsch's
+    integral. ``reach`` is the width of a panel in units of that of the three spins. Raises DomainError unless there
+    are one to four momenta.
     """
     if not 0 < len(momentum) <= 4:
         raise DomainError(f"figure bifurcation takes one to four values of the momentum, not {momentum}.")
@@ -72,9 +74,10 @@ def scene(
 def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
     """Return the `Plane` of one c, with names at its curves; upwards stands H less F over twice the middle moment.
 
-    ``reach`` is the width of the panel in units of that of the three spins. Motions with values H and F exist if
-    the sum of squares of theorem-splitting is nowhere negative on the unbounded oval and somewhere not positive on
-    the bounded one, so that the stretches with s > 0 are the border, for p = 0 the parabola and the stable rays.
+    `name` is its title, `bifurcation` has the critical values of H and F at one c = (M, K). ``reach`` is the width
+    of the panel in units of that of the three spins. Motions with values H and F exist if the sum of squares of
+    theorem-splitting is nowhere negative on the unbounded oval and somewhere not positive on the bounded one, so
+    that the stretches with s > 0 are the border, for p = 0 the parabola and the stable rays.
     """
     middle = int(np.argsort(bifurcation.inertia)[1])
     slope = 1 / (2 * float(bifurcation.inertia[middle]))
@@ -127,7 +130,7 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
 def line(
     bifurcation: Bifurcation, stretch: Stretch, slope: float, x_limits: tuple[float, float], sizes: tuple[float, float]
 ) -> FloatArray:
-    """Return a stretch as a sampled line (N, 2): F, and H less ``slope`` times F.
+    """Return a stretch of the critical values as a sampled line (N, 2): F, and H less ``slope`` times F.
 
     ``x_limits`` are those of F in the panel, ``sizes`` the millimetres for a unit of both axes.
     """

@@ -36,7 +36,8 @@ SIZE, REACH = 0.72, 1.75
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, elevation: float = 12.0) -> Scene:
     """Draw seven bodies, their places on the scale of I, and their quadrics in the field B' = (0, B2, B3).
 
-    ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees.
+    I is I3/I2; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees. Raises
+    DomainError unless both components differ from 0.
     """
     if not all(field):
         raise DomainError(f"figure body_ruler needs B2, B3 not zero, not field = {field}.")
@@ -61,7 +62,10 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
 
 
 def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
-    """Return (B2, B3) along `field`, scaled down so far that each body's quadric stays in its place of the row."""
+    """Return (B2, B3) along `field`, scaled down so far that each body's quadric stays in its place of the row.
+
+    `azimuth` is that of the view in degrees.
+    """
     rightward = frame(Space((), azimuth=azimuth))[0]
     unit = SIZE / float(np.hypot(*field))
     prime = (unit * field[0], unit * field[1])
@@ -71,7 +75,10 @@ def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, floa
 
 
 def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
-    """Return the layers of the bodies from `begin` to `end`, half-open, and of the part of the scale below them."""
+    """Return the layers of the bodies with numbers from `begin` to `end` - 1, and of the part of the scale below them.
+
+    `prime` is the drawn field (B2, B3), `azimuth` that of the view in degrees.
+    """
     bodies = BODIES[begin:end]
     start, stop = np.floor(bodies[0][1]), bodies[-1][1]
     sag, reach = tolerance(STEP * len(bodies) / 2), REACH * float(np.hypot(*prime))
@@ -103,7 +110,10 @@ def ruler(begin: int, end: int, prime: tuple[float, float], azimuth: float) -> t
 
 
 def body(name: str, I: float, centre: FloatArray, tolerance: float) -> list[Layer]:
-    """Return the layers of the upright body of a `name`, with I3/I2 = I, whose farthest point is at the distance 1."""
+    """Return the layers of an upright body with I3/I2 = I about `centre`, its farthest point at the distance 1.
+
+    `name` is one of BODIES and decides on the shape; `tolerance` is as for `atlas.pictures.sample.curve`.
+    """
     up = E3
     if name == "ball":
         return [solids.sphere(centre, 1.0, tolerance, role="solid")]

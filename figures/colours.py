@@ -77,10 +77,10 @@ def scene() -> Scene:
 
 
 def place(column: int, row: int) -> np.ndarray:
-    """Return the two ends, (2, 3), of the sample line in a column and a row."""
+    """Return the two ends, (2, 3), of the sample line in a column and a row, both from 0."""
     return in_plane(COLUMN * column, -ROW_HEIGHT * row) + np.outer([0.0, LENGTH], E2)
 
 
 def meaning(end: np.ndarray, name: str) -> Label:
-    """Return the `Label` of a sample, to the right of its end (3,)."""
+    """Return the `Label` of a sample, the text `name` to the right of its end (3,)."""
     return Label(end, name, "label", (5.0, 0.0))

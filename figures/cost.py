@@ -18,7 +18,10 @@ ROOM = (0.2, 0.3), (0.4, 0.4)
 
 
 def scene(*, columns: int = 1) -> Scene:
-    """Draw nanoseconds a matrix for all methods, and the multiples of filling the memory for large numbers."""
+    """Draw nanoseconds a matrix for all methods, and the multiples of filling the memory for large numbers.
+
+    ``columns`` is the number of panels side by side, 1 or 2. The numbers are those of the stored benchmark.
+    """
     record = benchmark.read()
     return Scene(
         caption=(
@@ -54,7 +57,10 @@ def matrix_times(record: benchmark.Results) -> Plane:
 
 
 def multiples(record: benchmark.Results) -> Plane:
-    """Return panel (b), a `Plane`: times in multiples of filling the memory, over the number of matrices."""
+    """Return panel (b), a `Plane`: times in multiples of filling the memory, over the number of matrices.
+
+    Numbers below MIN_COUNT are left out; times on two cores have open dots.
+    """
     layers: list[Layer] = []
     for method, threads in (("plain_out", 1), ("ours_out", 1), ("ours_out", 2), ("grid_out", 1), ("grid_out", 2)):
         rows = [

@@ -39,7 +39,10 @@ def scene(
 ) -> Scene:
     """Draw the axis for each push ``omega2``, and where these motions lie beside the line of cusps.
 
-    ``ratio`` is I3/I2; the elevation of the view is in degrees.
+    The start is (0, omega2, ``omega3``), in rad/time. ``ratio`` is I3/I2, ``linear`` the weight's potential over
+    I2, in 1/time^2, ``direction`` (n2, n3) the vertical in the body; traces last ``nutations`` periods. The
+    elevation of the view is in degrees; ``unit`` is the word for the unit of time. Raises DomainError for more than
+    three pushes and for tops whose nutation cannot be drawn.
     """
     if not (linear > 0 and omega3 and direction[0] and 1 <= len(omega2) <= 3):
         raise DomainError(
@@ -102,7 +105,7 @@ def trace(top: TopMotion) -> str:
 
 
 def close(letter: str, tops: list[TopMotion]) -> Plane:
-    """Return a `Plane` tangent to the unit sphere at the common start, with the traces of the axes near it.
+    """Return a `Plane` tangent to the unit sphere at the common start, with the traces of the axes of `tops` near it.
 
     `letter` is that of the panel; times are within `CLOSE` periods of nutation from the start.
     """
@@ -119,7 +122,11 @@ def close(letter: str, tops: list[TopMotion]) -> Plane:
 
 
 def rates(letter: str, tops: list[TopMotion], unit: str) -> Plane:
-    """Return a `Plane` of the rates of precession (p - M3 nu)/(1 - nu^2) over the angle arccos nu of the axis."""
+    """Return a `Plane` of the tops' rates of precession over the angle of the axis with n, in degrees.
+
+    The rate is (p - M3 nu)/(1 - nu^2), nu the cosine of that angle, p and M3 the momenta along n and the axis over I2.
+    `letter` is that of the panel, `unit` the word for the unit of time.
+    """
     layers: list[Layer] = []
     for name, top in zip("abc", tops, strict=False):
         invariants = top.invariants()
@@ -135,12 +142,15 @@ def rates(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 
 
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
-    """Return a `Plane` of the energies g over p, less those of the cusps' line: the least, and those of the tops."""
+    """Return a `Plane` of the energies g over the momentum p, less those of the cusps' line: the least, and the tops'.
+
+    `letter` is that of the panel, `unit` the word for the unit of time.
+    """
     wells = Wells.of(tops[0])
     M3 = wells.M3
 
     def level(points: Any) -> FloatArray:
-        """Return points (..., 2) of (p, g) with the line of the cusps, g = 2 a p/M3, subtracted from g."""
+        """Return points (..., 2) of (p, g) with the energy of the cusps' line, 2 a p/M3, subtracted from g."""
         return np.asarray(points) - np.multiply.outer(np.asarray(points)[..., 0], [0.0, 2 * wells.a / M3])
 
     ends = level([wells.spin(end)[:2] for end in (1, -1)])
@@ -172,7 +182,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 
 
 def value(top: TopMotion, wells: Wells) -> FloatArray:
-    """Return (p, g) of a top's motion, shape (2,), from its start."""
+    """Return (p, g) of a top's motion from its start, shape (2,): momentum along n and energy, as in `wells`."""
     (n2, n3), (_, omega2, _) = top.direction, top.omega
     nu, sine = n3 / np.hypot(n2, n3), n2 / np.hypot(n2, n3)
     return np.array([omega2 * sine + wells.M3 * nu, wells.energy(nu, omega2 / sine)])

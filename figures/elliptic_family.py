@@ -37,7 +37,8 @@ def scene(
 ) -> Scene:
     """Draw the curves of the bodies (``first``, 1, ``ratio``) with the hyperbola of (1, 1, ``ratio``).
 
-    ``field`` is (B2, B3) of B', in 1/time.
+    ``first`` are one to three values of I1, ``ratio`` is I3; ``field`` is (B2, B3) of B', in 1/time; the window reaches
+    ``reach`` times the field from -B'. ``unit`` is the word for the unit of time. Raises DomainError for equal moments.
     """
     if not 0 < len(first) <= 3:
         raise AtlasError(f"first must hold one to three values of I1, not {len(first)}.")
@@ -71,7 +72,11 @@ def scene(
 def panel(
     name: str, inertia: tuple[float, ...], field: tuple[float, float], view: Window, panel_width: float, unit: str
 ) -> Plane:
-    """Return the `Plane` of one body: its curves of motions over (omega2, omega3), each named on its longest piece."""
+    """Return the `Plane` of one body: its curves of motions over (omega2, omega3), each named on its longest piece.
+
+    `name` is the title, `inertia` the moments (3,), `field` (B2, B3), `view` the window, `panel_width` in
+    millimetres; `unit` is the word for the unit of time.
+    """
     millimetres = (panel_width, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     hyperbola = branches(inertia[2], field, view, millimetres)
@@ -100,7 +105,10 @@ def panel(
 def curves(
     inertia: tuple[float, ...], field: tuple[float, float], view: Window, millimetres: tuple[float, float]
 ) -> list[tuple[FloatArray, str]]:
-    """Return the pieces (N, 2) of both ovals that the window shows, each with its role."""
+    """Return pairs (piece (N, 2), role) of both ovals of motions that the window `view` shows, points (omega2, omega3).
+
+    `inertia` are the moments (3,), `field` is (B2, B3), `millimetres` the panel's (width, height).
+    """
     I, B = np.diag(inertia_tensor(inertia)), np.array([0.0, *components(field)])
     D = float(np.prod(I))
     low, middle, high = np.sort(-D / I)
@@ -117,7 +125,7 @@ def curves(
         oval = unbounded if role == "main" else bounded
 
         def points(s: FloatArray, oval: Any = oval, branch: float = branch) -> FloatArray:
-            """Return (omega2, omega3, z)."""
+            """Return (omega2, omega3, z) at places s (N,) of an oval, shape (N, 3)."""
             z = oval(s)
             w = z[:, None] + D / I
             v = branch * np.sqrt(np.abs(w.prod(axis=1)))

@@ -22,9 +22,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) of the motion, given as to ``EllipticMotion``, over ``periods`` of the field in it.
+    """Draw R_3(t) and Omega(t) of the elliptic motion over ``periods`` of the field in the body.
 
-    ``field`` is B' along the principal axes, in 1/time; the elevation of the view is in degrees.
+    The moments ``inertia``, ``field`` B' along the principal axes in 1/time, ``z`` and ``branch`` are given as to
+    ``EllipticMotion``. The elevation of the view is in degrees; ``unit`` is the word for the unit of time on the axes.
     """
     motion = EllipticMotion(inertia, field, z, branch)
     body = rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$"

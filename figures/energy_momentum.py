@@ -33,8 +33,9 @@ def scene(
 ) -> Scene:
     """Draw the section M3 = const of the bifurcation diagram for each of the ``ratios``, up to |p| = ``reach`` scales.
 
-    ``b`` and the weight ``linear`` over I2 are one for all or one for each; the scale is the larger of b and the root
-    of the weight.
+    ``ratios`` are I3/I2; M3 and p are the momenta along the axis and the field over I2. The field ``b`` and the
+    weight ``linear`` over I2 are one for all or one for each; the scale is the larger of b and the root of the
+    weight. ``unit`` is the word for the unit of time.
     """
     tops = one_each(ratios, b, linear)
     alike = len(b) == 1 and not any(linear)
@@ -103,7 +104,11 @@ def one_each(
 
 
 def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
-    """Return the `Plane` of one top: energies 2H of its precessions over p."""
+    """Return the `Plane` of one top: energies 2H of its precessions over p, H in Larmor's frame and over I2.
+
+    `name` is the title, `I` is I3/I2, `b` the field, `linear` the weight; p is drawn up to `reach` scales. `unit`
+    is the word for the unit of time. Raises DomainError where no precession lies within reach.
+    """
     scale = max(b, abs(linear) ** 0.5)
     wells, shift = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
     branches = list(wells.precessions(3.0 * reach * scale))
@@ -146,7 +151,10 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
 
 
 def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
-    """Return a list of one panel, the surroundings of the unstable precessions; [] where all are stable."""
+    """Return a list of one panel, the part of `diagram` about its unstable precessions; [] where all are stable.
+
+    `letter` is that of the panel.
+    """
     curves = [layer for layer in diagram.layers if isinstance(layer, Curve)]
     folds = [curve.points for curve in curves if curve.role == "unstable_line"]
     if not folds:
@@ -189,7 +197,10 @@ def names(branch: Branch, reach: float, shift: float) -> list[Layer]:
 
 
 def runs(branch: Branch, shift: float) -> list[tuple[FloatArray, bool]]:
-    """Return pairs (piece (N, 2) of the curve (p, 2H), whether unstable), cut where stability changes."""
+    """Return pairs (piece (N, 2) of the curve (p, 2H), whether unstable), cut where stability changes.
+
+    `shift` is added to the energy g of the branch to give 2H.
+    """
     unstable = np.asarray(branch.stable) < 0
     points = np.stack([branch.p, branch.g + shift], axis=1)
     cuts = np.flatnonzero(np.diff(unstable)) + 1

@@ -34,7 +34,9 @@ def scene(
 ) -> Scene:
     """Draw Omega3(t) for each push omega1, and the period over the push with its logarithmic law.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; ``omega2`` is that of the unstable elementary
+    motion, ``pushes`` are one to five omega1 at t = 0, in rad/time; ``unit`` is the word for the unit of time. Raises
+    DomainError for a stable motion and a push of zero.
     """
     hyperbola = Hyperbola(ratio, field)
     squared = float(hyperbola.stability(omega2))
@@ -75,14 +77,15 @@ def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
 
 
 def dot_path(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a motion's dot along its curve."""
+    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a motion's dot along its curve at times t (N,)."""
     return translations(point(motion, t), point(motion, np.zeros(1))[0])
 
 
 def courses(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> list[Plane]:
     """Return one `Plane` for each motion: Omega3 over 1.6 periods of the slowest motion; the panels are stacked.
 
-    `omega3` is that of the unstable motion, drawn as a line.
+    `pushes` are the motions' omega1 at t = 0; `omega3` is that of the unstable motion, drawn as a line; `unit` is
+    the word for the unit of time.
     """
     stop = 1.6 * max(motion.period for motion in motions)
     view = ((0.0, stop), room([end for motion in motions for end in motion.turning_points], 0.12))
@@ -108,7 +111,11 @@ def periods(
     growth: float,
     unit: str,
 ) -> Plane:
-    """Return the last panel, a `Plane`: the period of nutation over the push, and its logarithmic law."""
+    """Return the last panel, a `Plane`: the period of nutation over the push omega1, and its logarithmic law.
+
+    `start` is (omega2, omega3) of the unstable motion, `growth` its rate of growth in 1/time, `pushes` are marked;
+    `unit` is the word for the unit of time.
+    """
     decades = np.arange(-12.0, 0.0)
     push = abs(field[0]) * 10.0**decades
     times = np.array([GeneralMotion(ratio, field, (omega1, *start)).period for omega1 in push])
@@ -131,6 +138,6 @@ def periods(
 
 
 def push_text(push: float) -> str:
-    """Return a push as TeX; a power of ten as "10^{n}"."""
+    """Return a push as TeX: a power of ten as "10^{n}", another number as `tex` writes it."""
     power = round(np.log10(abs(push))) if push else 0
     return f"10^{{{power}}}" if push == 10.0**power else tex(push)

@@ -35,8 +35,10 @@ def scene(
 ) -> Scene:
     """Draw ``count`` moments from t = 0 to one period of the precession, side by side.
 
-    In motion each body goes on from where it is drawn. At the default phi = k, and all end as they began. ``ratio`` is
-    I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees.
+    In motion each body goes on from where it is drawn. At the default phi = k, and all end as they began. ``ratio``
+    is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` that of the elementary motion, in 1/time; azimuth
+    and elevation of the view are in degrees. Raises DomainError without a field or a precession, and unless 2 to 24
+    moments are drawn.
     """
     motion = ElementaryMotion(ratio, field, omega2)
     if not (motion.k and any(field) and 2 <= count <= 24):

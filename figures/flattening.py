@@ -35,7 +35,9 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) of the bodies (``first``, 1, ``ratio``) up to the time ``stop``; B stands upright.
 
-    ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    ``first`` are one to six values of I1, ``ratio`` is I3; ``field`` is (B2, B3) of B', ``omega`` the angular
+    velocity at t = 0, in 1/time; the elevation of the view is in degrees, ``unit`` the word for the unit of time.
+    Raises DomainError without a field and for more than 40 turns.
     """
     if not 0 < len(first) <= 6 or not any(field):
         raise DomainError(f"figure flattening takes one to six values of I1 and a field, not {first} and {field}.")
@@ -73,7 +75,10 @@ def scene(
 
 
 def special(I1_values: tuple[float, ...], ratio: float) -> str:
-    """Return sentences on the panels in which the body (I1, 1, ``ratio``) is symmetric or flat, "" without any."""
+    """Return sentences on the panels in which the body (I1, 1, ``ratio``) is symmetric or flat, "" without any.
+
+    `I1_values` are those of panels (a), (b), ... in order.
+    """
     letters = {I1: f"({letter})" for letter, I1 in zip("abcdef", I1_values, strict=False)}
     symmetric = f" In {letters[1.0]} the body is symmetric, and every loop touches both." if 1.0 in letters else ""
     flat = f" In {letters[ratio - 1.0]} it is flat." if ratio - 1.0 in letters else ""
@@ -81,6 +86,9 @@ def special(I1_values: tuple[float, ...], ratio: float) -> str:
 
 
 def trace(inertia: tuple[float, ...], field: tuple[float, float], omega: tuple[float, ...], stop: float) -> FloatArray:
-    """Return R_3 (N, 3), the third axis, at N equal steps of time up to `stop`, by SciPy's integrator."""
+    """Return R_3 (N, 3), the third axis, at N equal steps of time up to `stop`, by SciPy's integrator.
+
+    `inertia` are the moments (3,), `field` is (B2, B3), `omega` the angular velocity (3,) at t = 0.
+    """
     fastest = float(np.abs([*field, *omega]).sum())
     return simulate(inertia, field, omega, np.linspace(0.0, stop, int(STEPS * fastest * stop) + 2)).R[..., 2]

@@ -37,7 +37,10 @@ def scene(
 ) -> Scene:
     """Draw the paths of the centre of mass and of x_N(0) = ``point``, for ``turns`` of the former or up to ``stop``.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time, ``omega2`` and, where (71) leaves it free,
+    ``omega3`` are those of the elementary motion. ``mu`` is charge over mass, ``c`` the speed of light, ``E`` the
+    electric field, ``velocity`` that of the centre at t = 0. ``unit`` is the word for the unit of length. Raises
+    DomainError for mu = 0.
     """
     mu = number(mu, "mu")
     B2, B3 = components(field)

@@ -46,10 +46,10 @@ def scene(
 ) -> Scene:
     """Draw ``count`` attitudes of a body of this ``size`` in ``turns`` of its centre; the centre starts at 0.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', and ``omega2`` that of the start, in 1/time. ``mu`` is charge over
-    mass, ``c`` the speed of light, ``E`` the electric field and ``velocity`` that of the centre at t = 0, in the
-    laboratory and in Gaussian units of the same lengths and times. ``azimuth`` and ``elevation`` of the view are in
-    degrees.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', and ``omega2`` that of the start, in 1/time. ``mu`` is charge
+    over mass, ``c`` the speed of light, ``E`` the electric field and ``velocity`` that of the centre at t = 0, in
+    the laboratory and in Gaussian units of the same lengths and times. ``azimuth`` and ``elevation`` of the view
+    are in degrees. Raises DomainError without charge or field, for a loop, and for bodies that cover one another.
     """
     mu, c, size, count = number(mu, "mu"), positive(c, "c"), positive(size, "size"), whole(count, "count")
     I = quotient(ratio)
@@ -100,7 +100,10 @@ def scene(
 
 
 def fields(B: FloatArray, E: FloatArray, centres: FloatArray, size: float, eye: tuple[float, float]) -> list[Layer]:
-    """Return an arrow along each nonzero field, as layers, in the lower right corner of the bodies on paper."""
+    """Return an arrow along each nonzero field, as layers, in the lower right corner of the bodies on paper.
+
+    `B` and `E` are (3,), `centres` (N, 3) those of the bodies of this `size`, `eye` is (azimuth, elevation) in degrees.
+    """
     view = frame(Space((), azimuth=eye[0], elevation=eye[1]))
     flat = centres @ view.T
     length = CORNER * float(np.ptp(flat[:, 1]))

@@ -23,9 +23,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the precession about m.
+    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the precession about the angular momentum.
 
-    ``ratio`` is I3/I2 or a body; the elevation of the view is in degrees.
+    ``ratio`` is I3/I2 or a body; ``omega`` is the angular velocity at t = 0 in rad/time; the elevation of the view
+    is in degrees; ``unit`` is the word for the unit of time on the axes.
     """
     motion = FreeMotion(ratio, omega)
     moment, words = any_motion.start(omega)

@@ -39,7 +39,8 @@ def scene(
 ) -> Scene:
     """Draw k, phi and phi/k up to ``reach`` times B2 from the pole; p/q is marked for |p| and q up to ``order``.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; ``unit`` is the word for the unit of time. Raises
+    DomainError for B2 = 0 and for an order above 8.
     """
     order = whole(order, "order", 1)
     if order > MAX_ORDER:
@@ -89,10 +90,10 @@ def scene(
 
 
 def closed(hyperbola: Hyperbola, free_quotient: float, order: int) -> dict[Fraction, ElementaryMotion]:
-    """Return the motions with phi/k = p/q, |p| and q up to ``order``, that panel (b) shows, by p/q.
+    """Return the motions with phi/k = p/q, |p| and q up to ``order``, that panel (b) shows, by the fraction p/q.
 
-    ``free_quotient`` is the limit (87) of phi/k. Neither it, which no motion has, nor its double, which belongs to the
-    state of rest, is among the fractions.
+    ``free_quotient`` is the limit (87) of phi/k. Neither it, which no motion has, nor its double, which belongs to
+    the state of rest, is among the fractions.
     """
     fractions = {Fraction(p, q) for q in range(1, order + 1) for p in range(-order, order + 1) if p}
     return {
@@ -110,7 +111,11 @@ def frequencies(
     motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
-    """Return panel (a), a `Plane`: k and phi over omega2, with the closed motions marked."""
+    """Return panel (a), a `Plane`: k and phi over omega2, with the closed motions marked.
+
+    `field` is (B2, B3), `ends` are the limits of omega2, `motions` the closed motions by phi/k; `unit` is the word
+    for the unit of time.
+    """
     B2, _ = field
     k, phi = hyperbola.frequencies(np.array(ends))
     top = 1.1 * float(np.abs(k).max())
@@ -162,7 +167,7 @@ def quotients(
 ) -> Plane:
     """Return panel (b), a `Plane`: phi/k over omega2 by (86), finite at rest, where k and phi vanish.
 
-    ``free_quotient`` is the limit (87) for large omega2.
+    ``free_quotient`` is the limit (87) for large omega2; the other arguments are those of `frequencies`.
     """
     B2, _ = field
     top = TOP * abs(free_quotient) or 1.0

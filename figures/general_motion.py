@@ -25,7 +25,8 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the nutation.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega`` the angular velocity at t = 0, in 1/time; the
+    elevation of the view is in degrees; ``unit`` is the word for the unit of time on the axes.
     """
     motion = GeneralMotion(ratio, field, omega)
     moment, words = any_motion.start(omega)

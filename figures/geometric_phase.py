@@ -72,7 +72,8 @@ def scene(
 def phases_of(motion: Any) -> tuple[float, float, float]:
     """Return the turn about the field in a period of K, its dynamic part, and the area inside K's curve, in radians.
 
-    The area is the integral of (1 - cos theta) dphi about the mean direction p of K, with K' = [K, Omega].
+    K is the field in the body. The area is the integral of (1 - cos theta) dphi about the mean direction p of K, with
+    K' = [K, Omega]. Raises DomainError unless the motion is of the kind "elliptic".
     """
     if motion.kind != "elliptic":
         raise DomainError(
@@ -90,7 +91,7 @@ def phases_of(motion: Any) -> tuple[float, float, float]:
 
 
 def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
-    """Return panel (b), a `Plane` over z: the turn in a period and its dynamic and geometric parts.
+    """Return panel (b), a `Plane` over z (N,): the turn in a period and its dynamic and geometric parts.
 
     ``phases`` (N, 3) are turn, dynamic part and area in turns, ``chosen`` (4,) z and the values of the shown motion.
     """
@@ -106,7 +107,10 @@ def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
 
 
 def sphere(motion: Any, field: Any) -> Space:
-    """Return panel (a), a `Space`: the unit sphere with the curve of K/b, hatched by arcs from the mean of K."""
+    """Return panel (a), a `Space`: the unit sphere with the curve of K/b, hatched by arcs from the mean of K.
+
+    K is the field in the body during a period of the elliptic `motion`, `field` (3,) its value at t = 0, b its length.
+    """
     start = vector(field, "field") / np.linalg.norm(field)
     K = motion.field_in_body(motion.period * np.linspace(0.0, 1.0, POINTS + 1))
     line, pole = K / np.linalg.norm(K[0]), K[:-1].mean(axis=0) / np.linalg.norm(K[:-1].mean(axis=0))

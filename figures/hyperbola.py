@@ -26,7 +26,8 @@ def scene(
 ) -> Scene:
     """Draw both branches, the asymptotes and the named points as far as ``reach`` times the larger of B2 and B3.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; ``unit`` is the word for the unit of time. Raises
+    DomainError without a field.
     """
     view, (B2, B3) = window(field, reach, square=True), components(field)
     bands = unstable(ratio, field)
@@ -58,7 +59,10 @@ def scene(
 
 
 def within(piece: FloatArray, intervals: tuple[tuple[float, float], ...]) -> list[FloatArray]:
-    """Return the parts of a polyline (N, 2) over the intervals of omega2, with ends interpolated on the polyline."""
+    """Return the parts of a polyline (N, 2) over the intervals (low, high) of omega2, a list of arrays (M, 2).
+
+    The polyline is sorted by omega2; the parts' ends are interpolated on it.
+    """
     piece = piece[np.argsort(piece[:, 0])]
     stretches = []
     for a, b in intervals:
@@ -73,7 +77,8 @@ def within(piece: FloatArray, intervals: tuple[tuple[float, float], ...]) -> lis
 def free_spin(ratio: float, field: tuple[float, float]) -> float:
     """Return the |omega3| below which the motions with B3 = 0 and omega2 = -B2 are unstable, 0 if none is.
 
-    There -p'(omega3) = I^2 omega3^2 - (1-I) B2^2, theorem-equatorial-stability.
+    `ratio` is I3/I2, `field` (B2, B3). There -p'(omega3) = I^2 omega3^2 - (1-I) B2^2, p being the cubic of (47),
+    theorem-equatorial-stability.
     """
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
@@ -81,7 +86,10 @@ def free_spin(ratio: float, field: tuple[float, float]) -> float:
 
 
 def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
-    """Return the caption as text: the curve, its special cases, and its unstable bands."""
+    """Return the figure's caption in TeX: the curve, its special cases, and its unstable bands.
+
+    `ratio` is I3/I2, `field` (B2, B3), `bands` are the unstable intervals (low, high) of omega2.
+    """
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
     curve = r"Initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), of"
@@ -120,7 +128,7 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
 
 
 def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
-    """Return the alternative text, in words alone."""
+    """Return the figure's alternative text, in words alone; the arguments are those of `caption`."""
     view = components(field)
     shape = "two branches of a hyperbola" if all(view) and body_name(ratio) != "ball" else "straight lines"
     unstable_words = (

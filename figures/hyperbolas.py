@@ -24,9 +24,10 @@ def scene(
     reach: float = 2.6,
     unit: str = "time",
 ) -> Scene:
-    """Draw the hyperbolas of the bodies with these ``ratios``; ``reach`` sets how far, in units of the field.
+    """Draw the hyperbolas of the bodies with these ``ratios`` I3/I2, from one to eight.
 
-    ``field`` is (B2, B3) of B', in 1/time.
+    ``reach`` is how far the window goes from -B', in units of the field's components; ``field`` is (B2, B3) of B',
+    in 1/time; ``unit`` is the word for the unit of time.
     """
     if not 0 < len(ratios) <= len(LINES):
         raise AtlasError(f"ratios must hold one to {len(LINES)} values of I, not {len(ratios)}.")
@@ -72,7 +73,10 @@ def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Windo
 
 
 def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
-    """Return layers of the curve of each body, or of the one that all bodies share where B2 or B3 is zero."""
+    """Return layers of the curve of each body, or of the one curve that all bodies share where B2 or B3 is zero.
+
+    `ratios` are I3/I2, `field` is (B2, B3), `view` the window.
+    """
     are_different = all(components(field))
     roles = tuple(map(body_role, ratios))
     if len(set(roles)) < len(roles):

@@ -35,7 +35,11 @@ def scene(
     C3: tuple[float, ...] = (0.15, 0.3, 0.4),
     cells: int = 240,
 ) -> Scene:
-    """Draw the regions, and levels of C1, C2, C3 in units of |B'|, from a grid of ``cells`` a side."""
+    """Draw the kinds of quadrics over I and beta, and levels of their semi-axes C1, C2, C3 in units of |B'|.
+
+    ``C1``, ``C2`` and ``C3`` are the levels drawn, ``cells`` is the number of cells of the grid a side. Raises
+    DomainError for a level that the map does not have, and for too many cells.
+    """
     levels = (C1, C2, C3)
     cells = whole(cells, "The number of cells", MIN_CELLS)
     if cells > MAX_CELLS:
@@ -104,7 +108,7 @@ def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
 def named(line: FloatArray, occupied: list[FloatArray]) -> FloatArray | None:
     """Return the point (2,) of a level line (N, 2) for its value, far from cone and edges; None without room.
 
-    Points near ``occupied`` ones, those of earlier values, have no room.
+    Points near ``occupied`` ones, those (2,) of other values, have no room.
     """
     I, beta = line.T
     quality = np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))

@@ -34,9 +34,10 @@ def scene(
     nutations: float = 1.0,
     elevation: float = 40.0,
 ) -> Scene:
-    """Draw R_3(t) of both launches over ``nutations`` periods, in both frames; B is upright.
+    """Draw R_3(t) of the launches ``omega`` and -2 B' - omega over ``nutations`` periods, in both frames; B is upright.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    The frames are the laboratory and Larmor's. ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time as
+    ``omega``; the elevation of the view is in degrees. Raises DomainError where B2 or B3 is 0 or no nutation is seen.
     """
     if not all(field):
         raise DomainError(f"figure larmor_pair needs both components of the field, not field = {field}.")
@@ -81,7 +82,7 @@ def scene(
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
     """Return a `Space`: the unit sphere with the traces of both motions up to `time`, with an arrowhead on each.
 
-    `paths` map times (N,) to axes (N, 3).
+    `name` is the title, `paths` map times (N,) to axes (N, 3), `elevation` is the height of view in degrees.
     """
     sag = tolerance(1.4)
     layers: list[Layer] = [

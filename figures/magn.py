@@ -32,7 +32,8 @@ def scene(
 ) -> Scene:
     """Show E = (0, E_y, E_z), B = (0, 0, B) and a path that starts at the origin with ``speed`` along x.
 
-    Azimuth and elevation of the view are in degrees.
+    ``mu`` is charge over mass, ``c`` the speed of light; the path lasts ``turns`` turns about B. Azimuth and
+    elevation of the view are in degrees. Raises DomainError for B = 0 and mu = 0.
     """
     if not (B and mu):
         raise DomainError(f"figure magn needs a field B and a ratio mu that are not zero, not B = {B} and mu = {mu}.")

@@ -28,8 +28,9 @@ LOOP_POINTS = 480
 def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 40, unit: str = "time") -> Scene:
     """Draw loops of ``points`` points round one spin of a heavy top, one of a disk, and both of a disk with M3 = 0.
 
-    The weight of the heavy top, over I2, is b^2. Raises DomainError unless 1 < ratio <= 2, b > 0 and the spin is
-    unstable.
+    ``ratio`` is I3/I2, ``M3`` the momentum along the axis over I2, ``b`` the field, in 1/time; the weight of the
+    heavy top, over I2, is b^2. ``unit`` is the word for the unit of time. Raises DomainError unless 1 < ratio <= 2,
+    b > 0 and the spin is unstable.
     """
     if not (1 < ratio <= 2 and b > 0 and 0 < M3 * M3 < 4 * (ratio - 1) * b * b):
         raise DomainError(
@@ -71,7 +72,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
 
 
 def words(loop: Monodromy) -> str:
-    """Return the image of g3 after the loop as TeX, for a title."""
+    """Return the image of the period g3 after the loop as TeX, for a title: g3 -> g3 + m g1 + n g2."""
     terms = ""
     for number, name in zip(loop.matrix[2], ("g_1", "g_2"), strict=False):
         if number:
@@ -81,13 +82,17 @@ def words(loop: Monodromy) -> str:
 
 
 def plain_words(loop: Monodromy) -> str:
-    """Return the image of g3 after the loop, for a sentence without TeX."""
+    """Return the image of the period g3 after the loop, for a sentence without TeX."""
     m, n, _ = loop.matrix[2]
     return f"g3 comes back as g3 with {plain(m)} of g1 and {plain(n)} of g2"
 
 
 def values(name: str, wells: Wells, loop: Monodromy, is_first: bool, unit: str) -> Plane:
-    """Return a `Plane` of the critical values (p, g) at one M3, with the loop about them."""
+    """Return a `Plane` of the critical values (p, g) at one M3, with the loop about them.
+
+    p is the momentum along the field, g the energy; the curves are those of `wells`. `name` is the title; the first
+    panel has names and the label of its vertical axis; `unit` is the word for the unit of time.
+    """
     ends = np.array([[p, g] for p, g, D in (wells.spin(end) for end in (1, -1)) if D < 0])
     p_limit = 1.25 * max(float(np.abs(loop.p).max()), float(np.abs(ends[:, 0]).max()))
     lines = [
@@ -120,7 +125,10 @@ def smooth(points: FloatArray) -> FloatArray:
 
 
 def lattice(name: str, loop: Monodromy, is_first: bool) -> Plane:
-    """Return a `Plane` of the lattice of periods, with one nutation each, in turns, and the path of g3."""
+    """Return a `Plane` of the lattice of periods, with one nutation each, in turns, and the path of g3 in the loop.
+
+    `name` is the title; the first panel has the label of its vertical axis.
+    """
     track = smooth(-loop.turns)
     start, end = track[0], track[-1]
     middle, half = (track.min(axis=0) + track.max(axis=0)) / 2, 0.5 * float(np.ptp(track, axis=0).max()) + 0.7

@@ -38,7 +38,8 @@ def scene(
 ) -> Scene:
     """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where (71) leaves it free.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', ``omega2`` the component of the start, in 1/time; ``unit`` is
+    the word for the unit of time on the axes. Omega(t) is drawn for 25 turns of the body at most.
     """
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     turns = positive(turns, "turns")
@@ -83,7 +84,10 @@ def scene(
 
 
 def trace(motion: ElementaryMotion) -> Space:
-    """Return panel (a), a `Space`: the body at t = 0, the field, and the path of the third axis on the unit sphere."""
+    """Return panel (a), a `Space`: the body at t = 0, the field, and the path of the third axis on the unit sphere.
+
+    Without a field the angular momentum takes its place.
+    """
     is_free = not any(motion.field)
     axis = motion.angular_momentum(0.0) if is_free else np.array([0.0, *motion.field])
     size = quarter_pixel(2.6, WIDTH / COLUMNS)
@@ -113,14 +117,20 @@ def marked(panel: Plane, motion: ElementaryMotion) -> Plane:
 
 
 def velocity(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
-    """Return panel (b), a `Plane`: the components of Omega(t) along the axes of the body."""
+    """Return panel (b), a `Plane`: the components of Omega(t) along the axes of the body, up to the time `stop`.
+
+    `unit` is the word for the unit of time.
+    """
     names = tuple(rf"$\Omega_{i}$" for i in (1, 2, 3))
     y_label = rf"$\boldsymbol{{\Omega}}$ (1/{unit})"
     return course(motion.angular_velocity, names, stop, f"$t$ ({unit})", y_label, "(b) angular velocity", size=PANEL)
 
 
 def momentum(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
-    """Return panel (c), a `Plane`: the components of m(t)/I2, and its projection on the field if there is one."""
+    """Return panel (c), a `Plane`: the components of m(t)/I2 in the laboratory, and its projection on the field.
+
+    Without a field there is no projection. `stop` is the last time, `unit` the word for the unit of time.
+    """
     names = tuple(f"$m_{i}$" for i in (1, 2, 3))
     y_label = rf"$\mathbf{{m}}/I_2$ (1/{unit})"
     size = float(np.hypot(*motion.field))

@@ -39,9 +39,10 @@ def scene(
     cells: int = 240,
     unit: str = "time",
 ) -> Scene:
-    """Draw the map for each of the ``ratios`` with ``cells`` by ``cells`` initial velocities.
+    """Draw the map of nutation amplitudes for each of the ``ratios`` with ``cells`` by ``cells`` initial velocities.
 
-    ``field`` is (B2, B3) of B', in 1/time.
+    ``ratios`` are one to four I3/I2; ``field`` is (B2, B3) of B', in 1/time; maps reach ``reach`` |B'| from -B';
+    ``unit`` is the word for the unit of time. Raises DomainError where B2 or B3 is 0, and for more than 2000 cells.
     """
     if not (all(field) and 1 <= len(ratios) <= 4 and 2 <= cells <= 2000):
         raise DomainError(
@@ -104,7 +105,12 @@ def panel(
     most: float,
     bar: bool,
 ) -> Plane:
-    """Return the map of one body; the scale of colours, up to ``most`` degrees for all, stands beside one of them."""
+    """Return the map of one body, a `Plane`; the scale of colours, up to ``most`` degrees, stands beside it if ``bar``.
+
+    `name` is the title, `I` is I3/I2, `field` (B2, B3), `edges` are those of the cells in omega2 and omega3,
+    `swing` (n, n) the amplitudes in degrees over omega3 and omega2, `ends` two such arrays, (n, n) over omega2 and
+    omega3, of the least and the largest Omega3; `unit` is the word for the unit of time.
+    """
     x, y = edges
     middle = (x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2
     second, third = np.meshgrid(*middle)
@@ -124,7 +130,10 @@ def panel(
 
 
 def inmost(x: FloatArray, y: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """Return the point (2,) of the region farthest from its border, for a word; ``inside`` is a mask over y and x."""
+    """Return the point (2,) of the region farthest from its border, for a word; ``inside`` is a mask over y and x.
+
+    `x` and `y` are the middles of the cells along both axes.
+    """
     away = distance_transform_edt(np.pad(inside, 1), sampling=(WIDER, 1.0))[1:-1, 1:-1]
     row, column = np.unravel_index(np.argmax(away), inside.shape)
     return np.array([x[column], y[row]])
@@ -133,7 +142,7 @@ def inmost(x: FloatArray, y: FloatArray, inside: NDArray[np.bool_]) -> FloatArra
 def borders(x: FloatArray, y: FloatArray, inside: FloatArray) -> list[FloatArray]:
     """Return the border lines, (N, 2) each, of the region where ``inside``, 0 or 1 over y and x, is 1.
 
-    Lines of eight points or fewer are left out.
+    `x` and `y` are the middles of the cells along both axes. Lines of eight points or fewer are left out.
     """
     lines = contour_generator(x, y, inside).lines(0.5)
     return [np.asarray(line) for line in lines if len(line) > 8]

@@ -37,8 +37,8 @@ def scene(
 ) -> Scene:
     """Show ``turns`` periods of the precession; ``omega3`` is given only where (71) leaves it free.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
-    degrees.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` the component of the start, in 1/time;
+    azimuth and elevation of the view are in degrees.
     """
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     pole = in_plane(*field) if any(field) else motion.angular_momentum(0.0)
@@ -90,9 +90,10 @@ def scene(
 
 
 def heads(path: Callable[[FloatArray], FloatArray], times: FloatArray, eye: FloatArray, role: str, name: str) -> Layers:
-    """Return `Arrow` layers along a path on the unit sphere at some times; the head nearest to the eye has a name.
+    """Return `Arrow` layers along a path on the unit sphere at some times (N,); the head nearest to the eye has a name.
 
-    The list is empty if the path stands still at one of the times.
+    `path` maps times (N,) to points (N, 3), `eye` (3,) is the unit vector to the eye. The list is empty if the path
+    stands still at one of the times.
     """
     shift = 1e-6 * float(times[-1])
     tips, speed = path(times), np.linalg.norm(path(times + shift) - path(times), axis=1) / shift

@@ -28,7 +28,8 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) from (0, omega2, omega3) for each ``omega2`` over ``nutations`` periods; B stands upright.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; the elevation of the view is in degrees.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time as the angular velocities; the elevation of
+    the view is in degrees. Raises DomainError where B2 or B3 is 0.
     """
     if not all(field):
         raise DomainError(f"figure nutation_traces needs both components of the field, not field = {field}.")
@@ -61,6 +62,6 @@ def scene(
 def shape(ratio: Any, field: tuple[float, float], omega2: float, omega3: float) -> str:
     """Return "steady", "waves", "loops" or "cusps": the trace of an axis that starts at a turning point.
 
-    The start is (0, omega2, omega3) in the field (B2, B3); omega2 = 0 gives "cusps".
+    `ratio` is I3/I2 or a body. The start is (0, omega2, omega3) in the field (B2, B3); omega2 = 0 gives "cusps".
     """
     return ("steady", "waves", "loops")[int(trace_map(ratio, field, (0.0, omega2, omega3)))] if omega2 else "cusps"

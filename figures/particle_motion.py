@@ -38,9 +38,12 @@ def scene(
     unit: str = "time",
     length: str = "length",
 ) -> Scene:
-    """Draw path and velocity over ``turns`` turns; without a magnetic field, while E doubles or makes the speed.
+    """Draw path and velocity of a particle over ``turns`` turns about the magnetic field.
 
-    Azimuth and elevation of the view are in degrees.
+    Without that field a turn is the time in which E doubles or makes the speed. ``mu`` is charge over mass,
+    ``electric`` and ``magnetic`` are the fields, ``position`` and ``velocity`` those at t = 0, ``c`` is the speed
+    of light. Azimuth and elevation of the view are in degrees; ``unit`` and ``length`` are the words for the units
+    of time and length.
     """
     particle = ParticleMotion(mu, electric, magnetic, position, velocity, c)
     stop = positive(turns, "turns") * _unit_of_time(particle)

@@ -38,7 +38,8 @@ def scene(
 ) -> Scene:
     """Draw the portrait of the momenta of ``omega2``, with ``levels`` closed curves about each equilibrium.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` that of an elementary motion, in 1/time;
+    ``unit`` is the word for the unit of time. Raises DomainError where B2 or B3 is 0.
     """
     if not all(field):
         raise DomainError(f"figure phase_portrait needs both components of the field, not field = {field}.")
@@ -88,7 +89,11 @@ def scene(
 
 
 class Top:
-    """The reduced motion of nu = cos(theta), theorem-top, with the momenta of one elementary motion."""
+    """The reduced motion of nu = cos(theta), theorem-top, with the momenta of one elementary motion.
+
+    Made from I3/I2 or a body, (B2, B3) and omega2. `I` is I3/I2, `b` the field's length, `c3` = Omega3 + b nu, `M3`
+    and `p` are the momenta along the axis and the field over I2, `A` = (I - 1) b^2.
+    """
 
     def __init__(self, ratio: Any, field: tuple[float, float], omega2: float) -> None:
         self.I, _, _ = shape_factors(ratio)
@@ -100,16 +105,19 @@ class Top:
         self.A = (self.I - 1.0) * self.b**2
 
     def V(self, nu: float) -> float:
-        """Effective potential of the nutation at nu = cos(theta): the energy of an equilibrium there."""
+        """Effective potential of the nutation at nu = cos(theta), in 1/time^2: the energy of an equilibrium there."""
         return float(potential(self.I, self.b, self.M3, self.p, nu))
 
     def omega3(self, nu: Any) -> Any:
-        """Return Omega3 = c3 - b nu at nu = cos(theta), a number or an array."""
+        """Return Omega3 = c3 - b nu, in rad/time, at nu = cos(theta), a number or an array.
+
+        The same kind is returned.
+        """
         return self.c3 - self.b * nu
 
     @property
     def equilibria(self) -> list[tuple[float, bool]]:
-        """Return the roots of V'(nu) in (-1, 1), ascending, as pairs (nu, whether V has a minimum there)."""
+        """The roots of V'(nu) in (-1, 1), ascending, as pairs (nu, whether V has a minimum there)."""
         nu, sine_squared = Polynomial([0, 1]), Polynomial([1, 0, -1])
         slope = self.A * nu * sine_squared**2 + (self.p - self.M3 * nu) * (self.p * nu - self.M3)
         roots = slope.roots()
@@ -131,7 +139,8 @@ class Top:
     def orbits(self, h: float, centre: float, view: Window | None = None) -> list[FloatArray]:
         """Return the closed curves (N, 2) of the energy h that go round the cosine `centre`, or for 0 all of them.
 
-        The columns are Omega3 and its time derivative. Without a ``view`` the curves are coarse.
+        The columns are Omega3 and its time derivative. ``view`` has the panel's limits ((low, high) in x, in y), to
+        which the curves are sampled; without it they are coarse.
         """
         nu, sine_squared = Polynomial([0, 1]), Polynomial([1, 0, -1])
         Q = sine_squared * (h - self.M3**2 / self.I - self.b**2 - self.A * nu**2) - (self.p - self.M3 * nu) ** 2

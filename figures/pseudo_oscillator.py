@@ -37,10 +37,11 @@ def scene(
     turns: float = 2.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw Q, V and Omega3(t), over ``turns`` oscillations, for the initial angular velocity ``omega``.
+    """Draw the quartic Q, the potential V and Omega3(t), over ``turns`` oscillations, for the start ``omega``.
 
-    An oscillation that is small beside omega3 is drawn from there. ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in
-    1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is
+    the word for the unit of time. An oscillation that is small beside omega3 is drawn from there. Raises
+    DomainError on a separatrix and for a nutation that is too small.
     """
     oscillator = PseudoOscillator(ratio, field, omega)
     motion = GeneralMotion(ratio, field, omega)
@@ -93,7 +94,8 @@ def scene(
 def window(oscillator: PseudoOscillator, allowed: Ends, span: float, zero: float) -> Ends:
     """Return the interval (low, high) of Omega3 - `zero` to show: the allowed one, and the extrema of Q near it.
 
-    Extrema count if they are within three spans, and not much larger than Q in the interval.
+    `allowed` is (low, high) of Omega3 and `span` its width. Extrema count if they are within three spans, and not
+    much larger than Q in the interval.
     """
     slope = np.polynomial.Polynomial(oscillator.coefficients).trim()
     extrema = slope.roots() if slope.degree() else np.empty(0)
@@ -107,7 +109,11 @@ def window(oscillator: PseudoOscillator, allowed: Ends, span: float, zero: float
 
 
 def quartic(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: str, unit: str) -> Plane:
-    """Return panel (a), a `Plane`: the quartic, its zeros and the allowed interval."""
+    """Return panel (a), a `Plane`: the quartic `Q`, a function of u (N,), its zeros and the allowed interval.
+
+    `start` (2,) is the point (u, Q) of the start, `allowed` and `view` are (low, high) of u: of the motion, and as
+    drawn. `x_label` is that of u, `unit` the word for the unit of time.
+    """
     inner = Q(np.linspace(*allowed, 65))
     top = float(max(inner.max(), 0.02 * np.abs(Q(np.array(view))).max())) or 1.0
     limits = (-1.1 * top, 1.6 * top)
@@ -122,7 +128,10 @@ def quartic(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: 
 
 
 def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: str, unit: str) -> Plane:
-    """Return panel (b), a `Plane`: the potential V, with Q + 2 V = 2 level, and the level of the motion."""
+    """Return panel (b), a `Plane`: the potential V, with Q + 2 V = 2 level, and the level of the motion.
+
+    The arguments are those of `quartic`; the level is Q/2 at the start.
+    """
     level = float(start[1]) / 2
 
     def V(u: FloatArray) -> FloatArray:
@@ -145,7 +154,11 @@ def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label
 def course(
     motion: GeneralMotion, turns: float, allowed: Ends, view: Ends, zero: float, y_label: str, unit: str
 ) -> Plane:
-    """Return panel (c), a `Plane`: Omega3 - `zero` over `turns` periods of a motion."""
+    """Return panel (c), a `Plane`: Omega3 - `zero` over `turns` periods of a motion.
+
+    `allowed` and `view` are (low, high) of Omega3 - zero: of the motion, and in the other panels. `y_label` is that
+    of the ordinate, `unit` the word for the unit of time.
+    """
     low, high = allowed
     pad = 0.15 * (view[1] - view[0])
     limits = (low - pad, high + pad)
@@ -168,7 +181,7 @@ def course(
 
 
 def band(interval: Ends, limits: Ends) -> FloatArray:
-    """Return the corners (4, 2) of the rectangle over an interval of abscissas, between two limits."""
+    """Return the corners (4, 2) of the rectangle over an interval (low, high) of abscissas, between two limits."""
     (a, b), (low, high) = interval, limits
     return np.array([[a, low], [b, low], [b, high], [a, high]])
 

@@ -17,7 +17,10 @@ SEEN = r"Starts from which $\Omega_3$ does not accelerate lie on a quadric."
 def scene(
     *, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), azimuth: float = 25.0, elevation: float = 14.0
 ) -> Scene:
-    """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', the view in degrees."""
+    """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', in 1/time.
+
+    Azimuth and elevation of the view are in degrees. Without a field there is no surface, and a note says why.
+    """
     kind = Quadric(ratio, field).kind
     surface, legend = quadric_panel.DEGENERATE.get(kind, (f"a {kind}", quadric_panel.LEGEND))
     special = kind in quadric_panel.DEGENERATE

@@ -40,9 +40,11 @@ def scene(
     turns: float = 1.5,
     unit: str = "time",
 ) -> Scene:
-    """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``.
+    """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``, for ``turns`` periods.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time as the angular velocities; ``unit`` is the word for
+    the unit of time. Raises DomainError for an omega1 of zero, for B2 = 0 and omega2 = -B2, and where Omega3 has no
+    period.
     """
     if not 0 < len(omega1) <= len(LINES) or not all(omega1):
         raise DomainError(f"omega1 must hold one to {len(LINES)} numbers, none of them zero, not {omega1}.")
@@ -81,7 +83,7 @@ def scene(
 def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) -> PseudoOscillator:
     """Return the `PseudoOscillator` that starts on the quadric at (omega1, omega2), with omega3 by (52).
 
-    Raises DomainError for B2 = 0, and for omega2 at the pole -B2.
+    `ratio` is I3/I2 or a body, `field` (B2, B3). Raises DomainError for B2 = 0, and for omega2 at the pole -B2.
     """
     I, _, two_less = shape_factors(ratio)
     B2, B3 = (number(component, "field") for component in field)
@@ -95,12 +97,12 @@ def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) 
 
 
 class Leaving:
-    """A motion of a body in a field, by the departure of Omega3 from its start.
+    """A motion of a body in a field, by the departure of Omega3 from its start; made from its `PseudoOscillator`.
 
     The departure is computed as B3 - b nu, (40), which keeps its digits for a needle, from a top with the coupling
-    b (I2, I3); nu is the cosine between axis and field. `below` and `above` are the least and largest departure,
-    `farthest` the larger magnitude, `speed` the rate at t = 0, `period` that of Omega3. Raises DomainError where the
-    departure is only rounding, and on a separatrix.
+    b (I2, I3); nu is the cosine between axis and field, b the field's length. `below` and `above` are the least and
+    largest departure, `farthest` the larger magnitude, in rad/time, `speed` the rate at t = 0, `period` that of
+    Omega3. Raises DomainError where the departure is only rounding, and on a separatrix.
     """
 
     def __init__(self, oscillator: PseudoOscillator) -> None:
@@ -124,7 +126,11 @@ class Leaving:
 
 
 def courses(motions: Sequence[Leaving], omega1: Sequence[float], turns: float, unit: str) -> Plane:
-    """Return panel (a), a `Plane`: the departure of Omega3 over time, and its initial slopes omega1 B2."""
+    """Return panel (a), a `Plane`: the departure of Omega3 over time, and its initial slopes omega1 B2.
+
+    `omega1` are those of the motions; `turns` is the length in periods of the slowest motion, `unit` the word for
+    the unit of time.
+    """
     stop = turns * max(x.period for x in motions)
     reach = 1.35 * max(x.farthest for x in motions)
     limits = room([0.0, *(end for x in motions for end in (x.below, x.above))], 0.16)
@@ -158,7 +164,8 @@ def departures(
 ) -> Plane:
     """Return panel (b), a `Plane`: the largest departure of Omega3 over |omega1|, on logarithmic axes.
 
-    `point` is (ratio, field, omega2) and `nu2` the square of the nutation frequency there.
+    `point` is (ratio, field, omega2) and `nu2` the square of the nutation frequency there, below zero for an
+    unstable motion. The `motions`, with these `omega1`, are dots; `unit` is the word for the unit of time.
     """
     ratio, field, omega2 = point
     size = np.abs(omega1)

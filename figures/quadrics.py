@@ -19,9 +19,10 @@ def scene(
     azimuth: float = 25.0,
     elevation: float = 14.0,
 ) -> Scene:
-    """Show the bowl through the origin of one body, the tube of the other; ``field`` = (B2, B3) of B'.
+    """Show the bowl through the origin of one body, the tube of the other; ``field`` = (B2, B3) of B', in 1/time.
 
-    Azimuth and elevation of the view are in degrees.
+    ``ratios`` are I3/I2 of both, the first above 1, the second below. Azimuth and elevation of the view are in degrees.
+    Raises DomainError for other ratios, and where B2 or B3 is 0.
     """
     kinds = [Quadric(ratio, field).kind for ratio in ratios]
     if kinds != ["two-sheet hyperboloid", "one-sheet hyperboloid"]:

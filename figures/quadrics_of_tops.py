@@ -36,7 +36,9 @@ def scene(
 ) -> Scene:
     """Draw six tops in units of b: weight and moment are |a0|, ``outside`` is k3/(I k2) of the charge outside.
 
-    ``ratio`` is I3/I2; azimuth and elevation of the view are in degrees.
+    a0 is the linear potential, k2 and k3 the coupling, all over I2. ``ratio`` is I3/I2 = I, ``direction`` (n2, n3)
+    of the field; azimuth and elevation of the view are in degrees. Raises DomainError unless n2 is not 0, n3 > 0
+    and 0 < ratio <= 2.
     """
     n2, n3 = direction
     if not (n2 and n3 > 0 and 0 < ratio <= 2):
@@ -97,7 +99,9 @@ def side_by_side(
 ) -> list[list[Layer]]:
     """Return a list of layers for each quadric, from left to right, all centres as high as the first, names below.
 
-    Gaps are in units of ``scale``; narrow quadrics stand so far apart that their names do not meet.
+    `sheets`, `matrices` (4, 4), `centres` (3,) and `names` are those of the quadrics. Gaps are in units of
+    ``scale``; narrow quadrics stand so far apart that their names do not meet. `azimuth` is that of the view in
+    degrees.
     """
     rightward, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
     heights = [solids.extent(surfaces, E3) for surfaces in sheets]
@@ -114,7 +118,10 @@ def side_by_side(
 
 
 def kinds(ratio: float, places: np.ndarray) -> Plane:
-    """Return a `Plane` of (A0 + a0/n3)/b^2 and k3/(I k2): the border D = 0 of the kinds, and tops' points (N, 2)."""
+    """Return a `Plane` of (A0 + a0/n3)/b^2 and k3/(I k2): the border D = 0 of the kinds, and tops' `places` (N, 2).
+
+    a0 and A0 are the linear and the quadratic potential, k2 and k3 the coupling, all over I2; `ratio` is I = I3/I2.
+    """
     wide = 1.25 * max(1.0, float(np.abs(places[:, 0]).max()))
     high = 1.25 * max(1.0, float(places[:, 1].max()))
     low = -0.2 * high

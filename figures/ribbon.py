@@ -36,7 +36,7 @@ ALONG, ACROSS = 60, 24
 def scene(
     *, ratio: float = 1.5, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 42.0, elevation: float = 16.0
 ) -> Scene:
-    """Draw the surface for a body that is no ball, in a field with B2, B3 > 0.
+    """Draw the surface for a body that is no ball, in a field with B2, B3 > 0; else DomainError is raised.
 
     ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees.
     """
@@ -89,7 +89,11 @@ def quadric_rest(quadric: Quadric) -> float:
 def bands(
     ratio: float, quadric: Quadric, field: tuple[float, float], reach: float, edges: FloatArray
 ) -> Iterator[Surface]:
-    """Yield the pieces of the surface between planes omega_1 = ± edges, up to a height ``reach`` on both sides."""
+    """Yield the pieces of the surface between planes omega_1 = ± edges, up to a height ``reach`` on both sides.
+
+    `edges` (N,) ascend from 0, in 1/time; each piece has a role for its tint, "rate_0" where |omega_1| is least.
+    `ratio` is I3/I2, `field` (B2, B3).
+    """
     Q = quadrics.quadric_matrix(ratio, field)
     w = quadrics.sheet_axis(quadric)
     j = 3 - w
@@ -142,7 +146,8 @@ def line(points: FloatArray, stable: FloatArray) -> list[Layer]:
 def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, step: float) -> list[Layer]:
     """Return layers of the key: tints in a column, with the rates at both ends, upwards from a corner (3,).
 
-    ``frame`` has the directions right and up as rows, ``step`` is the height of a tint.
+    `edges` are those of `bands`, times B2 the rates. ``frame`` has the directions right and up as rows, ``step`` is
+    the height of a tint.
     """
     rightward, up, _ = frame
     layers: list[Layer] = []

@@ -34,8 +34,8 @@ def scene(
 ) -> Scene:
     """Show the cones in the field and, beside them, the cones of the free body with the same precession.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
-    degrees.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` that of the elementary motion, in 1/time;
+    azimuth and elevation of the view are in degrees. Raises DomainError for a motion without precession.
     """
     motion = ElementaryMotion(ratio, field, omega2)
     if motion.case != "precession" or not field[1]:
@@ -72,12 +72,15 @@ def scene(
 
 
 def rolled(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return rotations (N, 3, 3) and shifts (N, 3) of the body and its cone at times t (N,)."""
+    """Return rotations R (N, 3, 3) and shifts (N, 3), which are 0, of the body and its cone at times t (N,)."""
     return rotations_about(O, motion.rotation(t))
 
 
 def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return rotations (N, 3, 3), R without the proper rotation, (85), and shifts (N, 3) of the line of contact."""
+    """Return rotations (N, 3, 3), R without the proper rotation, (85), and shifts (N, 3), 0, of the line of contact.
+
+    `t` (N,) are the times.
+    """
     spin = motion.phi * t
     back = np.zeros((len(t), 3, 3))
     back[:, 0, 0], back[:, 1, 1], back[:, 2, 2] = np.cos(spin), np.cos(spin), 1.0
@@ -88,7 +91,7 @@ def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatAr
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
     """Return words on whether the body cone rolls on the outside of the space cone, inside it, or encloses it.
 
-    Each cone is on the side of its axis, e3 or `axis`, that is nearer to omega.
+    Each cone is on the side of its axis, e3 or the unit vector `axis` (3,) of the space cone, that is nearer to omega.
     """
     omega = np.asarray(motion.angular_velocity(0.0))
     body, space = (np.copysign(1.0, n @ omega) * n for n in (E3, axis))
@@ -99,7 +102,10 @@ def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
 
 
 def reach(line: FloatArray, omega: FloatArray) -> float:
-    """Return the length of an arrow along a ``line`` (3,): 1.35, beyond the rims, on the side of omega; else 0.6."""
+    """Return the length of an arrow along a ``line`` (3,): 1.35, beyond the rims, on the side of omega (3,).
+
+    Else 0.6.
+    """
     return 1.35 if line @ omega > 0.0 else 0.6
 
 
@@ -109,7 +115,7 @@ def name_place(
     """Return (position at the rim, offset in points) for the name of a cone, clear of both cones.
 
     `rim` (N, 3) is the cone's; the position is (3,), or several (M, 3), the best first. `omega` (3,) is along the
-    line of contact.
+    line of contact, `view` is (azimuth, elevation) in degrees; `narrow` says whether the cone is the narrower one.
     """
     rightward, up = (rim @ line for line in frame(Space((), *view))[:2])
     if up.mean() > 0.0 and narrow:
@@ -125,8 +131,9 @@ def name_place(
 def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, view: tuple[float, float]) -> Space:
     """Return the `Space` of both cones at t = 0, touching along omega, with angles and the circles of their tips.
 
-    `axis` (3,) is that of the space cone, the field or the momentum. The angular momentum of a free body is on the side
-    of its angular velocity: (m, omega) is twice the energy.
+    `name` is the title, `axis` (3,) the unit vector along the field, which is also that of the free body's
+    momentum, `view` (azimuth, elevation) in degrees. The angular momentum of a free body is on the side of its
+    angular velocity: (m, omega) is twice the energy.
     """
     sag = tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))

@@ -36,7 +36,9 @@ def scene(
 ) -> Scene:
     """Show a motion with phi/k = p/q for each of the ``fractions``, and the golden one over ``turns`` turns.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time.
+    k and phi are the frequencies of precession and proper rotation. ``ratio`` is I3/I2 or a body; ``field`` is (B2,
+    B3) of B', in 1/time; ``fractions`` are pairs (p, q). Raises DomainError where B2 or B3 is 0, or no motion has a
+    fraction.
     """
     if not all(field):
         raise DomainError(f"figure rosettes needs both components of the field, not field = {field}.")
@@ -71,7 +73,10 @@ def scene(
 
 
 def golden(ratio: Any, field: tuple[float, float]) -> float:
-    """Return omega2 of the motion with phi/k = (sqrt 5 - 1)/2, from phi/k = r (1 + B2/(omega2 + B2)), (86) and (87)."""
+    """Return omega2 of the motion with phi/k = (sqrt 5 - 1)/2, from phi/k = r (1 + B2/(omega2 + B2)), (86), (87).
+
+    r is the limit (87) of phi/k, that of a free body; `ratio` is I3/I2 or a body, `field` (B2, B3).
+    """
     I, one_less, _ = shape_factors(ratio)
     free_quotient = float(one_less / I * field[1] / np.hypot(*field))
     return float(field[0] * (1 / ((np.sqrt(5) - 1) / 2 / free_quotient - 1) - 1))
@@ -80,7 +85,7 @@ def golden(ratio: Any, field: tuple[float, float]) -> float:
 def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
     """Return a `Space`: a sphere with the trace of a point near the axis over ``turns`` turns of the precession.
 
-    It is seen along the field.
+    `name` is the title; the view is along `field` (B2, B3).
     """
     sag = tolerance(1.6)
     period = 2 * np.pi / abs(motion.k)

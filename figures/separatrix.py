@@ -39,8 +39,9 @@ def scene(
 ) -> Scene:
     """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/growth before and after.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
-    degrees.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; growth is the motion's rate of growth.
+    Azimuth and elevation of the view are in degrees; ``unit`` is the word for the unit of time. Raises DomainError
+    for a stable motion.
     """
     stability = float(Hyperbola(ratio, field).stability(omega2))
     if not stability < 0:
@@ -75,9 +76,10 @@ def scene(
 def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[GeneralMotion]:
     """Return two motions with the integrals of an unstable precession, each from where it turns, theorem-companion.
 
-    The quartic of nu, the cosine between axis and field, has the double root r = B3/b, and the simple ones
-    e = -r +- sqrt((1 - z)(z - r^2)/z) with z = ((omega2 + B2)/B2)^2/(1 - I). There omega1 = 0, and the other components
-    follow from E', c3 and (M, B') of the precession.
+    `ratio` is I3/I2 or a body, `field` (B2, B3), `omega2` that of the precession. The quartic of nu, the cosine
+    between axis and field, has the double root r = B3/b, and the simple ones e = -r +- sqrt((1 - z)(z - r^2)/z)
+    with z = ((omega2 + B2)/B2)^2/(1 - I). There omega1 = 0, and the other components follow from E', c3 and (M, B')
+    of the precession.
     """
     I, (B2, B3), b = quotient(ratio), field, float(np.hypot(*field))
     omega3, r, z = float(Hyperbola(ratio, field).omega3(omega2)), B3 / b, ((omega2 + B2) / B2) ** 2 / (1 - I)
@@ -95,7 +97,10 @@ def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[Ge
 def sphere(
     motions: list[GeneralMotion], field: tuple[float, float], half_time: float, view: tuple[float, float]
 ) -> Space:
-    """Return panel (a), a `Space`: the traces of the axis on the sphere in the looks of panel (b), B upwards."""
+    """Return panel (a), a `Space`: the traces of the axis on the sphere in the looks of panel (b), B upwards.
+
+    `field` is (B2, B3); times go from -`half_time` to it; `view` is (azimuth, elevation) in degrees.
+    """
     sag, r = tolerance(1.4), field[1] / float(np.hypot(*field))
     ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), sag)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
@@ -117,7 +122,10 @@ def sphere(
 
 
 def course(motions: list[GeneralMotion], level: float, half_time: float, unit: str) -> Plane:
-    """Return panel (b), a `Plane`: Omega3 of both motions over time, and the line Omega3 = ``level`` of precession."""
+    """Return panel (b), a `Plane`: Omega3 of both motions over time, and the line Omega3 = ``level`` of precession.
+
+    Times go from -`half_time` to it; `unit` is the word for the unit of time.
+    """
     view = ((-half_time, half_time), room([level, *(motion.omega[2] for motion in motions)], 0.1))
     layers: list[Layer] = [Curve(np.array([[-half_time, level], [half_time, level]]), "unstable")]
     for motion, role in zip(motions, ROLES, strict=True):

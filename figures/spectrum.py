@@ -32,7 +32,8 @@ def scene(
 ) -> Scene:
     """Draw lines down to ``least`` of the whole, with the whole numbers of the ``names`` highest ones of each panel.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is
+    the word for the unit of time. Raises DomainError for ``least`` outside 1e-12 to 0.1.
     """
     least, names = number(least, "least"), whole(names, "names", 0)
     if not 1e-12 <= least <= 0.1:
@@ -73,8 +74,9 @@ def scene(
 def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, unit: str) -> Plane:
     """Return a `Plane` of spectral lines; lines with turns about the field or the body's axis are of a second kind.
 
-    Amplitudes are relative to the root mean square. Frequencies go up to ``top``; without a ``unit`` the axis has no
-    name, and the kinds have.
+    `heading` is the title. Amplitudes are norms of complex amplitudes over the root mean square, drawn from
+    ``least`` / 2 on; the ``names`` highest lines bear their whole numbers. Frequencies, in rad/time, go from 0 up
+    to ``top``; without a ``unit`` the axis has no name, and the kinds have.
     """
     size = np.sqrt(lines.power / lines.mean_square)
     positive = lines.frequencies >= 0

@@ -39,7 +39,9 @@ def scene(
 ) -> Scene:
     """Draw nu^2 over omega2, and its ``levels`` in units of B2^2 in the plane of tau and x, for all fields.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time.
+    nu is the frequency of nutation. ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; ``reach`` is the
+    half width of the first panel in units of B2; ``unit`` is the word for the unit of time. Raises DomainError for
+    B2 = 0.
     """
     B2, B3 = components(field)
     if B2 == 0:
@@ -78,7 +80,11 @@ def scene(
 def course(
     ratio: Any, field: tuple[float, float], bands: tuple[tuple[float, float], ...], reach: float, unit: str
 ) -> Plane:
-    """Return panel (a), a `Plane`: the curve of nu^2 over omega2 with the unstable bands."""
+    """Return panel (a), a `Plane`: the curve of nu^2 over omega2 with the unstable bands.
+
+    nu is the frequency of nutation; `ratio` is I3/I2 or a body, `field` (B2, B3), `bands` are intervals (low, high) of
+    omega2, `reach` is as in `scene`; `unit` is the word for the unit of time.
+    """
     B2, B3 = field
     I, one_less, two_less = shape_factors(ratio)
     tau2 = (B3 / B2) ** 2
@@ -118,7 +124,8 @@ def course(
 def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
     """Return panel (b), a `Plane`: levels of nu^2 over tau and |x|, with the unstable region.
 
-    ``tau`` is |B3/B2| of the field of (a), which is marked.
+    `ratio` is I3/I2 or a body, ``levels`` are in units of B2^2, ``tau`` is |B3/B2| of the field of (a), which is
+    marked if it is at most 2; x is (omega2 + B2)/B2.
     """
     _, one_less, _ = shape_factors(ratio)
     view = Window((0.0, max(WIDE, 1.15 * tau) if tau <= FAR else WIDE), (0.0, HIGH))

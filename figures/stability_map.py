@@ -29,7 +29,10 @@ ASIDE, UP = 0.14, 0.035
 
 
 def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
-    """Draw where the greatest growth rate, or the least frequency, is one of ``rates`` times |B2|."""
+    """Draw where the greatest growth rate, or the least frequency of nutation, is one of ``rates`` times |B2|.
+
+    The map is over I = I3/I2 and tau = |B3/B2|. Raises DomainError for rates outside 0 to 1.
+    """
     if not all(0.0 < rate < 1.0 for rate in rates):
         raise DomainError(f"rates of figure stability_map lie between 0 and 1, in units of |B2|, not {rates}.")
     x, y = np.linspace(0.0, 2.0, CELLS[0] + 1), np.linspace(0.0, TOP, CELLS[1] + 1)
@@ -69,7 +72,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
 def on(line: FloatArray, rate: float) -> FloatArray:
     """Return the point (2,) of a level's line (N, 2) for its number; it is the higher, the larger `rate`.
 
-    So the numbers of neighbouring lines do not collide.
+    The rate is between 0 and 1. So the numbers of neighbouring lines do not collide.
     """
     low, high = line[:, 1].min(), line[:, 1].max()
     return line[int(np.argmin(np.abs(line[:, 1] - low - (0.15 + 0.6 * rate) * (high - low))))]

@@ -45,7 +45,9 @@ def scene(
 ) -> Scene:
     """Draw the body at ``count`` moments of one excursion, and the angle of its axis over three.
 
-    ``ratio`` is I3/I2 or a body; azimuth and elevation of the view are in degrees.
+    ``ratio`` is I3/I2 or a body; the field is (0, 0, ``B3``), the start (``push``, 0, ``omega3``), in 1/time;
+    azimuth and elevation of the view are in degrees; ``unit`` is the word for the unit of time. Raises DomainError
+    for a stable spin.
     """
     I, one_less, _ = shape_factors(ratio)
     D = (I * (omega3 + B3)) ** 2 + 4 * one_less * B3**2
@@ -89,7 +91,10 @@ def scene(
 
 
 def dot_path(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a moment's dot along the curve of the angle."""
+    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a moment's dot along the curve of the angle.
+
+    The dot is at the time `start` of the motion when t (N,) is 0.
+    """
     return translations(point(motion, start + t), point(motion, np.array([start]))[0])
 
 
@@ -104,14 +109,17 @@ def angle(axis: FloatArray) -> FloatArray:
 
 
 def moments(motion: GeneralMotion, count: int) -> FloatArray:
-    """Return times, shape (count,), at which the angle has grown by equal steps from its least to its greatest."""
+    """Return times (count,) in half a period, at which the angle has grown by equal steps from least to greatest."""
     t = np.linspace(0.0, motion.period / 2, 2001)
     angles = np.maximum.accumulate(angle(motion.third_axis(t)))
     return np.interp(np.linspace(angles[0], angles[-1], count), angles, t)
 
 
 def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray) -> list[list[Layer]]:
-    """Return for each of these times a list of layers: the body with axis, field and number at its place (3,)."""
+    """Return for each of these times a list of layers: the body with axis, field and number at its place (3,).
+
+    `I` is I3/I2, `times` are (N,), `places` (N, 3).
+    """
     sag = tolerance(STEP * len(times) / 2)
     cells: list[list[Layer]] = []
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
@@ -127,7 +135,10 @@ def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray
 
 
 def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:
-    """Return panel (b), a `Plane`: the angle of the axis over three periods, with the strip's times as dots."""
+    """Return panel (b), a `Plane`: the angle of the axis over three periods, with the strip's times as dots.
+
+    The angle is in degrees; `unit` is the word for the unit of time.
+    """
     view = ((0.0, 3.0 * motion.period), (0.0, 195.0))
     line = flat(partial(point, motion), *view[0], view, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN), pieces=96)
     layers = (

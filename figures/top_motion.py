@@ -24,9 +24,11 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) of the top, given as to ``TopMotion``, over ``periods`` of the nutation.
+    """Draw R_3(t) and Omega(t) of the top over ``periods`` of the nutation.
 
-    The elevation of the view is in degrees.
+    ``inertia`` (I2, I3), ``coupling`` (k2, k3), ``direction`` (n2, n3) of the field, ``omega`` and the potentials
+    ``linear`` and ``quadratic`` are given as to ``TopMotion``. The elevation of the view is in degrees; ``unit`` is
+    the word for the unit of time on the axes.
     """
     motion = TopMotion(inertia, coupling, direction, omega, linear, quadratic)
     moment, words = any_motion.start(omega)

@@ -42,7 +42,8 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential.
 
-    ``ratio`` is I3/I2; the elevation of the view is in degrees.
+    ``ratio`` is I3/I2, ``direction`` (n2, n3) that of the field; ``omega`` and ``larmor`` are in rad/time; the
+    elevation of the view is in degrees. Raises DomainError unless larmor > 0.
     """
     if not larmor > 0:
         raise DomainError(f"figure tops needs a positive larmor, which scales coupling and potential, not {larmor}.")
@@ -74,9 +75,9 @@ def scene(
 
 
 def cause(place: int, panel: Space) -> list[Layer]:
-    """Return layers in front of the sphere: a small body with the cause of its torque.
+    """Return layers in front of the sphere of `panel`: a small body with the cause of its torque.
 
-    By ``place`` these are charges, the weight, or the induced moment.
+    By ``place``, from 0, these are charges, charges outside, the weight, or the induced moment.
     """
     right, up, toward = frame(panel)
 
@@ -101,7 +102,10 @@ def cause(place: int, panel: Space) -> list[Layer]:
 def _motion(
     ratio: float, direction: Any, omega: Any, b: float, coupling: Any, linear: float, quadratic: float
 ) -> TopMotion:
-    """Return the `TopMotion` with I2 = 1 and I3 = ratio, its coupling in units of b, its potential in those of b^2."""
+    """Return the `TopMotion` with I2 = 1 and I3 = ratio, its coupling in units of b, its potential in those of b^2.
+
+    `coupling` is (k2/(I2 b), k3/(I3 b)), `direction` (n2, n3), `omega` (3,) the angular velocity at t = 0.
+    """
     k2, k3 = coupling
     return TopMotion(
         (1.0, ratio), (k2 * b, k3 * ratio * b), direction, omega, linear=linear * b * b, quadratic=quadratic * b * b

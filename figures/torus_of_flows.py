@@ -33,7 +33,8 @@ def scene(
 ) -> Scene:
     """Draw the motion from ``omega`` for ``turns`` or up to the time ``stop``, and one way back to its start.
 
-    ``field`` is B' along the principal axes, in 1/time.
+    ``inertia`` are the principal moments; ``field`` is B' along the principal axes, in 1/time as ``omega``; turns
+    are those round the torus. Raises DomainError for a motion that is not on a torus, and for more than 200 turns.
     """
     first_period, second_period = periods(inertia, field, omega)
     area = first_period[0] * second_period[1] - first_period[1] * second_period[0]
@@ -83,8 +84,10 @@ def periods(
 ) -> list[tuple[float, float]]:
     """Return two pairs (T_H, T_F) that generate all times after which M and K are back, as floats, by rising |T_H|.
 
+    M and K are the canonical momentum and the field in the body, T_H and T_F times of the flows of H and of F/2.
     ``inertia``, ``field`` and ``omega`` have three components each, along the principal axes. The periods are
-    approximate. Raises DomainError unless the motion is on a torus, and NotCertifiedError where no periods are found.
+    approximate. Raises DomainError unless the motion is on a torus, and NotCertifiedError where no periods are
+    found.
     """
     from atlas.motions.torus.certified import AsymmetricMotion
     from atlas.motions.torus.certified_torus import Torus
@@ -102,7 +105,7 @@ def periods(
 def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     """Return panel (a), a `Space`: the torus with three lines, each by its two angles in rad at N points, (N, 2).
 
-    They are the orbit, and the period in two arcs: ``out`` along the flow of H, ``back`` along that of F.
+    They are the orbit, and the period in two arcs: ``out`` along the flow of H, ``back`` along that of F/2.
     """
     roles = ("fine_trajectory", "trajectory", "turn")
     layers = net()
@@ -115,7 +118,10 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
 
 
 def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
-    """Return panel (b), a `Space`: the unit sphere of K/b with the lines of orbit and periods, vectors K (N, 3)."""
+    """Return panel (b), a `Space`: the unit sphere of K/b with the lines of orbit and periods, vectors K (N, 3).
+
+    K is the field in the body and b its length; the three lines are those of `winding`.
+    """
     b = float(np.linalg.norm(orbit[0]))
     sag = tolerance(1.4)
     layers = [

@@ -30,7 +30,11 @@ def scene(
     turns: float = 3.0,
     unit: str = "length",
 ) -> Scene:
-    """Draw one panel for each of ``speeds``, the speeds a omega of the turning in units of the drift's."""
+    """Draw one panel for each of ``speeds``, the speeds a omega of the turning in units of the drift's.
+
+    ``mu`` is charge over mass, ``E`` and ``B`` are the fields, ``c`` is the speed of light; paths last ``turns`` turns;
+    ``unit`` is the word for the unit of length. Raises DomainError for no speeds and for a speed below zero.
+    """
     guide = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), c)
     plane, v, omega = guide.axes[:2], float(np.linalg.norm(guide.drift)), abs(guide.cyclotron_frequency)
     turns = positive(turns, "turns")
@@ -98,5 +102,8 @@ def name(speed: float) -> str:
 
 
 def turning(speed: float) -> str:
-    """Return the equation between the speeds of turning and of drift, as TeX."""
+    """Return the equation between the speeds of turning, a omega, and of drift, v, as TeX.
+
+    ``speed`` is their quotient.
+    """
     return r"$a\omega = v$" if speed == 1 else rf"$a\omega = {tex(speed)}\,v$"

@@ -32,7 +32,9 @@ def scene(
 ) -> Scene:
     """Draw how far K is from its start for each of ``pushes``, angular velocities about e2, up to ``reach`` over it.
 
-    ``field`` is B' along the principal axes, in 1/time.
+    K is the field in the body; time ends at ``reach`` over the push. ``inertia`` are the principal moments,
+    ``field`` is B' along the principal axes, in 1/time. Raises DomainError for equal moments, without a field, and
+    unless there are one to three pushes of at most 1.
     """
     if not 0 < len(pushes) <= len(ROLES) or not all(0 < abs(push) <= 1 for push in pushes) or not any(field):
         raise DomainError(
@@ -74,7 +76,10 @@ def scene(
 
 
 def panel(title: str, x_label: str, view: tuple[float, float], curves: list[Curve], *, log: bool) -> Plane:
-    """Return a panel of the distances over one measure of time, with a line at 2: the body upside down."""
+    """Return a `Plane` of the distances over one measure of time, with a line at 2: the body upside down.
+
+    `view` is (first, last) abscissa, `curves` are the distances |K - K(0)|/b; with `log` the abscissa is logarithmic.
+    """
     top = Curve(np.array([[view[0], 2.0], [view[1], 2.0]]), "limit")
     name = Label(np.array([view[0], 2.0]), "upside down", "note", (6.0, -6.0))
     scale: Literal["log", "linear"] = "log" if log else "linear"
@@ -85,7 +90,10 @@ def panel(title: str, x_label: str, view: tuple[float, float], curves: list[Curv
 def departure(
     inertia: tuple[float, float, float], field: tuple[float, float, float], push: float, reach: float
 ) -> FloatArray:
-    """Return the points (s t, |K - K(0)|/b), shape (N, 2), of the body pushed to omega = (0, s, 0), s = ``push``."""
+    """Return the points (s t, |K - K(0)|/b), shape (N, 2), of the body pushed to omega = (0, s, 0), s = ``push``.
+
+    `inertia` and `field` are as in `scene`, b is the field's length; s t goes from 0 to `reach`.
+    """
     times = np.linspace(0.0, reach, POINTS)
     K = AsymmetricMotion(inertia, field, (0.0, push, 0.0)).field_in_body(times / abs(push))
     return np.column_stack([times, np.linalg.norm(K - np.array(field), axis=1) / np.linalg.norm(field)])

@@ -34,8 +34,8 @@ def scene(
 ) -> Scene:
     """Draw the attitudes 1, R_z and R_B R_z at the time ``part`` of a period of the precession.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in
-    degrees.
+    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` that of the elementary motion, in 1/time;
+    azimuth and elevation of the view are in degrees. Raises DomainError where B2, B3, k or phi is 0.
     """
     motion = ElementaryMotion(ratio, field, omega2)
     if not (motion.k and motion.phi and all(field)):
@@ -97,7 +97,8 @@ def sweep(
 ) -> list[Layer]:
     """Return the layers of an arc through ``angle`` in rad about ``axis`` from ``centre + radius``: arc, arrow, name.
 
-    The name stands at the fraction ``share`` of the angle. ``axis`` and ``radius`` (3,) are orthogonal.
+    The name stands at the fraction ``share`` of the angle. ``axis``, a unit vector, and ``radius`` (3,) are orthogonal;
+    chords of the arc are within ``tolerance``.
     """
     arc_angle = angle - np.sign(angle) * min(0.25, 0.5 * abs(angle))
     arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, arc_angle, tolerance)

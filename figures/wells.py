@@ -28,7 +28,12 @@ def scene(
     cosines: tuple[float, ...] = (-0.6, -0.3, 0.0, 0.3, 0.6),
     reach: float = 4.0,
 ) -> Scene:
-    """Draw the plane up to ``reach`` p^2 for each of ``momenta``, M3 over p, with the lines of some ``cosines``."""
+    """Draw the plane of tops up to ``reach`` p^2 for each of ``momenta``, M3 over p, with lines of some ``cosines``.
+
+    Abscissa and ordinate are the potentials a and A in units of p^2; p and M3 are the momenta along field and axis;
+    a line holds the tops that can rest at a cosine nu. Raises DomainError for more than three momenta and cosines
+    beyond 1.
+    """
     if not (1 <= len(momenta) <= 3 and all(abs(nu) < 1 for nu in cosines)):
         raise DomainError(
             f"figure wells takes 1 to 3 momenta M3 and cosines between -1 and 1, not {momenta} and {cosines}."
@@ -107,9 +112,9 @@ def times(M3: float) -> str:
 
 
 def envelope(M3: float, reach: float) -> FloatArray:
-    """Return the border (N, 2) in the plane (a, A), in units of p^2, as far as 40 ``reach``.
+    """Return the border (N, 2) of tops with two wells in the plane (a, A), in units of p^2, as far as 40 ``reach``.
 
-    With |M3| = p it goes on along the line of a spin.
+    M3 is in units of p. With |M3| = p the border goes on along the line of a spin.
     """
     nu = np.tanh(np.linspace(-9.0, 9.0, 1201))
     points = border(M3, 1.0, nu)
@@ -126,7 +131,7 @@ def envelope(M3: float, reach: float) -> FloatArray:
 def within(c: float, nu: float, reach: float) -> FloatArray:
     """Return the ends (2, 2) of the line a + A nu = c in the square |a|, |A| <= ``reach``, the upper end last.
 
-    A line outside of it gives shape (0, 2).
+    A line outside the square gives shape (0, 2).
     """
     A = np.array([-reach, reach])
     if nu:

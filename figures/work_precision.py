@@ -18,7 +18,11 @@ ROOM = (1.6, 0.5), (0.9, 0.5)
 
 
 def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, columns: int = 1) -> Scene:
-    """Draw one panel for each of the cases, with all runs up to the time ``horizon``."""
+    """Draw one panel of time over error for each of the cases, with all runs up to the time ``horizon``.
+
+    ``cases`` are keys of the benchmark's CASES, ``columns`` is the number of panels side by side. Raises AtlasError
+    for a case or horizon that the stored record lacks.
+    """
     record = benchmark.read()
     return Scene(
         caption=(
@@ -41,9 +45,9 @@ def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, c
 
 
 def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float, columns: int) -> tuple[Plane, ...]:
-    """Return a `Plane` for each case: time over error of all methods up to the horizon.
+    """Return a `Plane` for each case: time for a sample, in microseconds, over error, of all methods up to the horizon.
 
-    Raises AtlasError for a horizon that the record lacks.
+    `columns` is the number of panels side by side. Raises AtlasError for a case or a horizon that the record lacks.
     """
     layers = {
         case: tuple(run_lines([run for run in benchmark.runs_of(record, case) if run.horizon == horizon]))
@@ -57,7 +61,10 @@ def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float, co
 
 
 def run_lines(runs: list[benchmark.Run]) -> Iterator[Layer]:
-    """Yield layers: a curve with dots for each integrator, and points for each closed form."""
+    """Yield layers: a curve with dots for each integrator, and points for each closed form (runs without a tolerance).
+
+    Points are (largest error, microseconds for a sample).
+    """
     for method, group in benchmark.by_method(runs).items():
         points = benchmark.pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
         if group[0].tolerance is None:
