@@ -80,8 +80,8 @@ def scene(
 def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *, named: bool) -> list[Space]:
     """Return two panels: the torus with its net and the line of the motion, and the ball with the path of R_1.
 
-    `names` are their titles, `larmor` is alpha, `stop` the last time. The ball shows the field and k at t = 0; its
-    start has a name if `named`.
+    `names` are their titles, `larmor` is alpha in rad/time, `stop` the last time. The ball shows the field and k at
+    t = 0; its start has a name if `named`.
     """
     sag, is_bold = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))

@@ -43,7 +43,10 @@ def scene(*, columns: int = 1) -> Scene:
 
 
 def matrix_times(record: benchmark.Results) -> Plane:
-    """Return panel (a), a `Plane`: nanoseconds for one matrix on one thread, over the number of matrices."""
+    """Return panel (a), a `Plane`: nanoseconds for one matrix on one thread, over the number of matrices.
+
+    Methods without a time in the record are left out.
+    """
     layers: list[Layer] = []
     for method in SHOWN:
         rows = [r for r in record.costs if r.method == method and r.threads == 1 and r.nanoseconds is not None]

@@ -179,7 +179,8 @@ def swallowtail(diagram: Plane, letter: str) -> list[Plane]:
 def names(branch: Branch, reach: float, shift: float) -> list[Layer]:
     """Return labels at the visible parts of a curve: "unstable", and the sign of the rate w at stable parts.
 
-    `reach` is the limit of |p|, `shift` is added to the energy g to give 2H.
+    w is the rate of precession in Larmor's frame. `reach` is the limit of |p|, `shift` is added to the energy g to
+    give 2H.
     """
     w, stable, is_visible = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
     order = np.argsort(-branch.g, kind="stable")

@@ -62,7 +62,10 @@ def scene(
 
 
 def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
-    """Return layers of the lines omega2 = 0 and omega3 = 0, and, for B2 B3 not zero, of pole and asymptotes."""
+    """Return layers of the lines omega2 = 0 and omega3 = 0, and, for B2 B3 not zero, of pole and asymptotes.
+
+    `ratios` are I3/I2, `field` is (B2, B3), `view` the window; a ball's line is drawn instead of the pole.
+    """
     B2, B3 = components(field)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     if B2 and B3:
@@ -91,7 +94,10 @@ def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window)
 
 
 def _points(ratios: tuple[float, ...], field: tuple[float, float]) -> list[Layer]:
-    """Return layers: the points -B', rest and -2B' with names, and the other named points of each body."""
+    """Return layers: the points -B', rest and -2B' with names, and the other named points of each body.
+
+    `ratios` are I3/I2, `field` is (B2, B3).
+    """
     return [
         *marked(places(ratios[0], field)[:2], field),
         *(Points(np.array([place.point]), place.role) for ratio in ratios for place in places(ratio, field)[2:]),

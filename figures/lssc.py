@@ -22,9 +22,9 @@ SIZE, WINDINGS = 1.5, 7.0
 def scene(
     *, ratio: Any = 1.2, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 16.0
 ) -> Scene:
-    """Show a solenoid with I = I3/I2 = ``ratio`` and the field B with the components ``field`` = (B2, B3).
+    """Show a solenoid with I = I3/I2 = ``ratio``, a number or a body, and the field B' = (0, B2, B3).
 
-    Azimuth and elevation of the view are in degrees.
+    ``field`` is (B2, B3), in 1/time; for I = 2 the body is a loop. Azimuth and elevation of the view are in degrees.
     """
     I = quotient(ratio)
     radius, height = (SIZE * length for length in proportions(I))

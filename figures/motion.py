@@ -108,7 +108,10 @@ def trace(motion: ElementaryMotion) -> Space:
 
 
 def marked(panel: Plane, motion: ElementaryMotion) -> Plane:
-    """Return a panel over time with a vertical line at t1 = pi/|k|; unchanged if t1 lies beyond the panel."""
+    """Return a panel over time with a vertical line at t1 = pi/|k|, half a precession.
+
+    The panel is returned unchanged if t1 lies beyond it or there is no precession.
+    """
     time = np.pi / abs(motion.k) if motion.k else np.inf
     if panel.x_limits is None or panel.y_limits is None or time > panel.x_limits[1]:
         return panel

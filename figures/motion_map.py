@@ -87,7 +87,8 @@ def scene(
 def amplitudes(columns: Mapping[str, FloatArray], field: tuple[float, float]) -> FloatArray:
     """Return the amplitudes of nutation, theta_max - theta_min, in degrees, (N,), from a table's columns (N,).
 
-    ``columns`` has omega3 and the ends of the range of Omega3; cos theta = (c3 - Omega3)/b.
+    ``columns`` has "omega3" and the ends "least" and "largest" of the range of Omega3; ``field`` is (B2, B3);
+    cos theta = (c3 - Omega3)/b with c3 = omega3 + B3 and b the field's length.
     """
     nu = (columns["omega3"] + field[1] - np.array([columns["least"], columns["largest"]])) / np.hypot(*field)
     least_angle, largest_angle = np.degrees(np.arccos(np.clip(nu, -1.0, 1.0)))

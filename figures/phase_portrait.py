@@ -128,6 +128,7 @@ class Top:
         """Return pairs (energy h, cosine of the equilibrium that its curve goes round, 0 if it is all of them).
 
         Below the highest equilibrium there are ``levels`` curves about each stable one, above it as many about all.
+        Energies are in 1/time^2.
         """
         values = [(self.V(nu), nu) for nu, _ in self.equilibria]
         (low, _), (top, _) = min(values), max(values)

@@ -187,8 +187,8 @@ def band(interval: Ends, limits: Ends) -> FloatArray:
 
 
 def graph(function: Function, view: Ends, limits: Ends) -> FloatArray:
-    """Return the graph of a function over the interval `view`, points (N, 2), sampled for the panel's size.
+    """Return the graph of a function, which maps u (N,) to (N,), over the interval `view`: points (N, 2).
 
-    Outside the `limits` of the ordinate the graph is coarse.
+    It is sampled for the panel's size; outside the `limits` (low, high) of the ordinate the graph is coarse.
     """
     return flat(lambda u: np.stack([u, function(u)], axis=1), *view, (view, limits), SIZE, pieces=32)

@@ -121,7 +121,7 @@ class Leaving:
             )
 
     def departure(self, t: FloatArray) -> FloatArray:
-        """Return points (t, Omega3 - omega3), shape (N, 2), at times (N,)."""
+        """Return points (t, Omega3 - omega3), shape (N, 2), at times (N,); the departure is in rad/time."""
         return np.stack([t, self.field[1] - self.b * self.top.field_in_body(t)[:, 2]], axis=1)
 
 

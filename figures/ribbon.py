@@ -76,13 +76,16 @@ def scene(
 
 
 def radius_squared(quadric: Quadric, height: FloatArray) -> FloatArray:
-    """Return the squared semi-axes along omega_1 of the cross sections at heights (N,) from the centre, (N,)."""
+    """Return the squared semi-axes (N,) along omega_1 of the cross sections at heights (N,) from the centre."""
     D = 1.0 / (quadric.a2 if quadrics.sheet_axis(quadric) == 1 else -quadric.a3)
     return np.asarray(height * height * D - quadric_rest(quadric))
 
 
 def quadric_rest(quadric: Quadric) -> float:
-    """Return the constant -(1 - I) B2^2 = sign(I - 1) C1^2 of the canonical form (54), moved to its left-hand side."""
+    """Return the constant -(1 - I) B2^2 = sign(I - 1) C1^2 of the canonical form (54), on its left-hand side.
+
+    C1 is the quadric's first semi-axis, I = I3/I2.
+    """
     return float(quadric.semi_axes[0]) ** 2 * (1.0 if quadric.kind == "two-sheet hyperboloid" else -1.0)
 
 
@@ -137,7 +140,10 @@ def bands(
 
 
 def line(points: FloatArray, stable: FloatArray) -> list[Layer]:
-    """Return a line (N, 3) as curves, cut where ``stable`` (N,) changes, each in the role of its kind of motion."""
+    """Return a line (N, 3) as `Curve` layers, cut where ``stable`` (N,), a mask, changes.
+
+    Stable parts have the role "hyperbola", others "unstable".
+    """
     cuts = [0, *(np.flatnonzero(np.diff(stable)) + 1).tolist(), len(points) - 1]
     roles = {True: "hyperbola", False: "unstable"}
     return [Curve(points[i : j + 1], roles[bool(stable[i])]) for i, j in pairwise(cuts) if j > i]

@@ -71,7 +71,8 @@ def scene() -> Scene:
 def errors() -> Iterator[tuple[str, FloatArray]]:
     """Yield (name, table) for each simulator; columns of the table (N, 3) are time in s and two errors.
 
-    These are the error of Omega in deg/s and the angle of the error of R in deg.
+    These are the error of Omega in deg/s and the angle of the error of R in deg, against the closed form of the
+    free body.
     """
     lines = [
         line for line in (folder("reports") / "data" / RECORDS[0]).read_text("utf-8").splitlines() if line[0] != "#"

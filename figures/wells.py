@@ -61,8 +61,9 @@ def scene(
 def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[float, ...], reach: float) -> Plane:
     """Return the `Plane` of (a, A) in units of p^2 at one momentum M3: region, border and lines of equal cosine.
 
-    M3 is in units of p, ``letter`` stands in the title. The first panel has the label of the vertical axis and
-    names one well, the last one names the kinds of tops. Raises DomainError if nothing lies within ``reach`` of 0.
+    M3 is in units of p, ``cosines`` are those of the lines, ``letter`` stands in the title. The first panel has the
+    label of the vertical axis and names one well, the last one names the kinds of tops. Raises DomainError if
+    nothing lies within ``reach`` of 0.
     """
     edge = envelope(M3, reach)
     visible = edge[np.abs(edge).max(axis=1) <= reach]

@@ -80,7 +80,7 @@ def case_title(case: str) -> str:
 
 
 class Item(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Base class of the records below: immutable, and decoding refuses a key that is no attribute."""
+    """Base class of the records of a benchmark: immutable, and decoding refuses a key that is no attribute."""
 
 
 class Machine(Item, frozen=True):
@@ -112,11 +112,12 @@ class Run(Item, frozen=True):
 
 
 class Cost(Item, frozen=True):
-    """Time for ``count`` rotation matrices, in ``nanoseconds`` each.
+    """Time for ``count`` rotation matrices by a ``method``, in ``nanoseconds`` each, on ``threads`` threads.
 
-    ``to_fill`` is the ratio to the time of filling the same memory, ``to_plain`` the ratio to the plain formula's time,
-    ``to_times`` that of a grid to the time of `rotation` at the same times; all three are with one thread. ``error`` is
-    the largest error in an entry, among a few of the matrices.
+    ``to_fill`` is the ratio to the time of filling the same memory, ``to_plain`` the ratio to the plain formula's
+    time, ``to_times`` that of a grid to the time of `rotation` at the same times; all three are with one thread.
+    ``error`` is the largest error in an entry, among a few of the matrices. Values are None where not measured;
+    ``note`` says why.
     """
 
     method: str
@@ -132,7 +133,10 @@ class Cost(Item, frozen=True):
 
 
 class Limit(Item, frozen=True):
-    """A limit of speed: its meaning and the limit as texts, the measured value or None, the verdict and its reason."""
+    """A limit of speed: its meaning `says`, the limit `wanted`, the value `found`, the verdict and the reason `why`.
+
+    Meaning, limit and reason are texts; the value is None where it was not measured.
+    """
 
     says: str
     wanted: str
@@ -208,12 +212,15 @@ def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]
 
 
 def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
-    """Return the pair (`Curve` of a method with its role and title, `Points` at the measured points (N, 2))."""
+    """Return (`Curve`, `Points`) of a method at its measured points (N, 2); the curve has its role and title."""
     return Curve(points, role(method), title(method)), Points(points, "sample")
 
 
 def decades(values: Iterable[float], start: float = 1.0, end: float = 1.0) -> tuple[float, float]:
-    """Return the limits (low, high) of a logarithmic axis: `start` decades below the values, `end` decades above."""
+    """Return the limits (low, high) of a logarithmic axis: `start` decades below the values, `end` decades above.
+
+    The values, one or more, are positive.
+    """
     logs = np.log10(np.fromiter(values, dtype=float))
     return float(10.0 ** (logs.min() - start)), float(10.0 ** (logs.max() + end))
 

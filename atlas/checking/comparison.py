@@ -32,7 +32,7 @@ class Comparison:
     def scene(self) -> Scene:
         """Return a `Scene` of the errors of all trajectories against time, a panel each for R, Omega and quaternions.
 
-        Raises AtlasError for more trajectories than there are roles, and where none has a column that is graded.
+        Raises AtlasError for more than eight trajectories, and where none has a column that is graded.
         """
         groups = [group for group in LINES if any(group in check.errors for check in self.checks)]
         if not groups:

@@ -64,11 +64,11 @@ class Drifts:
 
 
 def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield (name, meaning, equation, deviations (m,)) of a motion of a symmetric body, as a block's columns determine.
+    """Yield (name, meaning, equation, deviations (m,)) for a motion of a symmetric body and a block of columns (m,).
 
     Deviations from the motion's exact values are relative to the sum of the magnitudes of the terms. First come the
-    norm of the quaternion and the orthogonality of R, then the integrals of motion; those with the field need R, those
-    with Omega its three components.
+    norm of the quaternion and the orthogonality of R, then the integrals of motion; those with the field need R,
+    those with Omega its three components. Quantities that the columns do not determine are left out.
     """
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
@@ -182,7 +182,10 @@ def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
 
 
 def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
-    """Yield (name, meaning, equation, (value - start)/size) for each pair of quantities; size 0 counts as 1."""
+    """Yield (name, meaning, equation, (value - start)/size) for each pair of quantities in `values` and `start`.
+
+    The size is that of the start; size 0 counts as 1.
+    """
     for (name, says, label, value, _), (_, _, _, true, size) in zip(values, start, strict=True):
         yield name, says, label, (value - true) / (size or 1)
 

@@ -107,10 +107,10 @@ class Errors:
         return np.asarray(np.minimum(np.abs(values - true) / unit, LARGEST), dtype=np.float64)
 
     def certified(self, block: Block, i: int) -> dict[str, float]:
-        """Return proven upper bounds on the errors of row i of a block, by name of the column.
+        """Return proven upper bounds on the errors of row i of a block of columns (m,), by name of the column.
 
-        They exceed the errors by 2^-80 at most. For a motion in given axes, which has no balls, they are errors in
-        doubles.
+        They exceed the errors by 2^-80 at most; those of Omega are over the unit. For a motion in given axes, which
+        has no balls, they are errors in doubles.
         """
         if not self._truth.in_balls:
             return {
@@ -230,7 +230,10 @@ def _quaternion(motion: Any, t: float) -> list[Real]:
 
 
 def _precise(function: Callable[[], Any]) -> Any:
-    """Return the result of `function`, nested lists of balls, with radii below 2^-BITS of the largest ball."""
+    """Return the result of `function`, nested lists of balls, with radii below 2^-BITS of the largest ball.
+
+    The function is called at growing precision until then.
+    """
     precision = 2 * BITS
     while True:
         with workprec(precision):

@@ -112,7 +112,7 @@ def _canonical(names: Sequence[str], extra_names: Sequence[str]) -> dict[int, st
 
 
 def _hint(name: str) -> str:
-    """Return the sentence on a misspelt name of a column, an empty string for other names."""
+    """Return the sentence on a misspelt name of a column, such as "omegax"; "" for other names."""
     bare = re.sub(r"[\s_.]+", "", name).lower()
     if re.fullmatch(r"[wmbk][123]|omega[123]|theta|phi|psi", name, re.IGNORECASE):
         return ""  # of the atlas's own tables: rates and momenta in the laboratory, the field in the body, angles

@@ -89,9 +89,9 @@ def reference(of_file: Mapping[str, tuple[float, ...]], overrides: Given, file: 
 
 
 def _in_given_axes(motion: Any) -> Reference:
-    """Return the `Reference` of a motion of `atlas.motion`, with its integrals in the axes in which it was given.
+    """Return the `Reference` of a motion made by `atlas.motion`, with its integrals in the axes in which it was given.
 
-    Errors of Omega are in units of the largest component of the field in the body and Omega at t = 0.
+    Errors of Omega are in units of the largest component of the field in the body and Omega at t = 0, in rad/time.
     """
     tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)
@@ -129,7 +129,10 @@ def _any_body(values: Given, start: Given, file: str) -> Reference:
 
 
 def _moments(values: Given, file: str) -> tuple[float, ...]:
-    """Return the moments (I2, I2, I3) of a symmetric body; () for a body with three moments or a tensor."""
+    """Return the moments (I2, I2, I3) of the symmetric body in the parameters `values`.
+
+    () for a body with three moments or a tensor. Raises AtlasError, which names `file`, for no body or two.
+    """
     if len(values.get("inertia", ())) > 2:
         return ()
     I2, I3 = moments(_body(values, file))
@@ -183,7 +186,10 @@ def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given
 
 
 def _plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a symmetric body's motion as floats and lists; a body as its moments [I2, I3]."""
+    """Return the parameters of a symmetric body's motion by name as floats and lists.
+
+    A body is {"inertia": [I2, I3]}, a number {"ratio": I3/I2}; beside it are "field" and omega, or omega2 and omega3.
+    """
     body = parameters["ratio"]
     plain: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
     plain["field"] = [float(component) for component in parameters["field"]]

@@ -264,9 +264,10 @@ _DECODER = msgspec.json.Decoder(list[float])
 
 
 def _parameters(line: str, place: str) -> dict[str, tuple[float, ...]]:
-    """Return the parameters in a # line, tuples of floats by name; {} for a comment.
+    """Return the parameters in the text of a # line, tuples of floats by name; {} for a comment.
 
-    Raises AtlasError, which begins with `place`, for a wrong count of numbers and for a text in their place.
+    Items such as "ratio = 1.5" or "field: 1 2" are separated by semicolons; other items are left out. Raises
+    AtlasError, which begins with `place`, for a wrong count of numbers and for a text in their place.
     """
     parameters: dict[str, tuple[float, ...]] = {}
     for item in line.split(";"):

@@ -82,7 +82,7 @@ class Alternative(NamedTuple):
     family: str
 
     def sentence(self, family: str, parameters: Parameters) -> str:
-        """Return a sentence on how this alternative differs from a fit with `parameters`, of the family `family`."""
+        """Return a sentence on how this alternative differs from a fit with these `parameters`, of this `family`."""
         if self.equal:
             return f"Equal by symmetry: {', '.join(_differences(parameters, self.values))}."
         if self.family == family:

@@ -42,9 +42,9 @@ def other_conventions(
 
 
 def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatArray]]:
-    """Yield (words, rotations (N, 3, 3)) for each other reading of the rotations R (N, 3, 3), as given.
+    """Yield (words, rotations (N, 3, 3)) for each other reading of the rotations R (N, 3, 3), which were read as given.
 
-    Of matrices the only one is the transposed; of quaternions there are five, in other orders and conjugate.
+    Of matrices the only one is the transposed; of `quaternions` there are five, in other orders and conjugate.
     """
     if not quaternions:
         yield "as matrices that are transposed, for R takes the body to the laboratory", R.swapaxes(1, 2)

@@ -177,7 +177,7 @@ class Model:
 
     @property
     def has_direction(self) -> bool:
-        """Whether the parameters have a direction n, as of a top, instead of a field B."""
+        """Whether the parameters have a direction n1, n2, n3 of the field, as of a top, instead of a field B."""
         return set(DIRECTION) <= set(self.names)
 
     @property
@@ -216,10 +216,11 @@ class Model:
     def _inputs(self, p: Values, names: Sequence[str]) -> tuple[list[str], FloatArray]:
         """Return the names of inputs of `sensitivity` that the P parameters change, and the matrix d input/d parameter.
 
-        The matrix has the shape (P, count of inputs).
+        `p` are all parameters by name, `names` the P names. The matrix has the shape (P, count of inputs).
 
-        A change da of the rotation vector turns the start by J da. On the hyperbola (67) a parameter changes Omega as
-        `start` says. Of a direction n of any length the part of dn across n counts, as the field of `sensitivity`.
+        A change da of the rotation vector turns the start by J da. On the hyperbola (67) a parameter changes Omega
+        as `start` says. Of a direction n of any length the part of dn across n counts, as the field of
+        `sensitivity`.
         """
         blocks = [(ATTITUDE, dict(zip(ATTITUDE, left_jacobian(vector(p, ATTITUDE)).T, strict=True)))]
         if self.has_direction:

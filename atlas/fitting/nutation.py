@@ -214,8 +214,8 @@ def _nutation(problem: Problem, x: FloatArray) -> float:
 class _Modes(NamedTuple):
     """Small nutations about one elementary motion, of bodies of several ratios or spins omega3, each an array (M,).
 
-    `ratio` is I3/I2; `omega3`, the `frequency` of the nutation, and the derivatives `precession` and `spin` of both
-    rates in the angle theta are in rad/time, `field` in 1/time.
+    `ratio` is I3/I2; `omega3`, the `frequency` of the nutation, and the derivatives `precession` and `spin` of the
+    rates of precession and spin in the angle theta between axis and field are in rad/time, `field` in 1/time.
     """
 
     ratio: FloatArray

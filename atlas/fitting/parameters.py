@@ -20,10 +20,10 @@ KEYS = ("value", "vary", "min", "max", "expr")
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter with the attributes of lmfit's; `stderr` and `correl` are None if the data leave it undetermined.
+    """A parameter with the attributes of lmfit's: `value`, standard error `stderr`, correlations `correl` by name.
 
-    `vary` says whether the fit varies the parameter, between `min` and `max`; `expr` is an expression of others, or
-    None.
+    `stderr` and `correl` are None if the data leave the parameter undetermined. `vary` says whether the fit varies the
+    parameter, between `min` and `max`; `expr` is an expression of others, or None.
     """
 
     value: float
@@ -162,9 +162,10 @@ def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str
 
 
 def _attributes(name: str, p: Any) -> dict[str, Any]:
-    """Return the attributes (keys of `KEYS`) that parameter `p` has: a number, a mapping, or a parameter of lmfit.
+    """Return the attributes, by the names of `KEYS`, of the parameter `name` given as a number, a mapping or lmfit's.
 
-    Raises AtlasError for an unknown key of a mapping.
+    Attributes that are None, and an lmfit value that was not given, are left out. Raises AtlasError for an unknown
+    key of a mapping.
     """
     if isinstance(p, Mapping):
         if unknown := sorted({*p} - {*KEYS, "brute_step", "is_init_value"}):

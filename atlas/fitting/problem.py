@@ -32,7 +32,7 @@ class Rotations(NamedTuple):
     R: FloatArray
 
     def rotation(self, _: FloatArray) -> FloatArray:
-        """Return R (M, N, 3, 3), whatever the times."""
+        """Return R (M, N, 3, 3); the times are not used."""
         return self.R
 
 
@@ -249,7 +249,10 @@ class Problem:
         return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 
     def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
-        """Return the derivatives of the named parameters in the varied ones ``x`` (n,), shape (len(names), n)."""
+        """Return the derivatives of the parameters `names` in the varied ones ``x`` (n,), shape (len(names), n).
+
+        They are 0 and 1, or central differences of expressions.
+        """
         if not self.tied and all(name in self.model.names for name in names):
             return np.array([[float(name == free_name) for free_name in self.names] for name in names])
         out = np.empty((len(names), len(self.names)))
@@ -274,7 +277,11 @@ class Problem:
             return np.full(data.sigma.size * self.width, HUGE)
 
     def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
-        """Return residuals (N k,) and derivatives (n, N k) from one integration; the latest for a slice is cached."""
+        """Return residuals (N k,) and derivatives (n, N k) at x (n,) from one integration.
+
+        The latest for a slice is cached.
+        `places` are the indices or the slice of the N data.
+        """
         key = tuple(x) if isinstance(places, slice) else None
         if key is None or self._latest_slopes[0] != key:
             r, J = self.turned(np.array([x]), places)
@@ -365,7 +372,7 @@ class Problem:
     def noise(self, chi: float) -> float:
         """Return the unit in which differences of chi square are counted: 1 where sigma is given and the loss linear.
 
-        Else `chi`, the least chi square, over the degrees of freedom.
+        Else it is `chi`, the least chi square, over the degrees of freedom.
         """
         is_known = self.data.known and self.loss == "linear"
         return 1.0 if is_known else chi / (self.data.t.size * self.width - len(self.names))

@@ -168,7 +168,10 @@ class Fit:
     if not TYPE_CHECKING:  # else mypy would take any name for an attribute
 
         def __getattr__(self, name: str) -> Any:
-            """Raise AttributeError for a missing attribute; the message gives the new name of a renamed attribute."""
+            """Raise AttributeError for a missing attribute `name`.
+
+            The message gives the new name of a renamed attribute.
+            """
             new = RENAMED.get(name)
             raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 

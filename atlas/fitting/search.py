@@ -47,9 +47,10 @@ PARTS, BEST = (0.5, 0.25, 0.75), 3
 
 
 def turns(data: Data, i: Any, j: Any) -> FloatArray:
-    """Return how much the data with indices `j` (M,) differ from those with indices `i` (M,), shape (M,).
+    """Return how much the data with indices `j` differ from those with indices `i`, arrays (M,) or slices, shape (M,).
 
-    For rotations the angle in rad, for other kinds the length of the difference over the data's standard deviation.
+    For rotations it is the angle in rad, for other kinds the length of the difference over the data's standard
+    deviation.
     """
     x = data.values
     if data.kind == "rotation":
@@ -251,9 +252,10 @@ def motions_of_arc(
 
 
 def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
-    """Return the varied parameters (n,) of a motion x refined on an arc about t = 0 that grows from `count` data.
+    """Return the varied parameters (n,) of the motion x (n,) refined on an arc about t = 0 that grows.
 
-    If the phase is lost on the way, the motion of the last arc is returned.
+    The arc begins with the `count` data nearest to t = 0 and ends with all. If the phase is lost on the way, the
+    motion of the last arc is returned.
     """
     order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.alone(), x[None])
     misfit = 0.0

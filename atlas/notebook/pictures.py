@@ -91,7 +91,7 @@ def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
 
 
 def alone(scene: Scene, panel: int) -> Scene:
-    """Return a scene with only panel number `panel`, from 1, of a scene, at that panel's size."""
+    """Return a copy of a scene with only its panel number `panel`, from 1, at that panel's size."""
     rows = -(-len(scene.panels) // scene.columns)
     size = scene.size[0] / min(scene.columns, len(scene.panels)), scene.size[1] / rows
     return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())

@@ -80,7 +80,7 @@ def body(subject: SymmetricBody) -> str:
 
 
 def picture(subject: Shown) -> str:
-    """Return the first panel of an object's figure as a small HTML image; "" where there is none."""
+    """Return the first panel of an object's figure as an HTML img element; "" where there is no figure."""
     return _image(lambda: plot(subject, None, 1, None, None, None, {}))
 
 

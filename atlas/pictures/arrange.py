@@ -77,7 +77,7 @@ def _reduced(scene: Scene) -> Scene:
 
 
 def _arranged(scene: Scene, target: Target) -> Scene:
-    """Return a scene with all its panels, in the arrangement that makes them largest on the least paper.
+    """Return a scene as wide as the target, all its panels in the arrangement that makes them largest on least paper.
 
     Raises AtlasError for a scene that cannot be read at the target's width and height.
     """
@@ -116,10 +116,10 @@ def suited(scene: Scene, targets: Sequence[Target]) -> Target:
 
 
 def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrangement]:
-    """Yield the `Arrangement`s of a scene in a width and height in millimetres.
+    """Yield possible `Arrangement`s of a scene's panels in a width and height in millimetres.
 
-    One for each number of columns that fills its rows, or is the scene's own; then its `narrow` panels in one column,
-    if it has any.
+    There is one for each number of columns that fills its rows, or is the scene's own; then one of its `narrow`
+    panels in one column, if it has any.
     """
     count = len(scene.panels)
     before = scene.size[0] / scene.columns, scene.size[1] / -(-count // scene.columns)
@@ -204,7 +204,7 @@ def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float])
 
 
 def _words(panel: Panel) -> tuple[float, float]:
-    """Return the millimetres (beside, below) that a panel's labels take, whatever its size."""
+    """Return the millimetres (beside, below) that a panel's labels take, whatever the panel's size."""
     return _AXES if isinstance(panel, Plane) else _NAMES
 
 
@@ -213,7 +213,7 @@ WIDTH = 90.0
 
 
 def narrowed(scene: Scene) -> Scene | None:
-    """Return a scene laid out for a phone, 90 mm wide; None if its own arrangement serves.
+    """Return a copy of a scene laid out for a phone, 90 mm wide; None if the scene's own arrangement serves.
 
     A scene with `narrow` panels gets these, in one column. A single column of panels with two axes is only made
     narrower. Otherwise the number of columns is the largest whose panels are no smaller than before.
@@ -238,9 +238,9 @@ def stacked(
 ) -> tuple[Space, ...]:
     """Return groups of layers, side by side in space, as panels `Space` at one scale in `rows` rows.
 
-    Each of `cells` is one group, already at its place; a panel has all groups of its row. `azimuth` and `elevation` are
-    those of the view in degrees, `title` stands over the first panel only. `room` is the least width of a group, in the
-    unit of the coordinates.
+    Each of `cells` is one group, already at its place; a panel has all groups of its row, and the tuple holds the
+    panels from top to bottom. `azimuth` and `elevation` are those of the view in degrees, `title` stands over the
+    first panel only. `room` is the least width of a group, in the unit of the coordinates.
     """
     row_count = -(-len(cells) // rows)
     panels = [

@@ -90,9 +90,10 @@ def body_of(motion: Any, R: FloatArray, tolerance: float) -> list[Layer]:
 
 
 def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:
-    """Return the layers of an open cylindrical shell with I3/I2 = I < 2, with windings and a seam.
+    """Return the layers of an open cylindrical shell with I3/I2 = I < 2, with windings and a seam, the last layer.
 
-    Arguments are those of `drawn_body`.
+    ``attitude`` (3, 3) has the body's axes as columns, ``centre`` is (3,), ``size`` the distance of the farthest
+    point from there; ``tolerance`` is as for `atlas.pictures.sample.curve`.
     """
     *shell, seam = drawn_body(I, attitude, centre, size, tolerance, lids="opening")
     axis = np.asarray(attitude)[:, 2]

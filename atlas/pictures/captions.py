@@ -97,6 +97,9 @@ def plain_setting(ratio: Any, field: Sequence[float]) -> str:
 
 
 def lasting(time: float, unit: str) -> str:
-    """Return a time with its unit for a caption: '2.21 s', or '2.21 units of time' for an unnamed unit."""
+    """Return a time with its unit for a caption: '2.21 s', or '2.21 units of time' for the unit "time".
+
+    It has three digits; an exponent is written in TeX.
+    """
     number = f"{time:.3g}"
     return f"{f'${tex(float(number))}$' if 'e' in number else number} {'units of time' if unit == 'time' else unit}"

@@ -27,7 +27,7 @@ class Window:
 
     @property
     def half(self) -> tuple[float, float]:
-        """Half the width and half the height of the window."""
+        """Half the width and half the height of the window, in the unit of its limits."""
         return (self.x[1] - self.x[0]) / 2, (self.y[1] - self.y[0]) / 2
 
     @property

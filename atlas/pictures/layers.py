@@ -65,8 +65,9 @@ class Arrow:
 class Label:
     """Text at a position, ``offset`` printer's points away; with offset (0, 0) the text is centred there and fixed.
 
-    ``at`` may hold several positions (N, 2) or (N, 3), the best first. In a panel with two axes the text is also the
-    legend's label of the last preceding unlabelled curve or points of the same role.
+    ``at`` is a position (2,) or (3,), or several (N, 2) or (N, 3), the best first. In a panel with two axes the
+    text is also the legend's label of the last preceding unlabelled curve or points of the same role. ``role``
+    gives the colour, ``rides`` names the path of the scene that moves the text, "" for none.
     """
 
     at: FloatArray
@@ -80,10 +81,11 @@ class Label:
 class Surface:
     """A piece of a quadric: the points x with (x, 1) Q (x, 1) = 0 that lie in every half space ``n . x <= d``.
 
-    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly which points
-    the surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``,
-    (x, 1) W (x, 1) <= 0: a disk, for one. ``grids`` are (M, N, 3) meshes for shading, ``wires`` curves (N, 3) on the
-    surface, ``rims`` its edges.
+    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly which
+    points the surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``, (x, 1)
+    W (x, 1) <= 0: a disk, for one. ``grids`` are (M, N, 3) meshes for shading, ``wires`` curves (N, 3) on the
+    surface, ``rims`` its edges. ``role`` gives the look, ``label`` the name, ``rides`` the path of the scene that
+    moves the surface, "" for none.
     """
 
     quadric: FloatArray
@@ -197,7 +199,7 @@ class Scene:
 
 
 def frame(space: Space) -> FloatArray:
-    """Return the unit vectors to the right, upwards and towards the eye, as the rows of a matrix (3, 3)."""
+    """Return the unit vectors to the right, upwards and towards the eye of a panel, as the rows of a matrix (3, 3)."""
     a, e = np.radians(space.azimuth), np.radians(space.elevation)
     towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
     rightward = (-np.sin(a), np.cos(a), 0.0)

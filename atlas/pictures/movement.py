@@ -52,7 +52,10 @@ def riding(layers: list[Layer], path: str) -> list[Layer]:
 
 
 def closes(scene: Scene) -> bool:
-    """Return whether all moving layers return to their start at the end, within `SEAM` of their extent."""
+    """Return whether all moving layers are at the end where they started, within `SEAM` of their extent.
+
+    The end is t = `lasts` of the scene.
+    """
     end = scene_at(scene, scene.lasts)
     for before, after in zip(map(_riders, scene.panels), map(_riders, end.panels), strict=True):
         if np.abs(after - before).max(initial=0.0) > SEAM * np.ptp(before, axis=0).max(initial=0.0):

@@ -139,7 +139,10 @@ def _fit(value: Any, kind: Any) -> Any:
 
 
 def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return a list as a tuple with items of the annotated types `inner`. Raises _Unfit for another length or type."""
+    """Return a list as a tuple with items of the annotated types `inner`, whose last is Ellipsis for any length.
+
+    A single value counts as a list of one if any length is allowed. Raises _Unfit for another length or type.
+    """
     is_open = inner[-1] is Ellipsis
     kinds = set(inner) - {Ellipsis}
     plural = _PLURAL.get(inner[0], "values") if len(kinds) == 1 else "values"

@@ -44,10 +44,10 @@ def in_plane(second: float, third: float) -> FloatArray:
 
 
 def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) -> Scene:
-    """Return a scene with one panel, seen from `view` = (azimuth, elevation) in degrees, with room for names.
+    """Return a scene of `layers` in one panel, seen from `view` = (azimuth, elevation) in degrees, with room for names.
 
     The figure is at most 120 x 98 mm, and no side is below 50 mm; the projection decides the ratio of the sides.
-    `words` are further arguments of `Scene`.
+    `words` are further arguments of `Scene`, such as the caption.
     """
     panel = Space(tuple(layers), *view)
     points = cloud(panel)

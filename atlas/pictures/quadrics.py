@@ -86,7 +86,8 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
 def profile(constant: float, slope: float, sign: float) -> tuple[_Line, _Line, Callable[[float], float]]:
     """Return functions (radius of s, height of s, s of height) along a sheet with radius^2 = constant - slope height^2.
 
-    Of two sheets the functions are those of the sheet on the side of ``sign``; s is 0 within rounding of its vertex.
+    The first two map s (N,) to (N,), the third a number to a number; `slope` is negative. Of two sheets the
+    functions are those of the sheet on the side of ``sign``; s is 0 within rounding of its vertex.
     """
     r, h = float(np.sqrt(abs(constant))), float(np.sqrt(abs(constant / slope)))
     if constant < 0.0:

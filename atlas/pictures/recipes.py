@@ -217,7 +217,10 @@ def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
 
 
 def _function(source: Path) -> tuple[Callable[..., "Scene"], dict[str, Any]]:
-    """Return (function `scene` of a recipe, annotations of its parameters by name); the file is executed."""
+    """Return (function `scene` of a recipe's file, annotations of its parameters by name).
+
+    The file is executed, once.
+    """
     return _run(source, _stamp(source))
 
 

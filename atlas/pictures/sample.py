@@ -86,7 +86,7 @@ def _cut(
     box: tuple[FloatArray, FloatArray] | None,
     scale: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return parameters (N,) and points (N, D) of a curve divided adaptively, see `curve`."""
+    """Return parameters (N,) and points (N, D) of a curve divided adaptively; the arguments are those of `curve`."""
     if pieces > MAX_POINTS:
         raise DomainError(
             f"A curve over that many turns needs more than {MAX_POINTS} points: ask for a shorter part of it."
@@ -133,7 +133,7 @@ def _cut(
 
 
 def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Distances (N,) of the points ``y`` (N, D) from the segments from ``a`` to ``b``, row by row."""
+    """Distances (N,) of the points ``y`` (N, D) from the segments from ``a`` to ``b`` (N, D), row by row."""
     chord = b - a
     length = np.einsum("ij,ij->i", chord, chord)
     shares = np.einsum("ij,ij->i", y - a, chord) / np.where(length > 0.0, length, 1.0)

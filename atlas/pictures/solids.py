@@ -12,7 +12,7 @@ _FLAT = 1e-6
 
 
 def transverse_axes(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return two unit vectors (3,) that make a right-handed frame with the unit vector ``axis``."""
+    """Return two unit vectors (3,) that make a right-handed frame with the unit vector ``axis``, the third."""
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
     east = np.cross(axis, helper)
     east /= np.linalg.norm(east)

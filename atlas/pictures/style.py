@@ -184,9 +184,9 @@ def is_dark(ground: str) -> bool:
 
 @cache
 def readable(colour: str, ground: str = WHITE) -> str:
-    """Return a colour "#rrggbb" for text on a ground: the given one, darkened or lightened until its contrast suffices.
+    """Return a colour "#rrggbb" for text on the colour `ground`, darkened or lightened until its contrast suffices.
 
-    White is replaced by the ink first.
+    The contrast wanted is TEXT_CONTRAST. White is replaced by the ink first.
     """
     if colour == WHITE:
         colour = INK

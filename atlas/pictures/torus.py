@@ -55,7 +55,10 @@ def net() -> list[Layer]:
 
 
 def _outline(round_: FloatArray) -> list[Layer]:
-    """Return the visible parts of the two lines along which rays to the eye graze the torus."""
+    """Return the visible parts, as layers, of the two lines along which rays to the eye graze the torus.
+
+    `round_` (N,) are the angles around the axis, in rad, at which the lines are computed.
+    """
     towards = frame(Space((), *VIEW))[2]
     slope = -np.arctan2(towards[0] * np.cos(round_) + towards[1] * np.sin(round_), towards[2])
     return [layer for v in (slope, slope + np.pi) for layer in visible(on_torus(round_, v), "silhouette")]

@@ -162,9 +162,9 @@ class Swept:
         return columns
 
     def check(self, parameters: Sequence[str], names: Sequence[str], digits: int | None) -> None:
-        """Raise AtlasError for an unknown parameter or quantity, a missing parameter, or no quantity.
+        """Raise AtlasError for an unknown name in `parameters` or quantities `names`, a missing parameter, no quantity.
 
-        With `digits` the quantities must have certified digits.
+        With `digits` the quantities must have certified digits; None asks for none.
         """
         names_known = (*self.needed, *self.optional)
         certified = [name for name, column in self.quantities.items() if column.certified]

@@ -144,7 +144,7 @@ class Plan:
 
     @property
     def _sampled(self) -> set[str]:
-        """Names of the columns of functions of time."""
+        """Names of the columns of functions of time that the family has, such as "R11", without suffixes."""
         return {name for sampled in FAMILIES[self.family].family.sampled for name in sampled.columns}
 
     @property
@@ -278,7 +278,7 @@ def _nominal(parameters: Mapping[str, Any], digits: int | None) -> tuple[dict[st
 class Range:
     """`count` numbers from `start` to `stop`, both included, in even steps; with `log` in even steps of the logarithm.
 
-    `str` writes START:STOP:COUNT or START:STOP:COUNT:log, as `atlas sweep` takes it.
+    ``str(range)`` is "START:STOP:COUNT" or "START:STOP:COUNT:log", as `atlas sweep` takes it.
     """
 
     start: float

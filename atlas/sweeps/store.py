@@ -70,10 +70,10 @@ class Folder:
         return system, str(path).rstrip("/")
 
     def names(self) -> set[str]:
-        """Return the names of the parts in the folder; the empty set if there is no folder.
+        """Return the file names of the parts in the folder; the empty set if there is no folder.
 
-        Raises AtlasError for a file that is no part, a symbolic link, a file in the folder's place, and an address
-        out of reach.
+        Hidden files are not counted. Raises AtlasError for a file that is no part, a symbolic link, a file in the
+        folder's place, and an address out of reach.
         """
         path = Path(self.address)
         if self.is_local and (path.is_symlink() or (path.exists() and not path.is_dir())):
@@ -99,7 +99,7 @@ class Folder:
         return part_names
 
     def holds(self, name: str) -> bool:
-        """Return whether a part exists and its content has the digest in its name."""
+        """Return whether a part with this file name exists and its content has the digest in the name."""
         rows, _, digest = name.rpartition(".")[0].rpartition("-")
         with suppress(OSError), self.open(name) as file:
             return hashlib.file_digest(file, partial(hashlib.sha256, rows.encode())).hexdigest()[:32] == digest  # type: ignore[arg-type]  # a file
@@ -119,7 +119,7 @@ class Folder:
             system.pipe_file(f"{path}/{name}", data)
 
     def delete(self, name: str) -> None:
-        """Delete a file, if it exists."""
+        """Delete the file `name` of the folder; nothing happens if it does not exist."""
         system, path = self._place
         with suppress(FileNotFoundError):
             system.rm_file(f"{path}/{name}")

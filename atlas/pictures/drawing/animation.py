@@ -56,14 +56,14 @@ class Frames:
         self._placements: dict[tuple[int, tuple[float, float]], Placement] = {}
 
     def draw(self, k: int) -> None:
-        """Clear the figure and draw frame k into it; report progress."""
+        """Clear the figure and draw frame k, 0 <= k < `count`, into it; report progress."""
         boxes = [axes.get_position(original=True) for axes in self.figure.axes]
         self.figure.clear()
         to_figure(self._scene(k), self.style, figure=self.figure, boxes=boxes, hold=self._hold)
         self.progress(self.count + k + 1, 2 * self.count, "frames")
 
     def _scene(self, k: int) -> Scene:
-        """Return the scene of frame k, with the limits of axes that hold all frames."""
+        """Return the scene of frame k; its panels with two axes have the limits that hold all frames."""
         scene = self.make(k)
         return replace(scene, panels=tuple(self._limited(i, panel) for i, panel in enumerate(scene.panels)))
 
@@ -100,9 +100,9 @@ class Moving(FuncAnimation):
 
 
 def _extents(scene: Scene) -> Iterator[Extent]:
-    """Yield for each panel the extent that fixes its view: a `Space` of few points, or the limits (x, y) of a `Plane`.
+    """Yield for each panel the extent that fixes its view: a `Space` of few points, or the limits of a `Plane`.
 
-    Limits that the panel leaves open are those that Matplotlib chooses.
+    Limits are ((low, high) in x, (low, high) in y); those that the panel leaves open are those that Matplotlib chooses.
     """
     is_open = any(isinstance(plane, Plane) and not (plane.x_limits and plane.y_limits) for plane in scene.panels)
     all_axes = [axes for axes, _ in laid_out(scene)[1]] if is_open else [None] * len(scene.panels)

@@ -82,7 +82,10 @@ def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
 
 
 def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
-    """Write a figure to a file without a date; title and description of the scene are metadata of svg, pdf and png."""
+    """Write a figure to `path` in the format `kind`, svg, pdf, png or pgf, without a date.
+
+    Title and description of the scene are metadata of svg, pdf and png.
+    """
     metadata = {
         "svg": {"Date": None, "Title": scene.title, "Description": scene.alt},
         "pdf": {"CreationDate": None, "Title": scene.title, "Subject": scene.alt},
@@ -169,7 +172,7 @@ def _write_pgf(figure: "Figure", path: Path) -> None:
 
 @contextmanager
 def _formulas_parsed_once() -> Iterator[None]:
-    """Context in which Matplotlib's parser keeps each formula that it has parsed, so that it serves for all files."""
+    """Context in which Matplotlib's parser keeps each formula that it has parsed, for use in all files."""
     import matplotlib as mpl
     from matplotlib.mathtext import MathTextParser
 

@@ -34,7 +34,7 @@ _ALL = np.ones(3)
 
 
 def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
-    """Return the distinct quadrics (4, 4), and for each surface the index of its quadric, two lists."""
+    """Return the distinct quadrics (4, 4) of surfaces, and for each surface the index of its quadric, two lists."""
     forms: list[FloatArray] = []
     numbers = []
     for surface in surfaces:
@@ -75,7 +75,7 @@ def places(corners: FloatArray, forms: Sequence[FloatArray], owner: int, towards
 
 
 def _snapped(heights: FloatArray) -> FloatArray:
-    """Return the heights, zero where their magnitude is at most `_ON`, as rounding errors of panels of size one."""
+    """Return the heights, an array of any shape, with 0 where the magnitude is at most `_ON`, a rounding error."""
     return np.where(np.abs(heights) <= _ON, 0.0, heights)
 
 
@@ -154,12 +154,12 @@ def lattice(rows: int, columns: int) -> NDArray[np.int64]:
 
 
 def distinct(points: FloatArray) -> FloatArray:
-    """Return a polyline (N, 3) without the points that repeat the one before."""
+    """Return the points of a polyline (N, 3) that differ from the point before, (M, 3)."""
     return points[np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])]
 
 
 def thinned(curve: FloatArray, tolerance: float) -> FloatArray:
-    """Return a polyline (N, D) with fewer points: in each of three passes every second one may be dropped.
+    """Return a polyline (N, D) with fewer points: in each of three passes every second point may be dropped.
 
     A point is dropped if it is within `tolerance` of the chord of its neighbours, in the unit of the points.
     """
@@ -255,7 +255,7 @@ def _painted(
 
 
 def _rgb(colour: str) -> FloatArray:
-    """Return red, green and blue of a colour's name as an array (3,), from 0 to 255."""
+    """Return red, green and blue of a colour, a name or "#rrggbb", as an array (3,), from 0 to 255."""
     return 255.0 * np.array(to_rgb(colour))
 
 

@@ -110,7 +110,10 @@ def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
 
 
 def _lift(x: FloatArray, weight: float = 1.0) -> FloatArray:
-    """Return homogeneous coordinates (..., 4): (x, 1) of points, or (x, 0) of directions with `weight` 0."""
+    """Return homogeneous coordinates (..., 4) of x (..., 3): (x, 1) of points, or (x, 0) of directions.
+
+    `weight` is the fourth component.
+    """
     return np.concatenate([x, np.full((*x.shape[:-1], 1), weight)], axis=-1)
 
 
@@ -165,7 +168,7 @@ def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) 
 
 
 def _within(surface: Surface, x: FloatArray) -> BoolArray:
-    """Return a mask (...) of the points x (..., 3) inside all half spaces and quadrics that cut the surface out."""
+    """Return a mask (...) of the points x (..., 3) in all half spaces `clip` and quadrics `within` of the surface."""
     inside = np.ones(x.shape[:-1], dtype=bool)
     for *n, d in surface.clip:
         inside &= x @ np.array(n) <= d + _ON * np.linalg.norm(n)
@@ -177,8 +180,8 @@ def _within(surface: Surface, x: FloatArray) -> BoolArray:
 def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: FloatArray) -> FloatArray:
     """Return the parameters s (N, K) on chords start + s step at which visibility may change; NaN for none.
 
-    ``start`` and ``step`` are (N, 3), ``towards`` (3,) is the direction to the eye, ``surface`` the one that may
-    hide them.
+    ``start`` and ``step`` are (N, 3), ``towards`` (3,) is the unit vector to the eye, ``surface`` may hide the
+    chords. K depends on the surface.
     """
     quadric, d = surface.quadric, _lift(towards, 0.0)
     a, b = _lift(start), _lift(step, 0.0)

@@ -118,10 +118,10 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
 def _doubt(
     centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_], far: float
 ) -> FloatArray:
-    """Return the cost (N,) of centres (N, 2) of a text whose own ink is not clearly the nearest, or further than `far`.
+    """Return the cost (N,) of centres (N, 2) of a text whose own ink is not clearly the nearest, or farther than `far`.
 
-    `extent` is the text's (width, height); `owned` is the mask of the points `ink` (M, 2) that are its own; all are in
-    points of paper. 0 if all or none of them are.
+    `extent` is the text's (width, height); `owned` (M,) is the mask of the points `ink` (M, 2) that are its own;
+    lengths are in printer's points. The cost is 0 if all or none of the points are its own.
     """
     if not owned.any() or owned.all():
         return np.zeros(len(centres))

@@ -38,7 +38,7 @@ class Texts(RendererBase):
         """Draw no image: Matplotlib calls this for each."""
 
     def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
-        """Append (text, box in pixels) to `texts`, unless the text is blank."""
+        """Append (text `mtext`, its box in pixels) to `texts`, unless the string `s` is blank; nothing is drawn."""
         if mtext is not None and s.strip():
             self.texts.append((mtext, mtext.get_window_extent(self)))
 

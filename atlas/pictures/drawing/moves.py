@@ -40,8 +40,10 @@ def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> s
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
     """Return a dict of a scene's motions for JSON: "lasts", "paths" (tables by name), "wide" and "narrow".
 
-    "wide" and "narrow" have the layers that ride on paths in the figure and on a narrow screen; "narrow" is None where
-    the figure serves. `figures` are as for `atlas.pictures.drawing.viewer.data`.
+    "lasts" is the duration; a table is as `_table` gives it. "wide" and "narrow" are dicts as from `_laid_out`,
+    with the layers that ride on paths in the figure and on a narrow screen; "narrow" is None where the figure
+    serves. `style` is as for `atlas.figure`, `figures` are the wide and the narrow figure if they are already
+    drawn.
     """
     small = narrowed(scene)
     deep = {layer.rides for panel in scene.panels if isinstance(panel, Space) for layer in _riders(panel)}
@@ -56,7 +58,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
 
 
 def _riders(panel: Any) -> Iterator[Any]:
-    """Yield the layers of a panel whose attribute `rides` names a path."""
+    """Yield the layers of a panel that move: those whose attribute `rides` is not ""."""
     yield from (layer for layer in panel.layers if getattr(layer, "rides", ""))
 
 
@@ -71,8 +73,8 @@ def _steps(path: Path, lasts: float) -> int:
 def _table(path: Path, times: FloatArray) -> list[Any]:
     """Return [largest |shift|, text] of a path at times (N,).
 
-    The text has seven numbers for each time in base 64: the quaternion (w, x, y, z) of R, and the shift over the
-    largest.
+    The text has seven 16-bit numbers for each time, in base 64: the quaternion (w, x, y, z) of R, and the shift
+    over the largest one.
     """
     R, s = path(times)
     size = float(np.abs(s).max()) or 1.0
@@ -127,7 +129,7 @@ def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
 
 
 def _kinds(layer: Layer, view: View) -> Iterator[str]:
-    """Yield the kind, such as "surfaces" or "names", of each of the viewer's items for a layer."""
+    """Yield the kind, such as "surfaces" or "names", of each of the items that the viewer has for a layer."""
     yield from (kind for kind, _ in viewer.solids(layer, view))
     if isinstance(layer, Surface):
         yield "surfaces"
@@ -138,8 +140,8 @@ def _kinds(layer: Layer, view: View) -> Iterator[str]:
 def _marks(axes: Axes, panel: Plane, scene: Scene, times: FloatArray) -> Iterator[list[Any]]:
     """Yield [colour, diameter in points, positions] for each moving mark of a panel with two axes.
 
-    The positions at the `times` are packed as text in base 64: x from the left and y from the top, in fractions of the
-    figure.
+    The positions at the `times` (N,) are packed as text in base 64: x from the left and y from the top, in
+    fractions of the figure.
     """
     to_figure = axes.transData - axes.figure.transFigure
     for layer in (rider for rider in _riders(panel) if isinstance(rider, Points)):  # a label stays in its place

@@ -83,16 +83,16 @@ def to_figure(
     boxes: Sequence[Bbox] = (),
     hold: Hold | None = None,
 ) -> Figure:
-    """Return a scene as a figure of its size, or laid out anew for a target, with one ordinary axes for each panel.
+    """Return a scene as a Matplotlib figure of its size, or laid out anew for a target, an axes for each panel.
 
     A panel with two axes has lines, markers, patches, a colorbar and a legend as Matplotlib makes them; a panel in
-    space is drawn with exact hidden lines on axes whose unit is the printer's point, or, if ``shaded``, is a picture by
-    VTK with its names over it. Names are annotations. The group id of a layer's artist, ``artist.get_gid()``,
-    is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
-    picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for
-    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if given, ``boxes`` place its panels, in
-    fractions of the figure, and ``hold`` fixes the view of a panel in space in a window. Raises AtlasError where a
-    panel cannot hold one of its layers, and for a scene that can't be read at the target.
+    space is drawn with exact hidden lines on axes whose unit is the printer's point, or, if ``shaded``, is a
+    picture by VTK with its names over it. Names are annotations. The group id of a layer's artist,
+    ``artist.get_gid()``, is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``,
+    so that a curve can be picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as
+    for `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if given, ``boxes`` place its panels, in
+    fractions of the figure, and ``hold`` maps (panel's index, window size) to the `Placement` of a panel in space.
+    Raises AtlasError where a panel cannot hold one of its layers, and for a scene that can't be read at the target.
     """
     if target:
         return _readable(scene, style, target, shaded=shaded, figure=figure)
@@ -254,7 +254,7 @@ def write_names(axes: Axes, panel: Plane) -> None:
     size = (float(box.width * scale), float(box.height * scale))
 
     def places(points: FloatArray) -> FloatArray:
-        """Return the positions of points (N, 2) in the data's coordinates, (N, 2) in points from the lower left corner.
+        """Return positions (N, 2), in points from the lower left corner, of points (N, 2) in the data's coordinates.
 
         They are NaN where undefined, as a logarithm, and cut to within _FAR.
         """
@@ -310,7 +310,8 @@ def _requests(
 def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[Ink]:
     """Yield (points (N, 2), cost of covering one, index of the layer) of all lines and marks inside the panel.
 
-    Points of guides, which are pale lines without a name, belong to no layer.
+    `size` is the panel's (width, height) and `places` maps coordinates to positions, in printer's points. Points of
+    guides, which are pale lines without a name, belong to no layer.
     """
     for owner, layer in enumerate(panel.layers):
         if isinstance(layer, Curve):

@@ -64,7 +64,7 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
 
 
 def _unclip_marks(axes: Axes) -> None:
-    """Draw marks on the frame without clipping; lines of marks with a mark outside the frame stay clipped."""
+    """Draw marks on the frame of `axes` without clipping; a line of marks with one outside the frame stays clipped."""
     for line in axes.lines:
         away = np.abs((axes.transData - axes.transAxes).transform(line.get_xydata()) - 0.5)
         if line.get_marker() != "None" and _NEAR < np.max(away, initial=0.0) <= 0.5 + _TOUCH:
@@ -130,7 +130,7 @@ def gid(layer: Layer, panel: int, place: int, piece: int = 1) -> str:
 
 
 def marker(role: str, ring: str = "") -> dict[str, Any]:
-    """Return a role's marker as keywords of Matplotlib's `Axes.plot`.
+    """Return a role's marker as keywords of Matplotlib's `Axes.plot`: "marker", "ms", "mfc", "mec", "mew".
 
     `ring` is the colour of the marker's edge, by default that of the marker (the ink for a white one).
     """

@@ -155,7 +155,10 @@ def _ball(centre: FloatArray, look: Style, view: View, pixel: float) -> pv.PolyD
 
 
 def _set_up(plotter: pv.Plotter, view: View) -> None:
-    """Set lights, which do not turn with the camera, and the camera: parallel, with the scale and shift of the page."""
+    """Set the plotter's lights, which do not turn with the camera, and its camera, a parallel one.
+
+    The picture has the scale and the shift of the `view` on the page.
+    """
     plotter.set_background("white", all_renderers=False)
     for place, strength in _LIGHTS:
         position = tuple(np.array(place) @ view.frame)

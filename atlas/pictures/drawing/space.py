@@ -91,7 +91,7 @@ class _Drawing:
         self._names = (gid(layer, panel, place, piece) for piece in count(1))
 
     def finish(self) -> None:
-        """Add the lines to the axes, one collection for each layer and look."""
+        """Add the lines collected by `line` to the axes, one collection for each layer and look."""
         for (colour, width, dash, height), lines in self._lines.items():
             cap = "butt" if dash else "round"
             look = {"colors": colour, "linewidths": stroke(width), "linestyles": [dashes(dash)], "zorder": height}
@@ -183,7 +183,7 @@ class _Drawing:
 
 
 def silhouette(surface: Surface, view: View) -> list[FloatArray]:
-    """Return the curves (N, 3) where lines of sight graze the surface, plane sections of it; [] if none do."""
+    """Return the curves (N, 3) where lines of sight graze the surface, plane sections of the surface; [] if none do."""
     normal = surface.quadric[:3, :3] @ view.towards
     reach = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     centre = 0.5 * (reach.min(axis=0) + reach.max(axis=0))

@@ -122,7 +122,10 @@ def stroke(width: float) -> float:
 
 
 def dashes(pattern: Sequence[float]) -> Any:
-    """Return Matplotlib's line style for a pattern of lengths in points, enlarged for the target; "-" for none."""
+    """Return Matplotlib's line style for dashes of lengths on, off, ... in points, enlarged for the target.
+
+    "-" for ().
+    """
     return (0, [zoom() * length for length in pattern]) if pattern else "-"
 
 
@@ -149,9 +152,9 @@ def _sheet() -> Any:
 
 
 def _apply(style: Any) -> None:
-    """Apply one user's style, a name, file, dict or list, to Matplotlib's settings.
+    """Apply one user's style, a name, file, dict or list, to Matplotlib's current settings.
 
-    Raises AtlasError for an unknown name, an address, and settings that Matplotlib refuses.
+    Raises AtlasError for an unknown name, an address, and settings that Matplotlib refuses or skips.
     """
     from matplotlib import style as sheets  # it reads all of Matplotlib's
 

@@ -13,7 +13,10 @@ _SET = re.compile(r"\$[^$]*\$|'")
 
 
 def typeset(text: str) -> str:
-    """Return text with primes and apostrophes as Unicode characters; Matplotlib's own primes stand too far off."""
+    """Return a text with primes and apostrophes as Unicode characters; Matplotlib's own primes stand too far off.
+
+    Parts between dollar signs are formulas, in which ' is a prime.
+    """
 
     def character(matched: re.Match[str]) -> str:
         math = matched[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′")

@@ -70,7 +70,7 @@ class View(Placement):
         return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
 
     def on_paper(self, points: FloatArray) -> FloatArray:
-        """Return points (..., 3) of the scene as positions (..., 2) on paper, in points."""
+        """Return points (..., 3) in scaled coordinates as positions (..., 2) on paper, in printer's points."""
         return self.scale * (points @ self.frame[:2].T) + self.shift
 
 
@@ -167,15 +167,15 @@ def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
 
 
 def _boxes(tags: list[Tag]) -> FloatArray:
-    """Return an array (3, N, 2) for N names, in points: anchors at scale 1, middles from there, half extents."""
+    """Return an array (3, N, 2) for N names: anchors at scale 1, and, in points, middles from there, half extents."""
     boxes = [(tag.anchor, spot(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
     return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
 
 
 def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest and the highest corner, (2,) each, of drawing and names at a scale.
+    """Return the lowest and the highest corner, (2,) each, of drawing and names at a scale, in points.
 
-    `flat` (N, 2) are points at scale 1, `boxes` is as from `_boxes`.
+    `flat` (N, 2) are points of the drawing at scale 1, `boxes` is as from `_boxes`, `scale` is in points per unit.
     """
     anchors, middles, half = boxes
     centres = scale * anchors + middles

@@ -49,9 +49,9 @@ def deep(scene: Scene) -> bool:
 def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
     """Return a dict of a scene for the viewer, with the keys "wide", "narrow" and "texts".
 
-    "wide" has the panels in space of the figure, "narrow" those for a narrow screen (None where the figure serves), and
-    "texts" all names, each [width, height, outline as SVG path data]. `figures` are the wide and the narrow figure if
-    they are already drawn.
+    "wide" has the panels in space of the figure, "narrow" those for a narrow screen (None where the figure serves),
+    both as from `_laid_out`, and "texts" all names, each [width, height, outline as SVG path data]. `style` is as
+    for `atlas.figure`, `figures` are the wide and the narrow figure if they are already drawn.
     """
     small = narrowed(scene)
     with context(style):
@@ -68,7 +68,8 @@ def _laid_out(
 ) -> dict[str, Any]:
     """Return a dict of the panels in space: "places", lists as from `_place`, and "panels", dicts as from `_panel`.
 
-    "panels" is left out where they are the `same` as in the wide figure. `texts` numbers the names, and grows.
+    "panels" is left out where they are the `same` as in the wide figure. `texts` numbers the names, by (text,
+    size), and grows; `figures` has the scene's figure if it is already drawn.
     """
     boxes = [axes.get_position() for figure in figures for axes in figure.axes] or places(scene)
     size = _POINT * np.array(scene.size)
@@ -82,7 +83,7 @@ def _laid_out(
 
 
 def _deep(panel: Space) -> bool:
-    """Return whether the points of a panel differ in depth along the direction of view."""
+    """Return whether the points of a panel differ in depth along the direction of view: a flat panel is not rotated."""
     depth = cloud(panel) @ frame(panel)[2]
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 
@@ -121,7 +122,10 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
 
 
 def _surface(surface: Surface) -> list[Any]:
-    """Return a list: quadric, half spaces, bounding quadrics, outer and inner colour, opacity, two corners of a box."""
+    """Return a list: quadric, half spaces, bounding quadrics, outer and inner colour, opacity, two corners of a box.
+
+    A quadric is ten numbers as from `_form`; half spaces are a flat list, four numbers each; the box holds the mesh.
+    """
     look = style_of(surface.role)
     points = cloud(Space((surface,)))
     box = points.min(axis=0) - 1e-3, points.max(axis=0) + 1e-3
@@ -138,9 +142,10 @@ def _surface(surface: Surface) -> list[Any]:
 
 
 def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
-    """Yield (kind, data) for the lines, wires, arrows and dots of a layer.
+    """Yield (kind, data) for the lines, wires, arrows and dots of a layer; nothing for labels.
 
-    The kind is "lines", "wires", "arrows" or "dots"; data begin with the colour and the diameter in points.
+    The kind is "lines", "wires", "arrows" or "dots"; data are a list that begins with the colour and the diameter
+    in points.
     """
     if isinstance(layer, Surface):
         yield from (
@@ -194,7 +199,10 @@ def _short(number: float) -> float:
 
 
 def _outline(text: str, size: float) -> str:
-    """Return a text's outline about its middle as SVG path data, in points divided by `GRID`; y points down."""
+    """Return a text's outline about its middle as SVG path data, in units of 1/`GRID` printer's point; y points down.
+
+    `size` is that of the type in points.
+    """
     return _outlined(text, size, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
 
 
