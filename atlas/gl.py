@@ -103,7 +103,10 @@ def _candidates() -> tuple[str, ...]:
 
 
 def _draws(name: str) -> bool:
-    """Return whether a child process can draw in an off-screen window of the library `name`; False after 60 s."""
+    """Return whether a child process can draw in an off-screen window of the library `name`.
+
+    False also if that takes more than 60 s of processor time.
+    """
     environment = programs.environment()
     if name in WINDOWS:
         environment[VARIABLE] = WINDOWS[name]

@@ -18,7 +18,7 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def folder(kind: Literal["figures", "templates", "reports"]) -> Path:
-    """Return the path of figures/, templates/ or reports/, in the checkout if the code runs there, else in atlas."""
+    """Return the path of figures/, templates/ or reports/: of the checkout if there is one, else of the package."""
     checkout = _PACKAGE.parent
     if (checkout / "pyproject.toml").is_file() and (checkout / kind).is_dir():
         return checkout / kind

@@ -109,10 +109,7 @@ class Top:
         return float(potential(self.I, self.b, self.M3, self.p, nu))
 
     def omega3(self, nu: Any) -> Any:
-        """Return Omega3 = c3 - b nu, in rad/time, at nu = cos(theta), a number or an array.
-
-        The same kind is returned.
-        """
+        """Return Omega3 = c3 - b nu, in rad/time, at nu = cos(theta): a number for a number, else an array."""
         return self.c3 - self.b * nu
 
     @property

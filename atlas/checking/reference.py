@@ -168,9 +168,10 @@ def _refused(names: Iterable[str]) -> str:
 
 
 def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given) -> dict[str, Any]:
-    """Return the start by name: omega, or omega2 and omega3, or an empty dict; `overrides` replace the file's.
+    """Return the start by name: omega (3,), or omega2 and omega3, or an empty dict.
 
-    Raises AtlasError for a start that is given twice.
+    `overrides` replace the parameters `of_file`; `file` is the name in errors. Raises AtlasError for a start that
+    is given twice.
     """
     components = overrides.keys() & {"omega2", "omega3"}
     if "omega" in overrides and components:

@@ -279,8 +279,7 @@ class Problem:
     def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
         """Return residuals (N k,) and derivatives (n, N k) at x (n,) from one integration.
 
-        The latest for a slice is cached.
-        `places` are the indices or the slice of the N data.
+        `places` are the indices or the slice of the N data; the latest result for a slice is cached.
         """
         key = tuple(x) if isinstance(places, slice) else None
         if key is None or self._latest_slopes[0] != key:

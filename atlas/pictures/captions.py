@@ -68,9 +68,9 @@ def body_name(ratio: Any) -> str:
 
 
 def body_role(ratio: Any) -> str:
-    """Return the role of a body's layers where bodies are compared: "loop_body", "ball_body", "short_body" or so.
+    """Return the role of a body's layers where bodies are compared, the first word of its name and "_body".
 
-    It is "long_body" for a long solenoid. `ratio` is I = I3/I2 or a body; see `body_name`.
+    So it is "loop_body", "ball_body", "short_body" or "long_body". `ratio` is I = I3/I2 or a body; see `body_name`.
     """
     return f"{body_name(ratio).partition(' ')[0]}_body"
 

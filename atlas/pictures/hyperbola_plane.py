@@ -50,8 +50,7 @@ class Window:
     def panel(self, layers: Iterable[Layer], unit: str, **options: Any) -> Plane:
         """Return the `Plane` of (omega2, omega3) with these layers and the window's limits.
 
-        Axes are in 1 over ``unit``.
-        `options` are further arguments of `Plane`.
+        The axes are in 1 over ``unit``, the word for the unit of time; `options` are further arguments of `Plane`.
         """
         return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **options)
 

@@ -97,8 +97,7 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], choice: str =
 def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
     """Return whether the origin lies upwards from -B' along the axis of the quadric's sheets.
 
-    True also at equal height.
-    ``field`` is (B2, B3).
+    True also at equal height. ``field`` is (B2, B3).
     """
     return not float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
 

@@ -60,7 +60,7 @@ def around(
 def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
     """Return the symmetric (4, 4) matrix of the function x.form.x + linear.x + constant.
 
-    Form is (3, 3), linear (3,).
+    The matrix `form` is (3, 3), the vector `linear` (3,).
     """
     Q = np.zeros((4, 4))
     Q[:3, :3], Q[3, 3] = form, constant
@@ -147,8 +147,7 @@ def cylinder(
 def rectangle(centre: FloatArray, east: FloatArray, north: FloatArray, role: str = "plane", label: str = "") -> Surface:
     """Return the rectangle centre + a east + b north with a, b in [-1, 1] as a `Surface`.
 
-    East and north are orthogonal.
-    The vectors are (3,); the outer side is that of east x north.
+    East and north are orthogonal, all vectors (3,); the outer side is that of east x north.
     """
     units = [v / np.linalg.norm(v) for v in (east, north)]
     normal = np.cross(units[0], units[1])

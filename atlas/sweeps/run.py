@@ -97,9 +97,9 @@ def sweep(
     family : str
         Family, one of those that `atlas sweep --help` lists.
     parameters : mapping of str to float or sequence
-        Values by name; the last parameter varies fastest.
+        Values by name, numbers or lists (N,); the last parameter varies fastest.
     quantities : sequence of str
-        Names of the quantities.
+        Names of the quantities, of those that `atlas list quantities` prints.
     out : path, optional
         File .csv, .npz or .parquet; a folder ending in / or an fsspec address for a Parquet data set.
     listed : bool
@@ -128,7 +128,7 @@ def sweep(
         For a row outside the domain, with its number and the reason.
     AtlasError
         For an unknown or missing name; for a table that another sweep is writing; for a folder that is not of a sweep.
-        Also if a file is damaged: that file stays, and the table is written next to it.
+        Also if the file at `out` was edited: that file stays, and the table is written next to it.
 
     Notes
     -----
@@ -230,9 +230,9 @@ class Spans(Iterator[Span]):
         return start, end
 
     def _size(self) -> int:
-        """Return the number of rows of the next part: PART_SECONDS of work, less near the end.
+        """Return the number of rows of the next part: PART_SECONDS of work, less near the end of the table.
 
-        Then all workers have some work.
+        Towards the end the remaining rows are shared among all workers.
         """
         least = self.least << min(self.count_given // EQUAL_PARTS, 40)
         share = self.rows_left / (PARTS_PER_WORKER * self.workers)

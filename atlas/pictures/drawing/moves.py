@@ -94,9 +94,10 @@ def _quaternions(R: FloatArray) -> FloatArray:
 
 
 def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
-    """Return a dict: "size" of the figure in points, "spaces" as `_riding` gives them, "marks" as `_marks` does.
+    """Return a dict of a scene's moving layers: "size", "spaces" and "marks".
 
-    `figures` has the scene's figure if it is already drawn.
+    "size" is the figure's in points, "spaces" has a list as from `_riding` for each panel in space, "marks" those
+    of `_marks` for panels with two axes. `figures` has the scene's figure if it is already drawn.
     """
     figure = next(iter(figures), None) or laid_out(scene)[0]
     panels = list(zip(figure.axes, scene.panels, strict=True))
@@ -112,7 +113,7 @@ def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
 
 
 def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
-    """Return [[centre and size of a panel's view], [[kind, start, stop, path], ...]], five and more numbers.
+    """Return [[centre (3), size], [[kind, start, stop, path], ...]]: a panel's view, and the items that move.
 
     `room` is the panel's (width, height) in points. For each layer that rides on a path, start and stop are the
     half-open range of its items among the viewer's items of a kind.

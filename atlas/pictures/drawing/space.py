@@ -87,7 +87,7 @@ class _Drawing:
         self._lines: defaultdict[tuple[Any, ...], list[FloatArray]] = defaultdict(list)
 
     def begin(self, layer: Layer, panel: int, place: int) -> None:
-        """Begin layer number ``place`` of panel number ``panel``: artists made later get its group id."""
+        """Begin layer number ``place`` of panel number ``panel``, both from 1: artists made later get its group id."""
         self._names = (gid(layer, panel, place, piece) for piece in count(1))
 
     def finish(self) -> None:

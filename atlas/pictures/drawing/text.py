@@ -33,7 +33,7 @@ def points(setting: str) -> float:
 def line(text: str, size: float) -> tuple[float, float, float]:
     """Return (width, ascent, descent) of a text in points, set in `size` points.
 
-    Ascent and descent at least the font's.
+    Ascent and descent are at least those of the font.
     """
     width, ascent, descent = _line(text, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
     return size * width, size * ascent, size * descent
