@@ -54,7 +54,7 @@ def scene(
             layers.append(Arrow(tips[0], tips[1], "precession", r"$\mathbf{m}(t)$"))
     m2, m3 = momentum
     return Scene(
-        caption=r"The ball turns about $\hat{\mathbf{k}}$ meanwhile. "
+        caption=r"Meanwhile the ball turns about $\hat{\mathbf{k}}$. "
         rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
         rf"$\mathbf{{m}}(0)=(0, {tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and "
         r"$\mathbf{m}(0)$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. Lengths are not to scale.",

@@ -17,7 +17,7 @@ from atlas.pictures.sample import curve
 from atlas.pictures.torus import VIEW, net, on_torus, visible
 
 ROW = "a body"
-SEEN = "A ball's attitude runs round a torus with two constant rates."
+SEEN = "The attitude of a ball moves on a torus with two constant rates."
 WIDTH, HEIGHT = 150.0, 128.0
 MAX_TURNS = 400.0
 MAX_BOLD_PHASE = 40.0
@@ -61,8 +61,8 @@ def scene(
     phrase = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         caption=(
-            r"Left, $\alpha t$ runs the long way and $\gamma t$ the short way, dashed behind it "
-            r"where there are few turns; right, the path of its point $\mathbf{R}_1$. "
+            r"Left, $\alpha t$ is the angle the long way round the torus, $\gamma t$ that the short way; the hidden "
+            r"part of a line of few turns is dashed. Right, the path of the ball's point $\mathbf{R}_1$. "
             rf"Here $\gamma/\alpha$ is {phrase}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(

@@ -15,7 +15,7 @@ from atlas.pictures.captions import listed, plain, tex, tex_vector
 from atlas.pictures.sample import curve, quarter_pixel, room
 
 ROW = "three moments"
-SEEN = "Motions exist in the shaded region alone, and change their kind at lines and marks."
+SEEN = "Motions exist only in the shaded region; their type changes at the lines and marks."
 WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
 STRETCH_END = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
@@ -45,11 +45,11 @@ def scene(
     drawn_roles = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
     return Scene(
         caption=(
-            r"Lines over $H$ and $F$: elliptic motions of the "
+            r"Lines: elliptic motions of the "
             f"{'two ovals' if any(momentum) else 'bounded oval'}, unstable ones dashed; "
             rf"marks: stable (dots) and other spins (crosses) about an axis. $I_i={tex_vector(inertia)}$, "
             rf"$b={tex(b)}$, momenta $p=(\mathbf{{M}},\mathbf{{K}})/b$ along the field."
-            + (" For $p=0$ its lower edge is straight, of plane pendulums." if 0.0 in momentum else "")
+            + (" For $p=0$ the lower edge is a straight line of plane pendulums." if 0.0 in momentum else "")
             + (" Open circle: rest." if "rest" in drawn_roles else "")
         ),
         alt=(

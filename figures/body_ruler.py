@@ -47,8 +47,8 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
         caption=(
             r"The scale of $I=I_3/I_2$: the needle has $I=0.02$, the rod 0.2. "
             r"Above each is the surface (51) for $\mathbf{B}'$ along "
-            rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Disk and loop have one $I$ and one "
-            r"surface."
+            rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Disk and loop have the same "
+            r"$I$ and surface."
         ),
         alt=(
             "A scale of I from 0 to 2 with seven bodies drawn over it, a needle, a rod, a long solenoid, a ball, a "

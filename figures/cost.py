@@ -10,7 +10,7 @@ from atlas.pictures.captions import listed
 from atlas.pictures.layers import Layer, Plane, Scene
 
 ROW = "a body"
-SEEN = "More matrices at once take less time each."
+SEEN = "The more matrices are computed at once, the less time each takes."
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
 MIN_COUNT = 10_000
@@ -25,9 +25,8 @@ def scene(*, columns: int = 1) -> Scene:
     record = benchmark.read()
     return Scene(
         caption=(
-            "(a) Of the elementary motion among "
-            "$N$, on one core. (b) The same over "
-            "the time in which one core fills that memory with a constant, on one core and on two, with open dots. "
+            "(a) Time for one of $N$ matrices of the elementary motion, on one core. (b) This time divided by the time "
+            "in which one core fills the memory of a matrix with a constant, on one core and, with open dots, on two. "
             f"{benchmark.measured(record)}"
         ),
         alt=(
@@ -78,5 +77,9 @@ def multiples(record: benchmark.Results) -> Plane:
                 curve, dots = replace(curve, label=f"{curve.label}, two cores"), replace(dots, role="rest")
             layers += [curve, dots]
     return benchmark.panel(
-        layers, layers, ("number of matrices $N$", "multiples of filling the memory"), ROOM, "(b) over the memory limit"
+        layers,
+        layers,
+        ("number of matrices $N$", "time over time to fill the memory"),
+        ROOM,
+        "(b) over the memory limit",
     )

@@ -20,7 +20,7 @@ from atlas.pictures.hyperbola_plane import Window, branches, components, visible
 from atlas.pictures.sample import curve, quarter_pixel
 
 ROW = "three moments"
-SEEN = "Where $I_1$ leaves $I_2$ the hyperbola parts into two ovals."
+SEEN = "If $I_1$ differs from $I_2$, the hyperbola splits into two ovals."
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
 NAMES = {"main": "unbounded", "third": "bounded", "unstable_line": "unstable"}
 BRANCH_END = 1e-3
@@ -54,8 +54,8 @@ def scene(
         caption=(
             r"Initial angular velocities of the elliptic motions in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for bodies with $I_2=1$, $I_3={tex(ratio)}$: the "
-            r"unbounded oval and the bounded one, unstable motions dashed. Dotted: the hyperbola (67) of $I_1=1$, in "
-            r"which, and in the line $\omega_3=-B'_3$, the ovals meet, to part again the other way."
+            r"unbounded oval and the bounded one, unstable motions dashed. Dotted: the hyperbola (67) of $I_1=1$; at "
+            r"$I_1=1$ the ovals join in this hyperbola and in the line $\omega_3=-B'_3$."
         ),
         alt=(
             f"Panels for I1 = {listed([plain(I1) for I1 in first])} in the plane of omega 2 and omega 3, in the field "

@@ -9,7 +9,7 @@ from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 
 ROW = "three moments"
-SEEN = "No component of the angular velocity keeps its value; the field in the body fixes them."
+SEEN = "No component of the angular velocity is constant; the field in the body determines them all."
 
 
 def scene(

@@ -18,7 +18,7 @@ from atlas.pictures.captions import listed, plain, tex
 from atlas.pictures.sample import room
 
 ROW = "its map"
-SEEN = "Motions exist in the shaded region alone; on its lines the axis precesses."
+SEEN = "Motions exist only in the shaded region; on the lines the axis precesses steadily."
 WIDTH, HEIGHT = 88.0, 62.0
 
 
@@ -55,7 +55,7 @@ def scene(
     spins = " or ".join(words for role, words in kinds.items() if role in drawn_roles)
     return Scene(
         caption=(
-            r"Over $p$ and $2H$: steady precessions with their rate $w$ in Larmor's frame, "
+            r"Lines: steady precessions, with their rate $w$ in Larmor's frame, "
             + stability_words
             + (f", and spins along the field or the vertical, {spins}." if spins else ".")
             + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in drawn_roles else "")

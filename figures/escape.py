@@ -19,7 +19,7 @@ from atlas.pictures.movement import translations
 from atlas.pictures.sample import flat, room
 
 ROW = "its axis"
-SEEN = "The smaller the push off an unstable motion, the later the body leaves it."
+SEEN = "The smaller a push, the later the body leaves an unstable motion."
 WIDTH, COURSE, LAW, MARGIN = 120.0, 30.0, 62.0, 12.0
 """Width, heights of a course and of the law."""
 
@@ -53,8 +53,8 @@ def scene(
     return Scene(
         caption=(
             r"The push is $\omega_1$. Above: $\Omega_3$ "
-            rf"leaves with the rate $\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "
-            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it. "
+            rf"departs at the rate $\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: the period grows by "
+            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line. "
             rf"{tex_setting(ratio, field, article='A')}, $\omega_2={tex(omega2)}$."
         ),
         alt=(

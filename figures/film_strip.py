@@ -67,7 +67,7 @@ def scene(
         caption=(
             rf"The axis $\mathbf{{R}}_3$ goes once round $\mathbf{{B}}$; the dark seam has "
             rf"made $\phi/k={tex(motion.phi / motion.k)}$ turns about the axis at the end. Below each of the {count} "
-            rf"moments, the part of the period $2\pi/k$ elapsed. {tex_setting(ratio, field, article='A')}, "
+            rf"moments, the elapsed fraction of the period $2\pi/k$. {tex_setting(ratio, field, article='A')}, "
             rf"$\omega_2={tex(omega2)}$."
         ),
         alt=(

@@ -14,7 +14,7 @@ from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
 
 ROW = "three moments"
-SEEN = "Three different moments do not repeat a nutation."
+SEEN = "With three different moments no two loops of the axis are alike."
 SIZE, COLUMNS = 56.0, 3
 STEPS = 40
 """Points of a trace for each radian of the fastest of the rates at the start."""
@@ -58,7 +58,7 @@ def scene(
     columns = min(COLUMNS, len(panels))
     return Scene(
         caption=(
-            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ above them, all launched "
+            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ in the titles, all launched "
             rf"with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ (1/{unit}), $\mathbf{{B}}$ upright, up to $t={tex(stop)}$. "
             rf"Dashed: the parallels between which the trace stays.{special(first, ratio)}"

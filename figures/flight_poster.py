@@ -18,7 +18,7 @@ from atlas.pictures.quadric_panel import E3, in_plane
 from atlas.pictures.sample import curve, quarter_pixel
 
 ROW = "a body"
-SEEN = "In flight the body's axis goes round the field at a constant angle and a rate of its own."
+SEEN = "In flight the body's axis goes round the field at a constant angle and a constant rate."
 WIDTH, HEIGHT = 66.0, 88.0
 AXIS, CORNER = 1.7, 0.22
 """How far an axis is drawn in units of the body, and the length of the fields' arrows as a part of the height."""

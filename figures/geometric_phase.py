@@ -17,7 +17,7 @@ from atlas.pictures.captions import plain, tex, tex_vector
 from atlas.pictures.quadric_panel import O, tolerance
 
 ROW = "three moments"
-SEEN = "The turn about the field has a part that is an area."
+SEEN = "Part of the turn about the field is an area on the sphere."
 WIDTH, HEIGHT = 178.0, 76.0
 POINTS = 256
 """Points of K in a period, for means: they converge faster than any power."""
@@ -53,9 +53,9 @@ def scene(
         caption=(
             rf"(a) $\hat{{\mathbf{{K}}}}$ in a body with $I_i={tex_vector(inertia)}$, "
             rf"$\mathbf{{B}}'={tex_vector(field)}$, goes once round the hatched area $S$ in one period of the elliptic "
-            rf"motion $z={tex(shown)}$. The body turns about the field by ${round(turn, 3):g}$ of a turn, "
-            rf"${round(dynamic, 3):g}$ dynamically and ${round(-area, 3):g}=-S/2\pi$. (b) The same for all $z$; "
-            "dots: this motion."
+            rf"motion $z={tex(shown)}$. The body turns about the field by ${round(turn, 3):g}$ of a turn: "
+            rf"the dynamic part ${round(dynamic, 3):g}$ and the geometric part ${round(-area, 3):g}=-S/2\pi$. (b) The "
+            "same for all $z$; dots: this motion."
         ),
         alt=(
             f"A unit sphere with a closed curve, of z = {plain(shown)}, and the hatched area inside it. Three smooth "

@@ -42,7 +42,7 @@ def scene(
             r"Initial angular velocities $(0,\omega_2,\omega_3)$ without nutation, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
-                rf"They share $-\mathbf{{B}}'$ and the {pole}; the thin dashed run along "
+                rf"They share $-\mathbf{{B}}'$ and the {pole}; the thin dashed lines run along "
                 r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."

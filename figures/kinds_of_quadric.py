@@ -15,7 +15,7 @@ from atlas.pictures.captions import listed
 from atlas.surfaces.kernel import Quadric
 
 ROW = "its map"
-SEEN = "The body alone decides on the kind of its quadric."
+SEEN = "The ratio $I$ alone decides the type of the quadric."
 WIDTH, HEIGHT = 178.0, 72.0
 MIN_CELLS, MAX_CELLS = 60, 2000
 """Cells a side: with fewer the lines end before the edges."""
@@ -81,9 +81,9 @@ def scene(
         panels.append(Plane(tuple(layers), r"$I=I_3/I_2$", y_label, (0.0, 2.0), (0.0, RIGHT), title=name))
     return Scene(
         caption=(
-            r"Every quadric (51) once, up to its size: over $I$ and the angle "
-            r"$\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ to $\mathbf{e}_2$. At the lower edge it is a pair of planes, "
-            r"at the upper one a line. Levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$: "
+            r"Each quadric (51) is one point, up to its size: $\beta$ is the angle "
+            r"of $\mathbb{I}^{-1}\mathbf{B}'$ to $\mathbf{e}_2$. At the lower edge the quadric is a pair of planes, "
+            r"at the upper edge a line. Lines: levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$, "
             + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])
             + "."
         ),

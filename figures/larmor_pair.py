@@ -19,7 +19,7 @@ from atlas.pictures.quadric_panel import E3, O, tolerance
 from atlas.pictures.sample import curve
 
 ROW = "its axis"
-SEEN = "Two launches are one motion in Larmor's frame: there one line goes on where the other came from."
+SEEN = "In Larmor's frame two launches are one motion: the two traces form a single line."
 SIZE = 76.0
 HEAD = 0.36, 0.48
 """Where along a trace its arrowhead lies, in radii of the sphere."""

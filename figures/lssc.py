@@ -59,7 +59,7 @@ def scene(
     if field[1]:
         layers.append(Label(third, r"$B'_3$", offset=(-5.0, 0.0)))
     return Scene(
-        caption=r"It is $\mathbf{e}_3=\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the "
+        caption=r"This axis is $\mathbf{e}_3=\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the "
         r"field, lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$: laboratory system for "
         rf"{tex_setting(ratio, field)}. The cylindrical shell drawn has this ratio of its moments.",
         alt=f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "

@@ -50,8 +50,8 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     return Scene(
         caption=(
             rf"Above: least energies (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round "
-            rf"crosses; $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the periods, "
-            "by their turns, and their way round the loop (lines), "
+            rf"crosses; $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the angles of the periods, "
+            "and their paths as the loop is followed (lines), "
             rf"$\mathbf{{g}}_3$ heavy. Largest step {error:.2g} of a turn."
         ),
         alt=(

@@ -22,7 +22,7 @@ from atlas.pictures.hyperbola_plane import Window, branches, places
 from atlas.sweeps.plan import Range, Tabulation
 
 ROW = "its map"
-SEEN = "On the hyperbola alone there is no nutation."
+SEEN = "Only on the hyperbola there is no nutation."
 WIDTH, HEIGHT, PANEL = 152.0, 72.0, 60.0
 NARROWEST = 139.0
 WIDER = 3.0
@@ -66,9 +66,9 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Amplitude of the nutation, zero on the hyperbola (white), over the initial angular velocity "
+            r"Amplitude of the nutation, zero on the hyperbola (white), against the initial angular velocity "
             rf"$(0,\omega_2,\omega_3)$, $\mathbf{{B}}'={tex_vector((0.0, *field))}$. Open dot: rest; "
-            r"diamond: $-2\mathbf{B}'$. In the wedges with a dotted edge the axis draws loops, elsewhere, and all "
+            r"diamond: $-2\mathbf{B}'$. In the wedges with a dotted edge the axis draws loops, elsewhere, also "
             "along the hyperbola, waves. For a long solenoid the map jumps at the separatrices."
         ),
         alt=(

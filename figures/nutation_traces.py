@@ -13,7 +13,7 @@ from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setting
 
 ROW = "its axis"
-SEEN = "An axis at rest at the start draws cusps, moved one way it waves, the other way it loops."
+SEEN = "An axis released at rest draws cusps; pushed in one direction it draws waves, in the other loops."
 SIZE = 58.0
 
 

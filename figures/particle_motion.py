@@ -19,7 +19,7 @@ from atlas.pictures.quadric_panel import tolerance
 from atlas.pictures.sample import curve
 
 ROW = "a body"
-SEEN = "A magnetic field turns a charged particle, an electric one across it makes the particle drift."
+SEEN = "A charged particle circles about a magnetic field and drifts in an electric field across it."
 SIZE = (124.0, 66.0)
 Vector = tuple[float, float, float]
 

@@ -21,7 +21,7 @@ from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
 from atlas.pictures.sample import flat, room
 
 ROW = "its map"
-SEEN = r"Round a stable motion $\Omega_3$ swings on closed lines."
+SEEN = r"Round a stable motion $\Omega_3$ and its rate follow closed curves."
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
 WIDTH, HEIGHT, MARGIN = 110.0, 84.0, 13.0
@@ -68,7 +68,7 @@ def scene(
     return Scene(
         caption=(
             rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the momenta "
-            rf"of the elementary one $\omega_2={tex(omega2)}$, a line for each energy. {eight}"
+            rf"of the elementary one $\omega_2={tex(omega2)}$, one curve for each energy. {eight}"
         ),
         alt=(
             f"Closed curves in the plane of Omega 3 and its rate, for {plain_setting(ratio, field)} with the momenta "

@@ -18,7 +18,7 @@ from atlas.pictures.captions import plain, plain_setting, plain_vector, tex, tex
 from atlas.pictures.sample import flat
 
 ROW = "its map"
-SEEN = r"The component $\Omega_3$ moves as a point on a line does in a potential."
+SEEN = r"The component $\Omega_3$ moves like a point mass in a potential."
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
 PIECES = 32
@@ -71,7 +71,7 @@ def scene(
             rf"{tex_setting(ratio, field, article='A')} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic "
             r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47) and the "
-            r"level of the motion. Dot: the start; the shaded "
+            r"energy of the motion. Dot: the start; the shaded "
             rf"interval is allowed. (c) $\Omega_3(t)$. {rest_sentence if is_at_rest else period}"
         ).rstrip(),
         alt=(

@@ -11,7 +11,7 @@ from atlas.pictures.captions import plain_setting, tex_setting
 from atlas.surfaces.kernel import Quadric
 
 ROW = "a body"
-SEEN = r"Starts from which $\Omega_3$ does not accelerate lie on a quadric."
+SEEN = r"The starts with zero acceleration of $\Omega_3$ lie on a quadric."
 
 
 def scene(

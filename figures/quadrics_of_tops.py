@@ -16,7 +16,7 @@ from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.surfaces.kernel import TopQuadric
 
 ROW = "tops"
-SEEN = "The cause that turns a top decides on its quadric of initial data."
+SEEN = "The forces on a top decide the type of its quadric of initial data."
 WIDTH, HEIGHT = 178.0, 134.0
 REACH = 1.9
 PITCH, GAP = 0.5, 0.35
@@ -74,7 +74,7 @@ def scene(
     return Scene(
         caption=(
             rf"Initial angular velocities with $\ddot\nu=0$ of tops, $I={tex(ratio)}$, "
-            rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$, alone steady. "
+            rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$ of steady motions. "
             r"(b) The same tops (dots) in the plane of all with this $I$. On the border (solid), "
             r"$D=0$, is 4, a paper's body that the field magnetises."
         ),

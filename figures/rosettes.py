@@ -20,7 +20,7 @@ from atlas.pictures.quadric_panel import O, tolerance
 from atlas.pictures.sample import curve
 
 ROW = "its axis"
-SEEN = "A body comes back where its frequencies have a rational quotient."
+SEEN = "A motion repeats itself if the ratio of its frequencies is rational."
 SIZE = 44.0
 DENSE = 12.0
 """Turns beyond which the trace is drawn in thin lines."""
@@ -55,9 +55,9 @@ def scene(
     spoken = listed([f"{p}/{q}" for p, q in fractions])
     return Scene(
         caption=(
-            rf"$\phi/k$ is {named}, back after "
+            rf"$\phi/k$ is {named}, repeated after "
             rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, or the "
-            rf"golden mean: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$. Seen along "
+            rf"golden mean, {plain(turns)} turns from $\omega_2={tex(never.omega2)}$. Seen along "
             r"$\mathbf{B}$: the body's axis (navy) and a point 40 degrees off (teal), for "
             rf"{tex_setting(ratio, field)}."
         ),

@@ -38,7 +38,7 @@ def scene() -> Scene:
         caption=(
             f"Simulators {exact} follow the closed form within $10^{{-8}}$ degrees. "
             "Error of each trajectory of NASA's tumbling brick, check-case 2: (a) of the angular velocity, "
-            "(b) angle between the attitude and the exact one."
+            "(b) of the attitude, its angle to the exact one."
         ),
         alt=(
             "Two panels of errors over 30 seconds, on logarithmic scales, with a curve for each of five simulators. "

@@ -17,7 +17,7 @@ from atlas.pictures.sample import flat
 from atlas.sweeps.plan import Range, Tabulation
 
 ROW = "its map"
-SEEN = "Bodies inside the vermilion line have motions that run away."
+SEEN = "Inside the vermilion line some motions of a body are unstable."
 WIDTH, HEIGHT, MARGIN = 120.0, 88.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
@@ -54,9 +54,9 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     return Scene(
         caption=(
             r"There, for $I<1$ and "
-            r"$\tau=\lvert B'_3/B'_2\rvert<1/(2\sqrt2)$, some elementary motion is unstable, and the number is the "
-            r"greatest rate of growth, $-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$, as negative. "
-            r"Outside, where all are stable, it is the least frequency of their nutation."
+            r"$\tau=\lvert B'_3/B'_2\rvert<1/(2\sqrt2)$, the number on a line is minus the greatest rate of growth of "
+            r"an elementary motion, from $-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. "
+            r"Outside, all elementary motions are stable, and it is the least frequency of their nutation."
         ),
         alt=(
             "A map over I, up to 2, and tau, up to 0.6. The rate of growth, for I up to 1 and tau up to 0.354, falls "

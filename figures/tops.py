@@ -17,7 +17,7 @@ from atlas.pictures.captions import plain, spelt, tex, tex_vector
 from atlas.pictures.layers import Arrow, Curve, Layer, Space, frame
 
 ROW = "tops"
-SEEN = "Whatever turns it, the axis of a top nutates by one formula."
+SEEN = "Under four different forces the axis of a top nutates by one formula."
 SIZE = 44.0
 
 FIELD, WEIGHT = (r"$\mathbf{B}$", "field"), (r"$-\mathbf{g}$", "direction")
@@ -59,8 +59,8 @@ def scene(
     return Scene(
         caption=(
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega={tex_vector(omega)}$, "
-            rf"over {spelt(nutations)} of nutation, the cause upright: (a) one charge-to-mass ratio throughout "
-            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Small: what turns each. "
+            rf"over {spelt(nutations)} of nutation, field or weight upright: (a) one charge-to-mass ratio throughout "
+            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Small: the cause of the torque. "
             "Dots: the start."
         ),
         alt=(

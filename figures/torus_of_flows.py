@@ -63,7 +63,7 @@ def scene(
         caption=(
             rf"The motion (thin line) of a body with $I_i={tex_vector(inertia)}$ "
             rf"from $\boldsymbol{{\omega}}={tex_vector(omega)}$ in $\mathbf{{B}}'={tex_vector(field)}$ up to "
-            rf"$t={tex(stop)}$: (a) by the angles of its two periods, (b) as the way of $\mathbf{{K}}$ in the body. "
+            rf"$t={tex(stop)}$: (a) in the angles of its two periods, (b) as the path of $\mathbf{{K}}$ in the body. "
             rf"From the start, $T_H={tex(round(first_period[0], 4))}$ along the motion (teal) and "
             rf"$T_F={tex(round(first_period[1], 4))}$ along the other flow (plum) lead back."
         ),

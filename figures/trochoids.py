@@ -16,7 +16,7 @@ from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_equals
 from atlas.pictures.sample import curve, quarter_pixel, room
 
 ROW = "a body"
-SEEN = "The particle turns round a guiding centre that drifts."
+SEEN = "A charged particle circles round a guiding centre that drifts."
 WIDTH, MARGIN = 86.0, 15.0
 
 
@@ -74,11 +74,11 @@ def scene(
     )
     return Scene(
         caption=(
-            r"The line of the drift is dashed. "
+            r"Dashed: the path of the guiding centre. "
             rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
             rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "
             r"along $[\mathbf{E},\mathbf{B}]$. The drift is "
-            rf"$v{tex_equals(v)}$, the rate of the turn $\omega{tex_equals(omega)}$, the radius of its circle $a$. "
+            rf"$v{tex_equals(v)}$, the cyclotron frequency $\omega{tex_equals(omega)}$, the radius of the circle $a$. "
             r"Large dot: start; small dots: whole turns."
         ),
         alt=(

@@ -16,7 +16,7 @@ from atlas.pictures import Curve, Label, Plane, Scene
 from atlas.pictures.captions import plain, tex, tex_vector
 
 ROW = "three moments"
-SEEN = "A body at rest turns over after any push: a small one makes it later, but not less far."
+SEEN = "A body at rest turns over after any push: after a small one later, but just as far."
 WIDTH, HEIGHT = 178.0, 62.0
 POINTS = 600
 ROLES = ("main", "second", "third")
@@ -56,10 +56,10 @@ def scene(
     over_time, over_turns = (0.01 * reach * b / abs(largest), reach * b / abs(smallest)), (0.0, reach)
     return Scene(
         caption=(
-            r"In (b) the curves of small pushes are one. How far the "
-            r"field in the body is from where it was, for "
+            r"In (b) the curves of small pushes coincide. The distance of the "
+            r"field in the body from its initial value, for "
             rf"$I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$, $b=\lvert\mathbf{{B}}'\rvert$, "
-            rf"pushed about $\mathbf{{e}}_2$ with $s$. With ${tex(smallest)}$ it reaches ${tex(round(farthest, 2))}$."
+            rf"pushed about $\mathbf{{e}}_2$ with $s$. With $s={tex(smallest)}$ it reaches ${tex(round(farthest, 2))}$."
         ),
         alt=(
             f"Curves of a distance for pushes {', '.join(map(plain, pushes))}, in two panels: against the time, where "
@@ -67,8 +67,8 @@ def scene(
             f"rises from 0 to {plain(round(farthest, 2))}."
         ),
         panels=(
-            panel("(a) over the time", "$bt$", over_time, in_time, log=True),
-            panel("(b) over push times time", "$st$", over_turns, in_turns, log=False),
+            panel("(a) against time", "$bt$", over_time, in_time, log=True),
+            panel("(b) against push times time", "$st$", over_turns, in_turns, log=False),
         ),
         columns=2,
         size=(WIDTH, HEIGHT),

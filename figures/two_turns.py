@@ -18,7 +18,7 @@ from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_set
 from atlas.pictures.quadric_panel import E1, E3, in_plane, tolerance
 
 ROW = "a body"
-SEEN = "Two turns lead from the first attitude to that at any time."
+SEEN = "Two rotations lead from the initial attitude to that at any time."
 STEP = 3.0
 REACH = 1.55
 

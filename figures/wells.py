@@ -44,7 +44,7 @@ def scene(
     return Scene(
         caption=(
             r"Each point $(a,A)$ is a top, at the momenta $p$ and $M_3$. On a thin line the axis "
-            r"can rest at the cosine $\nu_0$ that the line bears: with two wells on three "
+            r"can precess steadily at the cosine $\nu_0$ of its label; a top with two wells lies on three "
             r"such lines. The border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(

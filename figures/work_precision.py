@@ -12,7 +12,7 @@ from atlas.pictures.captions import listed, plain
 from atlas.pictures.layers import Layer, Plane, Points, Scene
 
 ROW = "a body"
-SEEN = "Integrators pay time for digits, closed forms do not."
+SEEN = "More digits cost an integrator more time, a closed form none."
 RECORDS = ("bench.json",)
 ROOM = (1.6, 0.5), (0.9, 0.5)
 
@@ -27,8 +27,8 @@ def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, c
     return Scene(
         caption=(
             f"Lines: integrators; marks: closed forms. Largest error up to "
-            f"$t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
-            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. One dot is a "
+            f"$t = {benchmark.power(horizon)}$ against the time for one sample, without set-up, for "
+            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. Each dot is a "
             "tolerance from $10^{-3}$ to $10^{-14}$. "
             f"{benchmark.measured(record)}"
         ),

@@ -212,12 +212,12 @@ class Disturbance:
         """Text on the effect: negligible, a share of what is shown, or larger than that, always or from `value` on."""
         of = f" for {self.usual}" if self.usual else ""
         if self.outweighs:
-            return f"outweighs what is shown{of}"
+            return f"larger than the effect shown{of}"
         if self.greatest < SMALL_SHARE:
             return f"negligible{of}"
         if not self.usual:
-            return f"{self.greatest:.2g} of what is shown"
-        return f"outweighs what is shown from this value on; usual are {self.usual}"
+            return f"{self.greatest:.2g} of the effect shown"
+        return f"larger than the effect shown from this value on; usual values are {self.usual}"
 
 
 def disturbances(body: Spinning) -> Iterator[Disturbance]:

@@ -87,7 +87,7 @@ def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
     subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
     if turn["value"] is None:
         return f"{subject}: {says}"
-    mean = " in the mean" * has_mean_rates(thing_of(request))
+    mean = " on average" * has_mean_rates(thing_of(request))
     return f"{subject} turns about {centre_of(request)} once in {_lasting(turn)}{mean}; {says}"
 
 
@@ -364,7 +364,7 @@ def outweighed(beside: Sequence[Disturbance]) -> str:
     `beside` are all neglected effects.
     """
     names = [one.says.partition(",")[0] for one in beside if one.outweighs]
-    return f"What is shown is outweighed by {' and by '.join(names)}." if names else ""
+    return f"Effects larger than those shown: {', '.join(names)}." if names else ""
 
 
 def _row_of(one: Disturbance) -> list[str]:

@@ -29,10 +29,15 @@ from atlas.cli.words import Command
 @click.option(
     "--over",
     metavar="KEY=START:STOP:COUNT",
-    help="Parameter that changes from frame to frame: its first and last value (a number or a list a,b,c) and the "
-    "number of frames. Default: the figure's time t.",
+    help="Parameter that changes from frame to frame, its first and last value (a number or a list a,b,c) and the "
+    "number of frames, such as omega2=0:2:60. Default: the figure's time t.",
 )
-@several("set", "KEY=VALUE [...]", "Fixed parameters of the figure; a list is a,b,c.", "settings")
+@several(
+    "set",
+    "KEY=VALUE [...]",
+    "Fixed parameters of the figure, such as ratio=0.5 field=1,0.1; a list is a,b,c.",
+    "settings",
+)
 @choice("format", ["mp4", "gif", "apng"], "gif", "Format of the file; mp4 needs the program ffmpeg.", "kind")
 @click.option(
     "--fps",

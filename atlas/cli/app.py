@@ -122,9 +122,9 @@ class Atlas(click.Group):
     cls=Atlas,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
     help="Compute the exact motion of a charged rigid body in constant electric and magnetic fields.",
-    epilog="Angles are in radians. The field B' = mu B/(2c) and all angular velocities are in one unit of 1/time. "
-    "Numbers may have a unit, as 1.2um, 0.8T, 2MHz, 30deg, or an uncertainty, as 1.50(2). `atlas COMMAND --help` "
-    "explains a command.",
+    epilog="Angles are in radians. The field B' = mu B/(2c) and all angular velocities are in one unit of 1/time of "
+    "your choice. Numbers may have a unit, as 1.2um, 0.8T, 2MHz, 30deg, or an uncertainty, as 1.50(2). "
+    "`atlas COMMAND --help` explains a command.",
 )
 @click.version_option(__version__, prog_name="atlas")
 def atlas() -> None:
@@ -133,14 +133,14 @@ def atlas() -> None:
 
 for name, says in {
     "report": "Build a report as HTML pages and a PDF.",
-    "page": "Make a page about your body and its motion.",
+    "page": "Make one page of your body and its motion.",
     "data": "Write tables and plotted points of a report as CSV.",
     "figure": "Draw figures as SVG, PDF and PNG.",
     "animate": "Animate a figure as gif, apng or mp4.",
     "plot": "Plot columns of a table.",
     "explore": "Explore motions with sliders in the browser.",
-    "list": "List figures, reports, shapes, families, ...",
-    "hyperbola": "Tabulate the curve (67) of elementary motions.",
+    "list": "List figures, reports, shapes of bodies, families, ...",
+    "hyperbola": "Tabulate the starts of motions without nutation.",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Count the correct digits of a trajectory.",
     "fit": "Find body, field and start from measurements.",
@@ -179,7 +179,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         file = f": {error.filename}" if error.filename else ""
         status = complain(f"{error.strerror or error}{file}", 1)
     except MemoryError:
-        status = complain("there is not enough memory for it", 1)
+        status = complain("there is not enough memory; ask for fewer numbers at once", 1)
     except (KeyboardInterrupt, click.Abort) as error:
         interrupt = error.__cause__ or error
         status = complain("interrupted", 128 + int(interrupt.args[0] if interrupt.args else SIGINT))

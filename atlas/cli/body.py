@@ -44,19 +44,21 @@ def points_option(axes: str) -> Callable[[F], F]:
 
 
 size_options: Callable[[F], F] = stack(
-    numbers("radius", "Radius of the shape, a number or with its unit, 1.2um."),
-    numbers("height", "Height of a cylinder or cylindrical shell, in the unit of --radius."),
-    numbers("equatorial", "Equatorial semi-axis of a spheroid, a number or with its unit, 1.2um."),
-    numbers("polar", "Polar semi-axis of a spheroid, in the unit of --equatorial."),
+    numbers("radius", "Radius of the shape, such as 1.2um, or a number in the unit of --units."),
+    numbers("height", "Height of a cylinder or cylindrical shell, as --radius."),
+    numbers("equatorial", "Equatorial semi-axis of a spheroid, such as 1.2um, or a number in the unit of --units."),
+    numbers("polar", "Polar semi-axis of a spheroid, as --equatorial."),
 )
 shape_options: Callable[[F], F] = stack(
     numbers(
-        "ratio", "Ratio I3/I2 of the moments of inertia along and across the axis, in (0, 2].", callback=nearest_moments
+        "ratio",
+        "Ratio I3/I2 of the moments of inertia about the axis and across it, in (0, 2], such as 1.5.",
+        callback=nearest_moments,
     ),
     click.option("--shape", metavar="NAME", help="Shape of the body, such as ring; `atlas list shapes` names them."),
     size_options,
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
-    numbers("density", "Mass density of a solid shape, instead of --mass; with its unit, 2200kg/m3."),
+    numbers("density", "Mass density of a solid shape, instead of --mass, such as 2200kg/m3."),
 )
 body_options: Callable[[F], F] = stack(
     numbers(
@@ -77,16 +79,16 @@ def field_options_of(components: str, axes: str) -> Callable[[F], F]:
     --field and --magnetic, and so their number of values; `axes` names the axes in the help.
     """
     return stack(
-        numbers("field", f"Components of B' = mu B/(2c) along {axes} at t = 0, in 1/time.", components),
-        numbers("magnetic", f"Components of the magnetic field B along {axes} at t = 0; needs --mu, or --mass and "
-                "--charge.", components),
-        numbers("mass", "Mass of the body."),
-        numbers("charge", "Charge of the body, either sign; goes with --magnetic and --mass."),
+        numbers("field", f"Field B' = mu B/(2c), in 1/time: its components along {axes} at t = 0.", components),
+        numbers("magnetic", f"Magnetic field B, such as 0.8T: its components along {axes} at t = 0; needs --mu, or "
+                "--mass and --charge.", components),
+        numbers("mass", "Mass of the body, such as 1.5pg."),
+        numbers("charge", "Charge of the body, such as 5000e or -2fC; goes with --magnetic and --mass."),
         click.option(
             "--mu",
             "--charge-to-mass",
             type=REAL,
-            help="Charge-to-mass ratio, either sign, instead of --mass and --charge.",
+            help="Charge-to-mass ratio, of either sign, such as 1.3C/kg; instead of --mass and --charge.",
         ),
         click.option(
             "--units",
@@ -114,7 +116,7 @@ any_body_options: Callable[[F], F] = stack(
 """Body and field where the three moments may differ."""
 tensor_option: Callable[[F], F] = numbers(
     "tensor",
-    "Inertia tensor along any axes of the body; I12 is the element of the matrix, -sum m x y.",
+    "Inertia tensor along any axes of the body, in any one unit; I12 is the element of the matrix, -sum m x y.",
     "I11 I22 I33 I12 I13 I23",
     callback=nearest_tensor,
 )
@@ -123,14 +125,17 @@ curve_option: Callable[[F], F] = click.option(
 )
 attitude_option: Callable[[F], F] = numbers(
     "attitude",
-    "Initial rotation R(0), a unit quaternion with the scalar last; --field is then along the laboratory's axes.",
+    "Initial rotation R(0), a unit quaternion with the scalar last, such as 0.6 0 0 0.8; --field is then along the "
+    "laboratory's axes.",
     "X Y Z W",
     callback=unit_quaternion,
 )
 start_option: Callable[[F], F] = numbers(
-    "omega", "Initial angular velocity along the body's axes, in 1/time.", "W1 W2 W3"
+    "omega", "Initial angular velocity, in 1/time or such as 2MHz: its components along the body's axes.", "W1 W2 W3"
 )
-spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about the body's axis e3 alone, in 1/time.")
+spin_option: Callable[[F], F] = numbers(
+    "spin", "Initial angular velocity about the body's axis e3 alone, in 1/time or such as 2MHz."
+)
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:

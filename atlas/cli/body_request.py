@@ -71,8 +71,12 @@ def report_options(out: str) -> Callable[[Any], Any]:
     """
     return stack(
         out_option(out),
-        click.option("--title", callback=one_line, help="Title of the report."),
-        click.option("--name", metavar="NAME", help="Name of its files, in the place of your_body."),
+        click.option(
+            "--title", callback=one_line, help="Title of the report; by default one that names body and motion."
+        ),
+        click.option(
+            "--name", metavar="NAME", help="Name of the files; default: your_body and a digest of the inputs."
+        ),
         jobs_option,
     )
 
@@ -136,15 +140,24 @@ def command_of(family: Family) -> click.Command:
     """Return the click command of a report on an object of a family; it returns (`Asked`, options by name)."""
     more = [
         report_options("build/report"),
-        click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
-        click.option("--only", metavar="PART,...", default="", callback=in_order, help=f"Parts: {', '.join(PARTS)}."),
+        click.option(
+            "--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Number of proven digits."
+        ),
+        click.option(
+            "--only",
+            metavar="PART,...",
+            default="",
+            callback=in_order,
+            help=f"Parts that are made, of {', '.join(PARTS)}; default: all, of atlas page {PAGE}.",
+        ),
         click.option("--note", default="", hidden=True),
     ]
 
     def run(**options: Any) -> tuple["Asked", dict[str, Any]]:
         return with_errors(asked(family, options), options)
 
-    says = f"Make a report: {family.says}."
+    summary = family.command.summary if family.command else ""
+    says = summary.replace("Compute", "Report") or f"Report the {family.says}."
     command = click.command(
         family.page, cls=OneObject, family=family, carries=True, help=says, hidden=family.page in GONE
     )

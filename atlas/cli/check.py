@@ -16,7 +16,9 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 
 file_argument = click.argument("files", type=TABLE, metavar="FILE.csv...", nargs=-1, required=True)
 graded_options: Callable[[Any], Any] = stack(
-    numbers("threshold", "Number of correct digits below which a column fails.", default="6", show_default=True),
+    numbers(
+        "threshold", "Number of correct digits below which a column fails, such as 3.", default="6", show_default=True
+    ),
     figure_option("File for a plot of the error against time: .svg, .pdf or .png."),
     click.option(
         "--order",
@@ -71,7 +73,7 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @body.field_options
 @body.start_option
 @body.spin_option
-@numbers("omega2", "Second component of the initial angular velocity, in 1/time, of an elementary motion.")
+@numbers("omega2", "Second component of the initial angular velocity of an elementary motion, in 1/time.")
 @numbers("omega3", "Third component, in 1/time; goes with --omega2, only where (71) leaves it free.")
 @numbers("direction", "Direction n of a top's field at t = 0, across and along the axis, as in atlas top.", "N2 N3")
 @numbers("coupling", "Coefficients k of a top, M = I Omega + k b, as in atlas top.", "K2 K3")

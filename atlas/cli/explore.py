@@ -30,7 +30,7 @@ FIRST = "general"
 )
 @click.argument("name", default="")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port of the server; default: any free port.")
-@click.option("--no-browser", is_flag=True, help="Print the address, and open no browser.")
+@click.option("--no-browser", is_flag=True, help="Print the address and open no browser.")
 @click.pass_context
 def command(context: click.Context, name: str, port: int, no_browser: bool) -> None:
     """Open a page with sliders in the browser, for a family of motions or surfaces, or for a figure.

@@ -74,8 +74,8 @@ units_option: Callable[[Any], Any] = click.option(
 )
 
 charge_options = stack(
-    numbers("mass", "Mass; goes with --charge, instead of --mu."),
-    numbers("charge", "Charge, either sign; goes with --mass, instead of --mu."),
+    numbers("mass", "Mass, such as 9.11e-31kg; goes with --charge, instead of --mu."),
+    numbers("charge", "Charge, of either sign, such as -1e; goes with --mass, instead of --mu."),
 )
 
 

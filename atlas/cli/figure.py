@@ -54,13 +54,15 @@ def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
 @click.option("--all", "everything", is_flag=True, help="Draw all figures.")
-@several("set", "KEY=VALUE [...]", "Parameters of the figure; a list is a,b,c.", "settings")
+@several(
+    "set", "KEY=VALUE [...]", "Parameters of the figure, such as ratio=0.5 field=1,0.1; a list is a,b,c.", "settings"
+)
 @click.option(
     "--format",
     "formats",
     multiple=True,
     type=click.Choice(["svg", "pdf", "png", "pgf", "csv"]),
-    help="Formats of the files; csv has the points drawn. Default: svg, pdf and png.",
+    help="Formats of the files; csv has the points that are drawn. Default: svg, pdf and png.",
 )
 @choice("renderer", ["vector", "shaded"], "vector", "Line drawing, or a shaded picture as PNG.")
 @click.option(
@@ -69,7 +71,7 @@ def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
     metavar="TARGET",
     help=f"Medium for which size, type and resolution are chosen: {', '.join(TARGETS)}.",
 )
-@click.option("--gallery", is_flag=True, help="Make a page of small pictures of all figures, or of the named ones.")
+@click.option("--gallery", is_flag=True, help="Make a page of small pictures of all figures, or of the named figures.")
 @out_option("build/figures")
 @style_option
 @jobs_option

@@ -19,11 +19,18 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 fit_options: Callable[[Any], Any] = stack(
     choice("family", FAMILIES, "general", "Family of motions that is fitted."),
     click.option(
-        "--of", "kind", type=click.Choice(KINDS), help="Quantity that is fitted, if the file has columns of several."
+        "--of",
+        "kind",
+        type=click.Choice(KINDS),
+        help="Quantity that is fitted, if the file has columns of several quantities.",
     ),
-    numbers("sigma", "Standard error of each measured number; of attitudes in radians or with a unit, 1deg."),
-    several("fix", "NAME=VALUE [...]", "Parameters that are known and stay fixed, such as ratio=1.5."),
-    several("start", "NAME=VALUE [...]", "Start values of parameters for the fit; none is needed."),
+    numbers(
+        "sigma",
+        "Standard error of each measured number, such as 0.01; of attitudes in radians, or with a unit, 1deg. Default: "
+        "a column or line sigma of the file, else estimated.",
+    ),
+    several("fix", "NAME=VALUE [...]", "Known parameters, which stay fixed, such as ratio=1.5."),
+    several("start", "NAME=VALUE [...]", "Start values of parameters, such as B3=1.1; none is needed."),
     numbers("epoch", "Time t at which the fitted initial velocity and attitude hold.", default="0", show_default=True),
     choice(
         "loss",
@@ -37,7 +44,12 @@ fit_options: Callable[[Any], Any] = stack(
         "Print predictions of the measured quantity at these times, with standard errors.",
         type=REAL,
     ),
-    numbers("horizon", "Print the time until which predictions have a standard error below ERROR.", "ERROR"),
+    numbers(
+        "horizon",
+        "Print the time until which predictions have a standard error below ERROR, such as 0.1; of attitudes in "
+        "radians.",
+        "ERROR",
+    ),
 )
 
 

@@ -42,10 +42,10 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @output_options
 def command(**options: Any) -> None:
-    """Tabulate the curve (67) of elementary motions over omega2.
+    """Tabulate the hyperbola (67), the starts (0, omega2, omega3) of motions without nutation.
 
-    The columns are omega3, the frequencies k of precession and phi of proper rotation, and the square of the frequency
-    of small nutations, which is negative where the motion is unstable.
+    The columns are omega2, omega3, the frequencies k of precession and phi of proper rotation, and the square of the
+    frequency of small nutations, which is negative where the motion is unstable.
     """
     points = list(options["omega2"]) or sampled(curve_of(options), options["count"])
 

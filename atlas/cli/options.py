@@ -106,8 +106,8 @@ output_options: Callable[[F], F] = stack(
     click.option(
         "--digits",
         type=click.IntRange(1, 1000),
-        help="Print this many certified significant digits; in JSON as strings. With three moments of inertia, 300 "
-        "digits take a minute, 1000 take five minutes and 1 GB.",
+        help="Print this many certified significant digits, such as 50; in JSON as strings. With three moments of "
+        "inertia, 300 digits take a minute, 1000 take five minutes and 1 GB.",
     ),
     click.option(
         "--decimal",
@@ -155,7 +155,11 @@ times_options: Callable[[F], F] = stack(
         "unit of time of the other options.",
         type=REAL,
     ),
-    numbers("grid", "Uniform times: the first, the step, their number; or START:STOP:COUNT.", "START STEP COUNT"),
+    numbers(
+        "grid",
+        "Uniform times: the first time, the step and the number of times, such as 0 0.1 50; or START:STOP:COUNT.",
+        "START STEP COUNT",
+    ),
 )
 
 

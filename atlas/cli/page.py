@@ -30,8 +30,10 @@ if TYPE_CHECKING:
 FORMATS = ("single", "pdf")
 
 
-@click.command("fit", cls=Command, help="Make a page: a motion out of measured data, as atlas fit finds it.")
-@click.option("--fit", "file", type=FILE, required=True, metavar="FILE.csv", help="The data.")
+@click.command("fit", cls=Command, help="Make a page of the motion that atlas fit finds from measured data.")
+@click.option(
+    "--fit", "file", type=FILE, required=True, metavar="FILE.csv", help="File of measured data, as for atlas fit."
+)
 @fit_options
 @report_options("build/pages")
 def of_fit(file: Path, **options: Any) -> int:
@@ -71,7 +73,9 @@ def motion_of(made: Any) -> Any:
     "page",
     cls=ByOptions,
     commands={**COMMANDS, "fit": of_fit},
-    context_settings={"default_map": {name: {"out": "build/pages", "only": PAGE} for name in COMMANDS}},
+    context_settings={
+        "default_map": {"out": "build/pages", **{name: {"out": "build/pages", "only": PAGE} for name in COMMANDS}}
+    },
     epilog=examples(
         "atlas page --ratio 1.3 --field 1 2 --omega2 0.7",
         "atlas page --ratio 1.3 --field 1 2 --omega 0.3 0.7 0.2 --digits 30",
@@ -84,17 +88,19 @@ def motion_of(made: Any) -> Any:
 def command() -> None:
     """Make a page of one object: a body in a field, a motion, a top, or the motion that fits measured data.
 
-    It is atlas report your_body --only card,motion,elsewhere,left-out as one file to mail, NAME.html, beside a PDF:
-    the card, the motion with the proven digits of its quantities, its figures and the nearest closed motions, how to
-    get the same numbers, and what is left out. NAME.md is the report that both are made from, to go on with. Beside a
-    page or PDF that you edited, or of another command, the new one is written, as NAME.new.html, and then the exit
-    status is 2.
+    The page is one file to mail, NAME.html, beside a PDF: a card of numbers, the motion with the proven digits of its
+    quantities, its figures and the nearest closed motions, how to get the same numbers, and the neglected effects. It
+    has the parts card, motion, elsewhere and left-out of atlas report your_body. NAME.md is the report that both are
+    made from, which you may change. A page or PDF that you edited, or that another command made, is kept: the new one
+    is then NAME.new.html, and the exit status is 2.
 
-    With --fit FILE.csv and the options of atlas fit it has the parameters with their errors, what the data do not
-    determine, data, curve and residuals, how far ahead a prediction is good, and the figures of the motion.
+    With --fit FILE.csv and the options of atlas fit the page has the parameters with their errors, the parameters that
+    the data do not determine, data, curve and residuals, the time until which predictions hold, and the figures of the
+    motion.
 
-    COMMAND is that of a family and takes its options; without it, it is the one that the options are of: --omega2 makes
-    an elementary motion, --omega any motion, neither of them the quadric of the body in the field.
+    COMMAND is the command of a family, such as top, with its options. Without COMMAND the options decide: --omega2
+    makes the page of an elementary motion, --omega of any motion, and a body and a field without a start that of their
+    quadric.
     """
 
 

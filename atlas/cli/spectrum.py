@@ -11,10 +11,10 @@ spectrum_options = stack(
     click.option(
         "--spectrum", type=click.Choice(["axis", "rotation", "angular_velocity", "field"]), is_flag=False,
         flag_value="axis", metavar="[axis|rotation|angular_velocity|field]",
-        help="Print frequencies and amplitudes of a Fourier series: of the body's axis (default), the rotation matrix, "
-        "the angular_velocity or the field in the body.",
+        help="Print frequencies and amplitudes of the Fourier series of the body's axis (the default), the rotation "
+        "matrix, the angular velocity or the field in the body.",
     ),
-    numbers("least", "Leave out lines of --spectrum whose amplitude is below this fraction of the root mean square.",
+    numbers("least", "Leave out lines of --spectrum with amplitudes below this fraction of the root mean square.",
             default="1e-3", show_default=True),
 )  # fmt: skip
 

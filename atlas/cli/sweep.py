@@ -26,16 +26,16 @@ NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
 
 FAMILY is {NAMES}; or motion, and the parameters choose the family. `atlas list families` and `atlas list quantities`
-name parameters and quantities. A row takes microseconds, of the family general tens of microseconds, of asymmetric up
+name parameters and quantities. A row takes microseconds; in the family general tens of microseconds, in asymmetric up
 to seconds.
 
 The heading of a CSV file has units, as k [1/time]. A quantity without a value leaves its cell empty, and the column
 missing says why. If inputs have an uncertainty, as 1.50(2), a column NAME_sigma has the standard deviation. A row
 outside the domain, such as a pole, ends the sweep with status 2; the error names the row.
 
-A sweep that was stopped goes on when it is called again: finished parts are kept in the folder OUT.parts. With a folder
-or an address such as s3://bucket/table.parquet (and the package of fsspec for it), the table is a Parquet data set,
-which pandas and Dask read as one table. A file that you edited or made yourself is kept: the new table is then
+A sweep that was stopped continues when it is called again: finished parts are kept in the folder OUT.parts. With a
+folder or an address such as s3://bucket/table.parquet (and the package of fsspec for it), the table is a Parquet data
+set, which pandas and Dask read as one table. A file that you edited or made yourself is kept: the new table is then
 OUT.new.csv, and the exit status is 2.
 """
 
@@ -91,9 +91,13 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         click.option(
             "--digits",
             type=click.IntRange(1, 1000),
-            help="Compute this many certified significant digits; the cells are then text.",
+            help="Compute this many certified significant digits, such as 30; the cells are then text.",
         ),
-        click.option("--rows", type=click.IntRange(1), help="Rows per part; by default, as many as take some seconds."),
+        click.option(
+            "--rows",
+            type=click.IntRange(1),
+            help="Number of rows that are computed as one part; by default, as many as take some seconds.",
+        ),
         jobs_option_of("processes"),
     )
 

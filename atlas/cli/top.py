@@ -27,7 +27,7 @@ top_options: Callable[[F], F] = stack(
             "the field. Needs --charged, --coat or --points. With --heavy, up is along the field, or against it by "
             "--direction.",
             "B2 B3"),
-    numbers("mass", "Mass of the body; goes with --heavy or --shape."),
+    numbers("mass", "Mass of the body, such as 50g; goes with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="Shape of the body instead of --inertia, such as disk; `atlas list "
                  "shapes` names them."),
     size_options,
@@ -37,10 +37,10 @@ top_options: Callable[[F], F] = stack(
             "the body's axis, through the centre of mass; with --heavy through the fixed point.", "J2 J3"),
     click.option("--coat", metavar="NAME", help="Shape over which the charge is spread, with the dimensions of the "
                  "body; needs --charge."),
-    numbers("charge", "Charge spread over the shape of --coat, either sign."),
-    numbers("moment", "Magnetic moment along the axis; goes with --magnetic."),
-    numbers("polarizability", "Magnetic moment per unit field that is induced across and along the axis; goes with "
-            "--magnetic.", "A2 A3"),
+    numbers("charge", "Charge spread over the shape of --coat, such as 5000e, of either sign."),
+    numbers("moment", "Magnetic moment along the axis, in A m^2 or erg/G; goes with --magnetic."),
+    numbers("polarizability", "Induced magnetic moment per unit field across and along the axis, in A m^2/T or erg/G^2; goes "
+            "with --magnetic.", "A2 A3"),
     click.option("--units", type=click.Choice(["si", "gaussian"]), help="Units of --magnetic and its "
                  "options: si (kg, m, C, T), the default, or gaussian (g, cm, statC, G)."),
 )  # fmt: skip

@@ -31,7 +31,9 @@ COLUMNS = (
     epilog=examples("atlas verify 48 71", "atlas verify 48 --script > proof.py", "atlas verify --json"),
 )
 @click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
-@click.option("--record", is_flag=True, help="Save the verdicts of all equations as the record that reports show.")
+@click.option(
+    "--record", is_flag=True, help="Save the verdicts of all equations as the record from which reports are made."
+)
 @click.option("--anew", is_flag=True, help="Run every proof again instead of taking verdicts from the cache.")
 @click.option(
     "--jobs",
@@ -50,9 +52,9 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
     or an equation without a number, by its name in the ledger or its LaTeX label in the paper's source.
 
     A verdict is proved, refuted, undecided, supported (by examples, not proved), or definition. A refuted equation is
-    shown with a counterexample in numbers and a corrected form, which is proved; slips of the pen are graded. For a
-    named equation both sides are printed as polynomials in free parameters. The exit status is 1 if a verdict differs
-    from the recorded one.
+    shown with a counterexample in numbers and a corrected form, which is proved; slips have a grade, such as misprint.
+    For a named equation both sides are printed as polynomials in free parameters. The exit status is 1 if a verdict
+    differs from the recorded one.
 
     --script prints a SymPy program that runs without atlas. Its last line names the equation that is proved or
     refuted; it exits with status 1 if the proof fails.

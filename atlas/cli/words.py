@@ -183,7 +183,7 @@ class Command(click.Command):
         sections: dict[str, list[tuple[str, str]]] = {}
         for param in self.get_params(ctx):
             title = next((title for title, names in SECTIONS.items() if param.name in names), "Options")
-            if record := param.get_help_record(ctx):
+            if (record := param.get_help_record(ctx)) and record[1]:
                 sections.setdefault(title, []).append(record)
         for title in (*SECTIONS, "Options"):
             if title in sections:

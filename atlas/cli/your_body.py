@@ -198,16 +198,16 @@ def request_of(words: Sequence[str]) -> "tuple[Asked, dict[str, Any]]":
 def command() -> None:
     """Build the report of a body, in a field or free, and of its motion from a start.
 
-    The options are those of `atlas motion`: shapes or moments, field, start, units, uncertainties. It has a card of
-    six numbers, also as NAME.card.json, an explorer with sliders, the body, its motion, all its motions, what to
-    measure, and what is left out, with the reason. NAME is your_body with eight characters that stand for the inputs
-    as evaluated. NAME.inputs.toml holds them as typed and as evaluated; --from NAME.inputs.toml builds the same
-    bytes, --from toutatis a body of the gallery. NAME.bib cites the paper and this version.
+    The options are those of `atlas motion`: shapes or moments, field, start, units, uncertainties. The report has a
+    card of six numbers, also as NAME.card.json, an explorer with sliders, the body, its motion, all its motions, the
+    errors of a measurement, and the neglected effects with the reason. NAME is your_body with eight characters, a
+    digest of the inputs. NAME.inputs.toml holds the inputs as typed and as evaluated; --from NAME.inputs.toml builds
+    the same bytes, --from toutatis a body of the gallery. NAME.bib cites the paper and this version.
     --explain says for each figure why it was drawn or taken from the cache, and which of its inputs changed.
 
-    --each FILE.csv builds a report for each row of a table: its columns are options, as radius [um] or charge [e]; a
-    cell of several numbers has spaces between them, an empty one leaves its option out, and options beside --each hold
-    for all rows. index.html lists the cards and sorts by each of their numbers, index.csv has the same numbers. Rows
+    --each FILE.csv builds a report for each row of a table. Its columns are options, as radius [um] or charge [e]; a
+    cell of several numbers has spaces between them, an empty cell leaves its option out, and options beside --each hold
+    for all rows. index.html lists the cards and sorts by each of their numbers; index.csv has the same numbers. Rows
     that fail are listed with the reason, the others are built, and then the exit status is 1.
 
     --against FILE.inputs.toml puts the cards of two bodies side by side, with their differences; nothing is drawn.

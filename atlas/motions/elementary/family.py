@@ -167,7 +167,7 @@ BALL = Family(
     "motions.elementary.{}_ball.BallMotion",
     (
         Parameter("inertia", "Moment of inertia I0.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
-        Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c); either sign.", RATE, (0.5,), (-3.0, 3.0)),
+        Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c); of either sign.", RATE, (0.5,), (-3.0, 3.0)),
         Parameter(
             "momentum", "Initial angular momentum (0, m2, m3); B is along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0),
             columns=("m2", "m3"), metavar="M2 M3",

@@ -58,10 +58,11 @@ FAMILY = Family(
     },
     Command(
         "elliptic",
-        "Compute the paper's motions for three different moments.",
-        "Compute the rotation matrix and angular velocity of the paper's family for any three moments of inertia.\n\n"
+        "Compute elliptic motions of a body with three moments.",
+        "Compute the rotation matrix and angular velocity of an elliptic motion of a body with three moments.\n\n"
         "The angular velocity is Omega = -[1 + v (z II + D)^-1] K at all times. K is the field B' in the body, II the "
-        "tensor of inertia, D = I1 I2 I3, v^2 = (z + D/I1) (z + D/I2) (z + D/I3). The family is not in the paper.",
+        "tensor of inertia, D = I1 I2 I3, v^2 = (z + D/I1) (z + D/I2) (z + D/I3). These motions generalise "
+        "the motions of the paper, which does not have them.",
         (
             "atlas elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7 --times 0 1 1e6",
             "atlas elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z -1.2 --branch -1 --times 1e12 --digits 40",
