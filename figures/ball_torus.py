@@ -61,8 +61,8 @@ def scene(
     phrase = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         caption=(
-            r"Left, $\alpha t$ is the angle the long way round the torus, $\gamma t$ that the short way; the hidden "
-            r"part of a line of few turns is dashed. Right, the path of the ball's point $\mathbf{R}_1$. "
+            r"Left, $\alpha t$ is the long way round, $\gamma t$ the short way; hidden parts of "
+            r"short lines are dashed. Right, the path of $\mathbf{R}_1$. "
             rf"Here $\gamma/\alpha$ is {phrase}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(

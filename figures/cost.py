@@ -10,7 +10,7 @@ from atlas.pictures.captions import listed
 from atlas.pictures.layers import Layer, Plane, Scene
 
 ROW = "a body"
-SEEN = "The more matrices are computed at once, the less time each takes."
+SEEN = "More matrices at once take less time each."
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
 MIN_COUNT = 10_000
@@ -25,8 +25,8 @@ def scene(*, columns: int = 1) -> Scene:
     record = benchmark.read()
     return Scene(
         caption=(
-            "(a) Time for one of $N$ matrices of the elementary motion, on one core. (b) This time divided by the time "
-            "in which one core fills the memory of a matrix with a constant, on one core and, with open dots, on two. "
+            "(a) One of $N$ matrices of the elementary motion, on one core. (b) This time over the time in which "
+            "one core fills that memory, on one core and, open dots, on two. "
             f"{benchmark.measured(record)}"
         ),
         alt=(

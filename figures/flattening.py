@@ -14,7 +14,7 @@ from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
 
 ROW = "three moments"
-SEEN = "With three different moments no two loops of the axis are alike."
+SEEN = "With three different moments no two loops are alike."
 SIZE, COLUMNS = 56.0, 3
 STEPS = 40
 """Points of a trace for each radian of the fastest of the rates at the start."""
@@ -58,10 +58,10 @@ def scene(
     columns = min(COLUMNS, len(panels))
     return Scene(
         caption=(
-            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ in the titles, all launched "
+            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ in the titles, launched "
             rf"with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ (1/{unit}), $\mathbf{{B}}$ upright, up to $t={tex(stop)}$. "
-            rf"Dashed: the parallels between which the trace stays.{special(first, ratio)}"
+            rf"Dashed: the parallels that bound the trace.{special(first, ratio)}"
         ),
         alt=(
             f"Unit spheres with the trace of an axis for I1 = {listed([plain(I1) for I1 in first])}, all launched with "

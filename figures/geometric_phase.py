@@ -17,7 +17,7 @@ from atlas.pictures.captions import plain, tex, tex_vector
 from atlas.pictures.quadric_panel import O, tolerance
 
 ROW = "three moments"
-SEEN = "Part of the turn about the field is an area on the sphere."
+SEEN = "Part of the turn about the field is an area."
 WIDTH, HEIGHT = 178.0, 76.0
 POINTS = 256
 """Points of K in a period, for means: they converge faster than any power."""
@@ -54,7 +54,7 @@ def scene(
             rf"(a) $\hat{{\mathbf{{K}}}}$ in a body with $I_i={tex_vector(inertia)}$, "
             rf"$\mathbf{{B}}'={tex_vector(field)}$, goes once round the hatched area $S$ in one period of the elliptic "
             rf"motion $z={tex(shown)}$. The body turns about the field by ${round(turn, 3):g}$ of a turn: "
-            rf"the dynamic part ${round(dynamic, 3):g}$ and the geometric part ${round(-area, 3):g}=-S/2\pi$. (b) The "
+            rf"dynamic part ${round(dynamic, 3):g}$, geometric part ${round(-area, 3):g}=-S/2\pi$. (b) The "
             "same for all $z$; dots: this motion."
         ),
         alt=(

@@ -81,9 +81,9 @@ def scene(
         panels.append(Plane(tuple(layers), r"$I=I_3/I_2$", y_label, (0.0, 2.0), (0.0, RIGHT), title=name))
     return Scene(
         caption=(
-            r"Each quadric (51) is one point, up to its size: $\beta$ is the angle "
-            r"of $\mathbb{I}^{-1}\mathbf{B}'$ to $\mathbf{e}_2$. At the lower edge the quadric is a pair of planes, "
-            r"at the upper edge a line. Lines: levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$, "
+            r"Each quadric (51) is one point, up to size: $\beta$ is the angle "
+            r"of $\mathbb{I}^{-1}\mathbf{B}'$ to $\mathbf{e}_2$. At the lower edge are pairs of planes, "
+            r"at the upper edge lines. Lines: levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$, "
             + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])
             + "."
         ),

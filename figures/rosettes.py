@@ -55,8 +55,8 @@ def scene(
     spoken = listed([f"{p}/{q}" for p, q in fractions])
     return Scene(
         caption=(
-            rf"$\phi/k$ is {named}, repeated after "
-            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, or the "
+            rf"$\phi/k$ is {named}, back after "
+            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of precession, or the "
             rf"golden mean, {plain(turns)} turns from $\omega_2={tex(never.omega2)}$. Seen along "
             r"$\mathbf{B}$: the body's axis (navy) and a point 40 degrees off (teal), for "
             rf"{tex_setting(ratio, field)}."

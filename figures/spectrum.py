@@ -15,7 +15,7 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
 
 ROW = "its axis"
-SEEN = "All lines lie at sums of integer multiples of two frequencies."
+SEEN = "Lines lie at sums of multiples of two frequencies."
 WIDTH, HEIGHT = 120.0, 110.0
 BESIDE = 0.1
 """Part of the width between names that are both written."""
@@ -50,7 +50,7 @@ def scene(
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {rate_words}. (a) Of the axis, along the field and across "
             "it. "
             r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are norms of "
-            r"complex amplitudes, for one sign of a frequency, divided by the root mean square."
+            r"complex amplitudes, for one sign of a frequency, over the root mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "

@@ -74,7 +74,7 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Dashed: the path of the guiding centre. "
+            r"The path of the guiding centre is dashed. "
             rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
             rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "
             r"along $[\mathbf{E},\mathbf{B}]$. The drift is "

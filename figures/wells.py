@@ -45,7 +45,7 @@ def scene(
         caption=(
             r"Each point $(a,A)$ is a top, at the momenta $p$ and $M_3$. On a thin line the axis "
             r"can precess steadily at the cosine $\nu_0$ of its label; a top with two wells lies on three "
-            r"such lines. The border is their envelope, where $\nu_0$ is a triple root."
+            r"lines. The border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(
             f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve "

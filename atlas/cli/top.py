@@ -39,8 +39,8 @@ top_options: Callable[[F], F] = stack(
                  "body; needs --charge."),
     numbers("charge", "Charge spread over the shape of --coat, such as 5000e, of either sign."),
     numbers("moment", "Magnetic moment along the axis, in A m^2 or erg/G; goes with --magnetic."),
-    numbers("polarizability", "Induced magnetic moment per unit field across and along the axis, in A m^2/T or erg/G^2; "
-            "goes with --magnetic.", "A2 A3"),
+    numbers("polarizability", "Induced magnetic moment per unit field across and along the axis, in A m^2/T or erg/G^2;"
+            " goes with --magnetic.", "A2 A3"),
     click.option("--units", type=click.Choice(["si", "gaussian"]), help="Units of --magnetic and its "
                  "options: si (kg, m, C, T), the default, or gaussian (g, cm, statC, G)."),
 )  # fmt: skip

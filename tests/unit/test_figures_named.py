@@ -42,8 +42,8 @@ def pixels(figure: Figure) -> np.ndarray:
 
 
 SAYING = re.compile(
-    r"\b(is|are|means|has|have|goes|go|keeps?|runs?|winds?|leaves?|comes?|departs?|moves?|turns?|rolls|swings|grows?|cuts|pay|"
-    r"tips|touches|parts|draws|decides?|begins|loses|exist|form|take|differ|lead|lie|need|nutates|do(es)? not|wind|"
+    r"\b(is|are|means|has|have|goes|go|keeps?|runs?|winds?|leaves?|comes?|departs?|moves?|turns?|rolls|circles|grows?|cuts|follow|"
+    r"tips|touches|splits|draws|decides?|begins|loses|exist|form|take|differ|lead|lie|need|nutates|do(es)? not|wind|"
     r"stays?|rest|nods|depends|stands)\b"
 )
 
