@@ -198,9 +198,10 @@ class Document:
         return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
     def numbered(self, name: str) -> str:
-        """Return an equation's number.
+        """Return an equation's number as cited.
 
-        One without a number in the paper gets the next of this report, such as "(3)" or "(A3)".
+        An equation without one in the paper gets the next number of this report, in brackets, behind an A if the report
+        displays the paper's equations.
         """
         if not name.startswith("("):
             number = len(self.equations) - len(THEOREMS) + 1

@@ -17,7 +17,7 @@ NEAR_BALL = 0.01
 
 
 def stands(ratio: float) -> str:
-    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" (below 0.1) to "as flat as ..." (2)."""
+    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" below 0.1 to "a disk or loop" at 2."""
     if ratio == 1.0:
         return "a ball: every axis is like every other"
     if ratio == 2.0:
