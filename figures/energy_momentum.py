@@ -120,7 +120,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     if not len(inside):
         raise DomainError(
             f"figure energy_momentum: with M3 = {M3:g} and b = {b:g} no steady precession at I = {I:g} has |p| below "
-            f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
+            f"{reach * scale:g}; give a larger reach, or an M3 nearer to {scale:g}."
         )
     spins = [(p, g + shift, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
     inside = np.array([*inside, *(spin[:2] for spin in spins)])

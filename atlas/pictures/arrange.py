@@ -60,7 +60,7 @@ def arranged(scene: Scene, target: Target) -> Scene:
 def _reduced(scene: Scene) -> Scene:
     """Return a scene without its `spare` panels, the others in one row, each with all its labels.
 
-    The caption says so.
+    The caption names the panels left out.
     """
     remaining = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
     cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)

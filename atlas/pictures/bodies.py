@@ -45,7 +45,7 @@ def drawn_body(
 
     ``centre`` (3,) is its centre of mass, ``size`` the distance of its farthest point from there; ``tolerance`` as
     for `atlas.pictures.sample.curve`. It is a cylindrical shell with ``lids`` of that role and a painted seam along
-    R_1, the first column, which is the last layer; for I = 2 a disk with a radius along R_1.
+    the first column, R_1; the seam is the last layer. For I = 2 it is a disk with a radius along R_1.
     """
     R1, R2, axis = np.asarray(attitude).T
     radius, height = (size * length for length in proportions(I))
