@@ -47,7 +47,8 @@ class Heading:
     """Columns of a table by canonical name: indices, names in the file, and factors to s and rad/s.
 
     `places` has the indices of the columns from 0, `written` the names in the file, `sizes` the factors (1 without
-    a unit), `units` the units as written, "" without one.
+    a unit), `units` the units as written, "" without one. `left_out` is a sentence on columns that are not used, ""
+    without any.
     """
 
     places: Mapping[str, int]

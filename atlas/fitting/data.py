@@ -70,7 +70,8 @@ class Data:
     """Data `values` (N, ...) of one `kind` at times `t` (N,), ascending, with standard errors `sigma` (N, 1).
 
     `kind` is a key of `KINDS`, but never "quaternion", or "signal", of which `function` maps rotations (M, 3, 3) to
-    values (M,) or (M, k). Standard errors of rotations and axes are in rad, else in the unit of the values.
+    values (M,) or (M, k). Standard errors of rotations and axes are in rad, else in the unit of the values; `known`
+    tells whether they were given. `notes` are sentences on rows and columns that were left out.
     """
 
     kind: str

@@ -35,9 +35,10 @@ HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, 
 class Flow:
     """S motions from their states at t = 0, integrated together by Taylor series.
 
-    `moments` (in units of I2), `coupling` (in units of I2; the moments themselves for a body in a field), `field`
-    in the laboratory (1/time; the unit vector n for a top) and `omega` in the body (rad/time) have the shape (S,
-    3), `attitude` R(0) (S, 3, 3); `error` is the allowed last term of the series of an entry of R in a step.
+    `moments` (in units of I2), `coupling` k (in units of I2 for a body, where it is `moments`; over I2, in 1/time, for
+    a top), `field` in the laboratory (1/time; the unit vector n for a top) and `omega` in the body (rad/time) have the
+    shape (S, 3), `attitude` R(0) (S, 3, 3). `potential` (S, 2) has the coefficients linear and quadratic over I2, in
+    1/time^2; `error` is the allowed last term of the series of an entry of R in a step.
     """
 
     moments: FloatArray

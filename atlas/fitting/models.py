@@ -35,7 +35,7 @@ def vector(p: Values, names: Sequence[str]) -> FloatArray:
 def attitude(p: Values) -> FloatArray:
     """Return the rotation matrix R (3, 3) at t = 0, from the rotation vector (a1, a2, a3) in rad.
 
-    A missing one is 0.
+    A missing component is 0.
     """
     return np.asarray(Rotation.from_rotvec(vector(p, ATTITUDE)).as_matrix())
 
@@ -159,7 +159,10 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
 class Model:
     """A family in a fit: its parameters' `names`, the function `make` from values by name to a motion.
 
-    `name` is the family's name; `fixed` are the values by name at which parameters are held by default.
+    `name` is the family's name; `fixed` are the values by name at which parameters are held by default. `exact` tells
+    whether `Motion.sensitivity` gives all derivatives, `slow` whether an integration is faster than the closed form;
+    `start`, or None, maps values to the derivatives (3,) of the initial Omega by name; `wider` are the names of
+    families that contain this one.
     """
 
     name: str

@@ -45,7 +45,8 @@ class Problem:
 
     Made from the family `model`, the `data`, all parameters `params`, the name `loss` of a loss function, a typical
     `rate` in rad/time, and the user's start values `given` by name. `units` are the natural units of the parameters
-    by name, `units_of_free` (n,) those of the varied ones.
+    by name, `units_of_free` (n,) those of the varied ones. `followed` tells whether motions are integrated,
+    `together` whether they are sought many at once.
     """
 
     def __init__(
