@@ -34,7 +34,7 @@ _KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
 
 
 def _entries() -> Iterator[tuple[str, Equation]]:
-    """Yield (topic, entry) in the paper's order; a line break in the file is a space in the text."""
+    """Yield pairs (stem of the ledger file, `Equation`) in the paper's order; line breaks in the file become spaces."""
     for section, topics in _SECTIONS.items():
         for stem in topics:
             file = Path(__file__).with_name(f"{stem}.toml")
@@ -66,9 +66,10 @@ _NUMBERS = [entry.number for entry in EQUATIONS.values() if entry.number is not 
 
 
 def find(word: str) -> tuple[Equation, ...]:
-    """Return the entries that a user means by 72, (72), A5, a name, or a LaTeX label of the paper's source.
+    """Return a tuple of the ledger's entries that a word means: 72, (72), A5, a name, or a LaTeX label of the source.
 
-    One entry, or two of a label that stands twice in the source. AtlasError with the nearest name if none is meant.
+    A5 is the fifth equation of the appendix, (93). The tuple has one `Equation`, or two for a label that stands
+    twice in the paper's source. Raises AtlasError with the nearest number or name if nothing is meant.
     """
     number = slug(word)
     if number[:1] == "A" and number[1:].isdecimal() and f"({APPENDIX + int(number[1:4])})" in EQUATIONS:
@@ -85,7 +86,10 @@ def find(word: str) -> tuple[Equation, ...]:
 
 
 def equation(word: str) -> Equation:
-    """Return the one entry that `find` gives. Raises AtlasError if there is none, or two have the same label."""
+    """Return the one `Equation` that a word means, read as by `find`.
+
+    Raises AtlasError if there is none, or if two have this label.
+    """
     entries = find(word)
     if len(entries) > 1:
         raise AtlasError(f"{word} is the label of {' and of '.join(entry.name for entry in entries)}: say which.")
@@ -93,8 +97,8 @@ def equation(word: str) -> Equation:
 
 
 def topic(name: str) -> str:
-    """Return the topic of an equation, the stem of its ledger file and of its file of proofs.
+    """Return the topic of an equation, such as "quadric": the stem of its ledger file and of its file of proofs.
 
-    Raises AtlasError as `equation`.
+    ``name`` is any word that `equation` takes; raises AtlasError as `equation` does.
     """
     return _TOPICS[equation(name).name]

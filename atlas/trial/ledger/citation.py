@@ -11,7 +11,7 @@ _CITED = re.compile(r"\$[^$]*\$|`[^`\n]*`|(?<![\w@)\]}'-])(\(\d{1,3}\)|(?:text|t
 
 
 def cited(text: str) -> list[str]:
-    """Return the distinct names that a text cites, in their order: "(72)", "theorem-pair"."""
+    """Return a list of the distinct names that a text cites, by first appearance: ["(72)", "theorem-pair"]."""
     return list(dict.fromkeys(name for name in _CITED.findall(text) if name))
 
 

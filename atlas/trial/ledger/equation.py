@@ -31,18 +31,19 @@ class Equation:
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
     assumptions  its conditions, each in a few words; in its file also the name of one of `ASSUMPTIONS` or of the
                  table `assumptions` there
-    outside      one clause of the assumptions and a false domain, in which nothing may be proved; or empty
+    outside      (words of an assumption, false words in their place), which give a domain in which nothing may be
+                 proved; or empty
     quote        the words of the paper that make the claim, where the paper has no formula
     follows      premises of its proof, in a few words
     grade        kind of slip, if the entry needs an erratum: it is refuted, or true but incomplete
-    slip         entry under which the slip is counted, if it is the same one; its grade then is this one's, too
+    slip         name of the entry under which the slip is counted, if two entries share one; both have its grade
     corrected_tex  the true form where there is a slip, in which `\boxed` marks the changes
     note         meaning of the verdict, where a word is needed
     false        a false sentence near the entry, which the trial must refute; a claim in words must have one,
                  unless the claim is refuted
     kind         definition, derivation step (follows from earlier equations), claim (a result), theorem (ours);
-                 where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
-                 claim
+                 where an entry doesn't say it, the name decides: with a number it is a derivation step, `text-...` a
+                 claim, `theorem-...` a theorem
     section      II to V, VII (the appendix, numbered as a section), or Atlas for a theorem beyond the
                  paper: that of its file, as `atlas.trial.ledger` has it
     """

@@ -15,13 +15,13 @@ _MISSING = {"ne": "≠", "bot": "⊥", "iff": " ⇔ ", "implies": " ⇒ ", "det"
 
 
 def plain(markdown: str) -> str:
-    """Return a text of the ledger or of the trial in plain Unicode, for a terminal."""
+    """Return a text of the ledger or of the trial for a terminal: TeX as Unicode, citations without their @."""
     converter, macros = _converter()
     return _CITATION.sub("", converter.latex_to_text(markdown, latex_context=macros))
 
 
 def words(markdown: str) -> str:
-    """Return a text without markup, on one line; powers stand behind a circumflex, with a hyphen for minus."""
+    """Return a Markdown text on one line, without TeX, backquotes and bold marks; the power a^−2^ becomes a^-2."""
     powers = re.sub(r"\^([\u2212-]?\d+)\^", lambda power: "^" + power[1].replace("\u2212", "-"), markdown)
     text = plain(powers.replace("`", "").replace("**", ""))
     return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
@@ -33,7 +33,10 @@ def printable(text: str) -> str:
 
 
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, align_left: bool = False) -> str:
-    """Return a table as text: heading, rule and rows, cells aligned to the right unless ``align_left``."""
+    """Return a table as text: heading, rule and rows, cells aligned to the right unless ``align_left``.
+
+    Each row has as many cells as the heading; raises ValueError otherwise.
+    """
     widths = [max(map(len, column)) for column in zip(heading, *rows, strict=True)]
     lines = [
         " "
@@ -47,7 +50,7 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, align_left: 
 
 
 def html_table(title: str, heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table with caption and heading as HTML, its texts escaped."""
+    """Return an HTML table with ``title`` as its caption, a row of headings and rows of cells; texts are escaped."""
     lines = [("th", heading), *(("td", row) for row in rows)]
     cells = ("".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in row) for tag, row in lines)
     return f"<table><caption>{escape(title)}</caption>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
@@ -55,7 +58,7 @@ def html_table(title: str, heading: Sequence[str], rows: Sequence[Sequence[str]]
 
 @cache
 def _converter() -> "tuple[LatexNodes2Text, Any]":
-    """Return (pylatexenc's converter to text, the macros that its parser knows); cached."""
+    """Return (pylatexenc's converter from TeX to text, its database of macros for the parser); made once."""
     from pylatexenc import latex2text, latexwalker, macrospec
 
     texts, macros = latex2text.get_default_latex_context_db(), latexwalker.get_default_latex_context_db()

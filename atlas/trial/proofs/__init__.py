@@ -21,7 +21,10 @@ _LAZY = {"verify": "run", "try_one": "run", "script_of": "script", "sides_of": "
 
 
 def __getattr__(name: str) -> Any:
-    """Load a module that needs SymPy when it is first used."""
+    """Return `verify`, `try_one`, `script_of` or `sides_of`; its module, which needs SymPy, is loaded at first use.
+
+    Raises AttributeError for any other name.
+    """
     if name not in _LAZY:
         raise AttributeError(f"module 'atlas.trial.proofs' has no attribute {name!r}")
     return getattr(import_module(f"atlas.trial.proofs.{_LAZY[name]}"), name)

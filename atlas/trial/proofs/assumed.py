@@ -28,11 +28,13 @@ _CLAUSE = re.compile(r"\$([^$]+)\$(?: (differs? from|is) (0|\d|\$[^$]+\$))?(?: \
 
 @dataclass(frozen=True)
 class Read:
-    """Clauses of an entry's assumptions by how they compare with its models.
+    """Clauses of an entry's assumptions, sorted by how they compare with the models of its trial.
 
-    satisfied and broken are relations in plain letters, true and false in the models; unread are clauses as worded;
-    special are triples (number of the model, symbol, value).
-    A special case gives a number to a symbol that is free in the model, so that the claim must have a value there.
+    satisfied   relations in plain letters that are true in the models
+    broken      relations that are false in a model, or domains that the points of the models do not come near
+    unread      clauses, as worded in the ledger, that are not read as a relation
+    special     triples (index of the model, symbol, number): relations that give a number to a symbol which is free in
+                the model, so that the claim must have a value there
     """
 
     satisfied: tuple[str, ...]
@@ -42,9 +44,10 @@ class Read:
 
 
 def formulas(words: str) -> Iterator[tuple[str, str]]:
-    r"""Yield pairs (clause, its formula in TeX) of an assumption; the formula is "" where none is read.
+    r"""Yield pairs (clause, its formula in TeX) for the clauses of an assumption; the formula is "" where none is read.
 
-    "$a$ is $b$" becomes a=b, "$a$ differs from $b$" a \ne b.
+    ``words`` is the assumption's text; clauses are separated by commas, semicolons or colons. "$a$ is $b$" becomes a=b,
+    "$a$ differs from $b$" a \ne b.
     """
     for clause in re.split(r"[,;:] (?=(?:[^$]*\$[^$]*\$)*[^$]*$)", words):
         match = _CLAUSE.fullmatch(clause)
@@ -59,9 +62,10 @@ def formulas(words: str) -> Iterator[tuple[str, str]]:
 def compare(
     assumptions: Sequence[str], signs: Mapping[str, str], models: Sequence[Model], excluded: Sequence[str]
 ) -> Read:
-    """Sort the clauses of assumptions by whether they hold in the models; see `Read`.
+    """Sort the clauses of an entry's assumptions by whether they hold in the models of its trial; see `Read`.
 
-    Clauses in ``excluded`` count as unread: their letters have another meaning in the models.
+    ``assumptions`` are the entry's texts, ``signs`` maps TeX of a letter to its plain letter. Clauses in ``excluded``
+    count as unread: their letters have another meaning in the models.
     """
     satisfied, broken, unread = list[str](), list[str](), list[str]()
     special = list[tuple[int, Any, Any]]()
@@ -89,9 +93,9 @@ def compare(
 
 
 def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence[Model]) -> dict[str, float]:
-    """Return by text of a relation the smallest distance of points of any model from the end of its domain.
+    """Return by text of a relation the smallest distance, see `_distances`, of any model's points from its limit.
 
-    Inf without points.
+    ``domains`` maps the index of a model to its triples of `_sides`. Inf where no point obeys the relations.
     """
     nearest: dict[str, float] = {}
     for number, rows in domains.items():
@@ -101,10 +105,11 @@ def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence
 
 
 def _relations(formula: str, signs: Mapping[str, str], model: Model) -> list[Relation]:
-    """Return the relations of a formula in a model; [] where it is not read or has letters unknown there.
+    """Return the relations of a TeX formula in a model; [] where it is not read or has letters unknown there.
 
-    Left out are relations with a letter whose symbol bears the name of another letter, as J1 is J2 in a symmetric top,
-    since one can replace the other unnoticed. That two letters are equal is kept.
+    ``signs`` maps TeX of a letter to its plain letter. Left out are relations with a letter whose symbol bears the
+    name of another letter, as J1 is J2 in a symmetric top, since one can replace the other unnoticed. That two
+    letters are equal is kept.
     """
     symbols = {str(s): s for v in model.letters.values() for s in getattr(v, "free_symbols", ())}
     letters = symbols | model.letters
@@ -128,28 +133,31 @@ def _is_letter(value: Any, model: Model) -> bool:
 
 
 def _says_nothing(relation: Relation) -> bool:
-    """Whether both sides of a relation are the same expression as typed, and equal or not less than each other."""
+    """Whether a relation =, <= or >= has the same expression as typed on both sides, so that it holds always."""
     tree = parse(relation.text)[0]
     return relation.sign in {"=", "<=", ">="} and ast.dump(tree.left) == ast.dump(tree.comparators[0])
 
 
 def _gives_number(relation: Relation, bindings: Mapping[Any, Any]) -> bool:
-    """Whether an equation gives a number to its one letter, which is a free symbol of the model."""
+    """Whether a relation gives a number to its one letter, a symbol of the model that ``bindings`` do not determine."""
     symbol, value = relation.lhs[0], sympy.sympify(relation.rhs[0])
     is_free = isinstance(symbol, sympy.Symbol) and symbol not in bindings
     return is_free and len(relation.letters) == len(relation.lhs) == 1 and bool(value.is_number)
 
 
 def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
-    """Whether both sides of a relation are identical in free parameters."""
+    """Whether left - right of a relation vanishes identically in all components, with ``bindings`` inserted.
+
+    ``bindings`` map symbols to values in free parameters.
+    """
     pairs = zip(relation.lhs, relation.rhs, strict=True)
     return all(vanishes(sympy.sympify(a) - sympy.sympify(b), bindings) for a, b in pairs)
 
 
 def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
-    """Yield (text, difference, scale) for each component: the difference is positive where the relation holds.
+    """Yield (text, difference, scale) for each component of an inequality: the difference is positive where it holds.
 
-    The scale is 1 + |left| + |right|. Both are expressions in free parameters.
+    The scale is 1 + |left| + |right|. Both are SymPy expressions in the model's free parameters.
     """
     bindings, sense = resolved(model.bindings), 1 if relation.sign in {">", ">="} else -1
     for a, b in zip(map(sympy.sympify, relation.lhs), map(sympy.sympify, relation.rhs), strict=True):
@@ -157,9 +165,9 @@ def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple[str, float]]:
-    """Yield (text, distance) for each relation: the smallest difference/scale of `POINTS` random points, dimensionless.
+    """Yield (text, distance) for each row: the smallest difference/scale among `POINTS` random points, dimensionless.
 
-    Only points that obey all relations count; the distance is inf if there is none.
+    ``rows`` are triples of `_sides`. Only points that obey all of them count; the distance is inf if there is none.
     """
     symbols = sorted(set().union(*(x.free_symbols for _, *terms in rows for x in terms)), key=str)
     chance, columns = np.random.default_rng(1), []

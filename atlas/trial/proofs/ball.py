@@ -28,7 +28,11 @@ AXIS = [(k2, turn(h)[1]), (k3, turn(h)[0])]
 
 
 def kinematic_model() -> Model:
-    """Return the model of three masses on the principal axes of a body that rotates by R, with angular momentum m."""
+    """Return the model of three masses on the principal axes of a body that rotates by R, for text-momentum.
+
+    Letters: m the angular momentum (3, 1) as a sum over the masses, I the inertia tensor, omega = R Omega; by index
+    `mass`, `x` (places in space), `g` (moments of mass) and `column` (of R).
+    """
     masses = sympy.symbols("m1:4", positive=True)
     places = [sympy.diag(*sympy.symbols("x1:4", real=True)).col(n) for n in range(3)]
     g = sum((m * x * x.T for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 3))
@@ -42,7 +46,7 @@ def kinematic_model() -> Model:
 
 
 def uniform_ball_model() -> Model:
-    """Return the model of the moments of inertia of a uniform ball of radius r and mass M, each by its own integral."""
+    """Return the model of a uniform ball of radius r and mass M for (19): I1, I2, I3 by integrals, I0 = 2 M r^2/5."""
     r, s, u, w, mass = sympy.symbols("r s u w M", positive=True)
     x, y, z = s * sympy.sqrt(1 - u**2) * sympy.cos(w), s * sympy.sqrt(1 - u**2) * sympy.sin(w), s * u
     density = mass / (sympy.Rational(4, 3) * sympy.pi * r**3)
@@ -55,7 +59,10 @@ def uniform_ball_model() -> Model:
 
 
 def ball_model() -> Model:
-    """Return the model of a ball in the field B: R by (12), Omega by (16) with I = I0 and g = I0/2; m = I0 R Omega."""
+    """Return the model of a ball in the field B, for (21) to (25): R by (12), Omega by (16), m = I0 R Omega.
+
+    The tensors in (16) are I = I0 and g = I0/2. Letters also: B as `Bf`, mu and c, and the columns of R.
+    """
     tensor = I0 * sympy.eye(3)
     rate = general.euler(tensor, tensor / 2, R.T * Bf) / I0
     columns = {n + 1: R.col(n) for n in range(3)}
@@ -66,9 +73,9 @@ def ball_model() -> Model:
 
 
 def larmor_model() -> Model:
-    """Return the model of m's precession in B = (0, 0, b), alpha = mu b/(2c), with alpha t as a phase.
+    """Return the model of the precession (26) of m in B = (0, 0, b), with alpha = mu b/(2c) and alpha t as a phase.
 
-    `about_B` is the rotation about e3 as a function of the angle.
+    `about_B` is a function from an angle to the rotation matrix about e3. m itself is defined by the line.
     """
     b = sympy.Symbol("b", positive=True)
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
@@ -79,9 +86,9 @@ def larmor_model() -> Model:
 
 
 def larmor_frequency_model() -> Model:
-    """Return the model whose alpha is the clockwise angular velocity of m about B by (22), in rad/time.
+    """Return the model of (27) whose alpha is the clockwise angular velocity of m about B by (22), in rad/time.
 
-    It is -(m x dm/dt)_3/(m1^2 + m2^2), for B = (0, 0, b) and any m.
+    alpha is computed as -(m x dm/dt)_3/(m1^2 + m2^2), for B = (0, 0, b) and any m.
     """
     m, b = vector("m"), sympy.Symbol("b", positive=True)
     field = sympy.Matrix([0, 0, b])
@@ -99,15 +106,18 @@ def _motion(spin: Value, bindings: list[tuple[Value, Value]]) -> Model:
 
 
 def motion_model() -> Model:
-    """Return the model of the angular momentum (26), m2 and m3 expressed by gamma, k2 and k3 through (29)."""
+    """Return the model of the ball's angular momentum (26), with m2 and m3 in gamma, k2 and k3 through (29); for (28).
+
+    k = (0, k2, k3) is the unit axis of the second rotation, gamma its rate; alpha t and gamma t are phases.
+    """
     spin = sympy.Matrix([m2 * sa, m2 * ca, m3])
     return _motion(spin, [*ANGLES, (m2, -gamma * I0 * k2), (m3, -gamma * I0 * k3 - alpha * I0), *AXIS])
 
 
 def start_model() -> Model:
-    """Return the model whose m2, m3 are the angular momentum of the ansatz (28) at t = 0.
+    """Return the model of text-ball-ansatz: m2, m3 are the angular momentum of the ansatz (28) at t = 0.
 
-    It is I0 times the axial vector of dR/dt.
+    This momentum is I0 times the axial vector of dR/dt.
     """
     attitude = rodrigues(E3, ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
     model = _motion(sympy.zeros(3, 1), [])
@@ -116,7 +126,7 @@ def start_model() -> Model:
 
 
 def constants_model() -> tuple[Model, Model]:
-    """Return two models that hold all initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and s = 0."""
+    """Return two models that hold all initial data of (29): m2, m3 + alpha I0 = s (sin, cos) with s > 0, and s = 0."""
     vocabulary = {"alpha": alpha, "I0": I0}
     anywhere = {**vocabulary, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
     remainder = {**vocabulary, "m2": sympy.Integer(0), "m3": -alpha * I0}
@@ -124,7 +134,7 @@ def constants_model() -> tuple[Model, Model]:
 
 
 def true_constants_model() -> tuple[Model, Model]:
-    """Return `constants_model` with k2, k3 and gamma of the corrected (29).
+    """Return the two models of `constants_model` with k2, k3 (unit axis) and gamma (rate) of the corrected (29).
 
     For s = 0 gamma is 0 and k any unit vector.
     """
@@ -137,14 +147,17 @@ def true_constants_model() -> tuple[Model, Model]:
 
 
 def parallel_model(sign: int = 1) -> Model:
-    """Return the model with m2 = 0 and m3 + alpha I0 = ``sign`` s, s > 0; the axis k is -``sign`` e3, gamma = s/I0."""
+    """Return the model of text-ball-parallel: m2 = 0 and m3 + alpha I0 = ``sign`` s with s > 0.
+
+    The axis k is -``sign`` e3, and gamma = s/I0; ``sign`` is 1 or -1.
+    """
     vocabulary = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
     letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **vocabulary}
     return Model(letters, domains=UPRIGHT)
 
 
 def parallel_motion_model() -> Model:
-    """Return the model with m(0) = (0, 0, m3), which stays; the phase is m3 t/I0."""
+    """Return the model of (30): the constant momentum m = (0, 0, m3) and the phase m3 t/I0; the line defines R."""
     angle = m3 * t / I0
     flow = {cg: -m3 / I0 * sg, sg: m3 / I0 * cg}
     letters = {"m3": m3, "I0": I0, "t": t, "m": sympy.Matrix([0, 0, m3])}
@@ -152,7 +165,7 @@ def parallel_motion_model() -> Model:
 
 
 def _with_rotation(line: str) -> str:
-    """Return the line "m = M m0; M = about_B(-alpha t)" for the line m = M m0: M itself is checked too.
+    """Return the line "m = M m0; M = about_B(-alpha t)" for the line m = M m0 of (26), so that M itself is checked too.
 
     The first component of m0 is zero, so that m alone would leave the first column of M unchecked.
     """
@@ -164,7 +177,7 @@ LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 
 def round_model() -> Model:
-    """Return `kinematic_model` with equal moments of mass: the inertia tensor is I0 times the unit matrix."""
+    """Return `kinematic_model` with equal moments of mass for text-ball-axis: the inertia tensor is I0 times 1."""
     basis = kinematic_model()
     moment = sympy.Symbol("G", positive=True)
     masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", real=True)
@@ -173,7 +186,10 @@ def round_model() -> Model:
 
 
 def body_flow_model() -> Model:
-    """Return the model of any Omega and K with the rates (21) and (35); the field is B = (2c/mu) R K."""
+    """Return the model of any Omega and K with the rates (21) and (35), for text-ball-body-precession.
+
+    K is the field in the body's axes: B = (2c/mu) R K.
+    """
     K = vector("K")
     flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
     letters = {"Omega": Omega, "K": K, "R": R, "Bf": 2 * c / mu * R * K, "mu": mu, "c": c}
@@ -181,7 +197,7 @@ def body_flow_model() -> Model:
 
 
 def any_momentum_model() -> Model:
-    """Return the model of any vector m with any rate, and R by (12) with Omega = R^T m/I0."""
+    """Return the model of any vector m with any rate, and R by (12) with Omega = R^T m/I0; for text-ball-equivalent."""
     m, rate = vector("m"), vector("w")
     spin = R.T * m / I0
     letters = {"Omega": spin, "m": m, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
@@ -190,20 +206,26 @@ def any_momentum_model() -> Model:
 
 
 def along_model() -> Model:
-    """Return the model of R of text-ball-parallel, two rotations about e3, with m3 = I0 (gamma - alpha)."""
+    """Return the model of (30) beside text-ball-parallel: R two rotations about e3, by -alpha t and gamma t.
+
+    The momentum along the field is m3 = I0 (gamma - alpha).
+    """
     letters = {"t": t, "m3": I0 * (gamma - alpha), "I0": I0}
     letters["R"] = rodrigues(E3, ca, -sa) * rodrigues(-E3, cg, -sg)
     return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)})
 
 
 def frame_model() -> Model:
-    """Return the model of any rotation R of the laboratory's axes, I0, and the tensor J = diag(I2, I2, I3)."""
+    """Return the model of any rotation R of the laboratory's axes, I0 and J = diag(I2, I2, I3), for text-ball-frame."""
     I2, I3 = sympy.symbols("I2 I3", positive=True)
     return Model({"R": R, "I0": I0, "J": sympy.diag(I2, I2, I3)}, ROTATION)
 
 
 def orthogonal_model(sign: int = 1) -> Model:
-    """Return the model of any vector m and the orthogonal matrices of determinant ``sign``, 1 or -1."""
+    """Return the model of any vector m and the orthogonal matrices R with determinant ``sign``, 1 or -1.
+
+    It serves text-linear-poisson.
+    """
     letters = {"R": sign * R, "m": vector("m"), "I0": I0, "det": lambda matrix: matrix.det(method="berkowitz")}
     return Model(letters, ROTATION)
 

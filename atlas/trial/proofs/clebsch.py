@@ -22,12 +22,15 @@ AXES = sympy.diag(*MOMENTS)
 
 
 def determinant(tensor: Value) -> Value:
-    """Return the determinant of a matrix, computed without division."""
+    """Return the determinant of a SymPy matrix ``tensor``, by Berkowitz's method without division."""
     return tensor.det(method="berkowitz")
 
 
 def tensor_model() -> Model:
-    """Return the model of any Omega, K and inertia tensor J, with rates (16), (35), W = Omega + K, M = J W and H."""
+    """Return the model of any Omega, K and symmetric inertia tensor J, with the rates (16) and (35).
+
+    Letters also: W = Omega + K, M = J W, and H = (W, J W)/2 + (K, J K)/2, the conserved energy of theorem-lie-poisson.
+    """
     inverse = J.adjugate() / determinant(J)
     spin, field = inverse * (cross(J * Omega, Omega) - 2 * cross(MASS * K, Omega)), cross(K, Omega)
     letters = {"J": J, "Omega": Omega, "K": K, "W": Omega + K, "M": J * (Omega + K)}
@@ -37,9 +40,9 @@ def tensor_model() -> Model:
 
 
 def frame_model() -> Model:
-    """Return the model of R with any Omega.
+    """Return the model of a rotation R with any Omega in the field B' = b (0, sin, cos), for theorem-larmor-frame.
 
-    `about_B` is the rotation about B' = b (0, sin, cos) as function of the angle.
+    `about_B` is a function from an angle to the rotation matrix about B'; b t is a phase, K = R^T B'.
     """
     R, bindings = rotation_symbols()
     b, slope = sympy.Symbol("b", positive=True), sympy.Symbol("p", real=True)
@@ -57,7 +60,7 @@ def frame_model() -> Model:
 
 
 def reversed_model() -> Model:
-    """Return the model of the state at time -t: its rates are minus those of (12), (16) and (35)."""
+    """Return the model of theorem-pair: R, Omega and K at time -t, with rates minus those of (12), (16) and (35)."""
     basis, frame = tensor_model(), frame_model()
     back = {symbol: -basis.flow[symbol] for symbol in (*Omega, *K)}
     R = frame.letters["R"]
@@ -68,14 +71,18 @@ def reversed_model() -> Model:
 
 
 def poisson_model() -> Model:
-    """Return the model of any M and K with rates (16), (35), H, F, and the bracket `br` (f, g) of e(3)."""
+    """Return the model of any M and K (3, 1) with rates by (16) and (35), on principal axes, for the bracket of e(3).
+
+    Letters: H the energy and F = (M, M) - det(J) (K, J^-1 K) Clebsch's integral, Omega = J^-1 M - K, `br` the
+    bracket as a function of two expressions, `rank` as `_rank`.
+    """
     H = dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
     spin = AXES.inv() * M - K
     mass = AXES.trace() / 2 * sympy.eye(3) - AXES
     torque = cross(AXES * spin, spin) - 2 * cross(mass * K, spin)
 
     def bracket(f: Value, g: Value) -> Value:
-        """Return {f, g} = -(M, [f_M, g_M]) - (K, [f_M, g_K] + [f_K, g_M])."""
+        """Return {f, g} = -(M, [f_M, g_M]) - (K, [f_M, g_K] + [f_K, g_M]) of two expressions; f_M is a gradient."""
         (fM, fK), (gM, gK) = ((partial(component, M), partial(component, K)) for component in (f, g))
         return -dot(M, cross(fM, gM)) - dot(K, cross(fM, gK) + cross(fK, gM))
 
@@ -94,7 +101,10 @@ def _rank(*functions: Value) -> int:
 
 
 def symmetric_model() -> Model:
-    """Return the model of any state of the symmetric body, with M, H, F, c3 and c5 at that state."""
+    """Return the model of any state of the symmetric body (see `state_model`), for theorem-clebsch-symmetric.
+
+    Letters beside those of `state_model`: M = J (Omega + K), M3 its third component, H and F as in `poisson_model`.
+    """
     basis = state_model()
     tensor = sympy.diag(basis.letters["I2"], basis.letters["I2"], basis.letters["I3"])
     W = basis.letters["Omega"] + basis.letters["K"]

@@ -12,7 +12,11 @@ h2, h3, p = sympy.symbols("h2 h3 p", real=True)
 
 
 def closed_model() -> Model:
-    """Model a point of the hyperbola with phi of (72) for any k of (79), and any number r."""
+    """Return the model of a point of the hyperbola (67) with phi of (72) as a function of k (79), and any number r.
+
+    `free` is the rate of proper rotation of the free body with this k; hB3 = B3/b. It serves theorem-closed and
+    theorem-closed-free.
+    """
     B2, B3 = b * h2, b * h3
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
     letters = {"I": I, "b": b, "hB3": h3, "r": r, "k": k, "phi": sympy.cancel(phi.subs(omega2, k * h2))}

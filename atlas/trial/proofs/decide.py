@@ -39,9 +39,10 @@ _SIMPLE: dict[str, tuple[Fraction | int, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """Decision on one line; `method` is how it was found, or the reason for which it is undecided.
+    """Decision on one line: `decision`, one of "proved", "refuted", "supported", "undecided".
 
-    `counterexample` has texts by name: the letters at a point that refutes the line, "relation", "left" and "right".
+    `method` is how it was found, or the reason for which the line is undecided. `counterexample` has texts by name: the
+    letters at a point that refutes the line, "relation", "left" and "right"; {} unless the line is refuted.
     """
 
     decision: Decision
@@ -58,12 +59,17 @@ def decide(
     sample_only: bool = False,
     shrink: bool = False,
 ) -> Outcome:
-    """Try a line in a model, or in each of several cases.
+    """Try a line in a model, or in each of several models; return an `Outcome`: proved only if proved in all of them.
 
+    line         a line of `notation`: relations separated by ";"
+    cases        a model, or the models of several cases
     defines      names on the left of `=` that the line defines: they are taken from it, not checked against the model
     solves       a second line that must hold with the definitions of the first one
     sample_only  look for a counterexample only, and say `supported` if there is none
     shrink       make the counterexample as simple as possible
+
+    A line without a meaning in a model is refuted, with the reason as its counterexample; a line that checks nothing is
+    undecided.
     """
     models = [cases] if isinstance(cases, Model) else list(cases)
     methods: list[str] = []
@@ -99,8 +105,9 @@ def understood(
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     """Return (relations to check, letters, bindings) of a line in a model.
 
-    Letters and bindings are those of the model with the line's definitions added; the relations include those of
-    ``solves``. Raises NoMeaningError for a line that has no values in the model.
+    Letters (name -> value) and bindings, pairs (symbol, value), are those of the model with the line's definitions
+    added, those of the letters ``defines``; the relations include those of ``solves``. Raises NoMeaningError for a
+    line that has no values in the model.
     """
     try:
         return _understand(line, model, defines, solves)
@@ -134,9 +141,9 @@ def _understand(
 
 
 def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
-    """Return the letter of ``defines`` that a relation defines, and put it on the left of the tree.
+    """Return the letter of ``defines`` that an equation or chain defines at its first or last place; "" without one.
 
-    "" without a definition.
+    A definition at the last place is moved to the left of the tree, in place.
     """
     every = [tree.left, *tree.comparators]
     if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
@@ -148,9 +155,10 @@ def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
 
 
 def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
-    """Return pairs (symbol, value) that replace a defined letter where it stands before its definition.
+    """Return pairs (symbol, value) that replace the letter ``name`` where it stands before its definition as ``value``.
 
-    They are one for each entry of a vector or matrix; none where the letter's value in the model is no symbol.
+    There is one pair for each entry of a vector or matrix, and none where the letter's value in ``letters`` is no
+    symbol.
     """
     vocabulary = letters.get(name, sympy.Symbol(name, real=True))
     if isinstance(vocabulary, sympy.MatrixBase):
@@ -161,10 +169,10 @@ def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[
 
 
 def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> dict[str, Value]:
-    """Return the function that a relation such as d(u)^2 = Q(u) = u^4 + a defines, and its derivatives, by name.
+    """Return by name the function q, dq, ddq, dddq that an equation such as d(u)^2 = Q(u) = u^4 + a defines.
 
-    The tree is changed to d(u)^2 = u^4 + a. Returns {} if no side is a function of ``defines``. Raises NoMeaningError
-    if the value does not contain the variable.
+    The tree is changed in place to d(u)^2 = u^4 + a. Returns {} if no side is a function named in ``defines``. Raises
+    NoMeaningError if the value does not contain the variable.
     """
     every = [tree.left, *tree.comparators] if all(isinstance(sign, ast.Eq) for sign in tree.ops) else []
     for place, side in enumerate(every):
@@ -184,7 +192,8 @@ def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> di
 def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> str:
     """Return a sentence on a letter without a meaning in the model, or on a repetition; "" if there is neither.
 
-    A repetition is a statement made twice, two equal sides, or a bracket or vector product of a letter with itself.
+    ``trees`` are the relations of a line, ``defines`` the letters that the line defines. A repetition is a
+    statement made twice, two equal sides, or a bracket or vector product of a letter with itself.
     """
     vocabulary = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.bindings}
     vocabulary |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
@@ -200,10 +209,11 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
 
 
 def _empty(tree: ast.Compare, model: Model) -> str:
-    """Return a sentence on a relation "... = 0" that says too little; "" for a sound relation.
+    """Return a sentence on a relation "... = 0" of a line that says too little in the model; "" for a sound relation.
 
-    It says too little where a bracket or derivative has a number as index (only one component), where a derivative is
-    taken of independent symbols, or where d2(x) = 0 although d(x) = 0.
+    ``tree`` is the relation's syntax tree. The relation says too little where a bracket or derivative has a number
+    as index (only one component), where a derivative is taken of independent symbols, or where d2(x) = 0 although
+    d(x) = 0.
     """
     if not is_zero(tree.comparators[-1]) or not isinstance(tree.ops[-1], ast.Eq):
         return ""
@@ -229,10 +239,7 @@ def _name(call: ast.Call) -> str:
 
 
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
-    """Return a sentence on a line that checks nothing, or defines a letter on which no checked statement depends.
-
-    "" otherwise.
-    """
+    """Return a sentence if a line checks nothing, or defines a letter on which no checked relation depends; else ""."""
     if not relations:
         return "nothing in it is checked"
     named = {name for relation in relations for name in relation.letters}
@@ -249,7 +256,10 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
 
 
 def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> set[Value]:
-    """Return the symbols on which ``values`` depend, directly or through ``rules``, pairs (symbol, value or rate)."""
+    """Return the set of symbols on which ``values`` depend, directly or through ``rules``.
+
+    The rules are pairs (symbol, its value or rate).
+    """
     symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     while True:
         extended = symbols | {
@@ -261,7 +271,7 @@ def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> se
 
 
 def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
-    """Return the free parameters, sorted by name, on which the relations and the letters called ``names`` depend."""
+    """Return the list, sorted by name, of the free parameters on which relations and the letters ``names`` depend."""
     values = [side for relation in relations for side in (*relation.lhs, *relation.rhs)]
     values += [
         model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
@@ -270,7 +280,7 @@ def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) 
 
 
 def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
-    """Return the point with the values of the symbols of `bindings` added, where these are numbers there."""
+    """Return a copy of the point ``values`` (symbol -> number) with those bindings added that are numbers there."""
     point = dict(values)
     for symbol, value in ordered(model.bindings):
         value_there = sympy.sympify(value).xreplace(point)
@@ -280,7 +290,10 @@ def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
 
 
 def points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
-    """Yield `SAMPLES` points: dictionaries from parameters to rational numbers in their domains, equal in every run."""
+    """Yield `SAMPLES` points: dictionaries from each of ``parameters`` to a random rational in its domain.
+
+    The points are the same in every run.
+    """
     chance = random.Random(20240)  # noqa: S311  points of a proof, not secrets
     for _ in range(SAMPLES):
         yield {s: sympy.Rational(DOMAINS[_domain(s, model)](chance)) for s in parameters}
@@ -291,9 +304,10 @@ def _domain(symbol: Value, model: Model) -> str:
 
 
 def _violated(sign: str, difference: Value) -> bool | None:
-    """Return whether a relation with this ``sign`` is false for left - right = ``difference``.
+    """Return whether a relation with this ``sign``, such as "<=", is false for left - right = ``difference``.
 
-    None if that has no value. A difference that is not rational is computed to 40 digits, and counts as 0 below 1e-30.
+    None if the difference has no value. One that is not rational is computed to 40 digits, and counts as 0 below 1e-30;
+    one with an imaginary part above that violates any relation.
     """
     if difference.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
         return None
@@ -316,7 +330,7 @@ def _violated(sign: str, difference: Value) -> bool | None:
 
 
 def _counterexample(relations: list[Relation], model: Model, names: tuple[str, ...], *, shrink: bool) -> dict[str, str]:
-    """Return a description of a point that refutes a relation, see `_describe`; {} if none of `points` does.
+    """Return texts by name of a point that refutes a relation, see `_describe`; {} if none of the `points` does.
 
     A relation without a value at any of these points is refuted, too, with "no value: 0/0" as its sides. ``names`` are
     the letters to be shown, ``shrink`` makes the point as simple as possible.
@@ -342,7 +356,10 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
 
 
 def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
-    """Return whether component number ``entry`` of a relation is false at a point; None if it has no value there."""
+    """Return whether component ``entry``, from 0, of a relation is false at a point; None if it has no value there.
+
+    ``values`` is the point, symbol -> number.
+    """
     difference = sympy.sympify(relation.lhs[entry]).xreplace(values) - sympy.sympify(relation.rhs[entry]).xreplace(
         values
     )
@@ -350,9 +367,10 @@ def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool |
 
 
 def simplest(relation: Relation, entry: int, assignment: dict[Value, Value], model: Model) -> dict[Value, Value]:
-    """Replace parameters of a counterexample by 0, 1, 2 or the like as long as it refutes.
+    """Return a simpler point, symbol -> number, at which component ``entry`` of a relation is still false.
 
-    Return the completed point.
+    Parameters of the counterexample ``assignment`` are replaced one by one by 0, 1, 2 or the like where that
+    refutes, too; then the model's bindings are added, see `completed`.
     """
     for symbol in assignment:
         for value in _SIMPLE[_domain(symbol, model)]:
@@ -366,9 +384,10 @@ def simplest(relation: Relation, entry: int, assignment: dict[Value, Value], mod
 def _describe(
     relation: Relation, entry: int, model: Model, names: tuple[str, ...], values: dict[Value, Value]
 ) -> dict[str, str]:
-    """Return as texts by name the letters of a relation at a point, "relation", and its sides "left" and "right".
+    """Return texts by name of a point: each letter's value there, "relation", and its sides "left" and "right".
 
-    Of a letter with an index only entries that are not 0 are listed, then "any other NAME": "0".
+    ``values`` is the point, symbol -> number, ``entry`` the number of the component that fails, ``names`` are further
+    letters to show. Of a letter with an index only entries that are not 0 are listed, then "any other NAME": "0".
     """
     texts: dict[str, str] = {}
     for name in dict.fromkeys((*relation.letters, *names)):
@@ -405,7 +424,10 @@ def _show(value: Value, values: dict[Value, Value]) -> str:
 
 
 def _prove(relation: Relation, model: Model) -> str:
-    """Return the method by which a relation is proved, such as "polynomial identity"; "" if it is not proved."""
+    """Return the method that proves a relation: "polynomial identity" or "one sign throughout"; "" if it is not proved.
+
+    "identity" is returned for a relation without components.
+    """
     how = "identity"
     bindings = resolved(model.bindings)
     for lhs, rhs in zip(relation.lhs, relation.rhs, strict=True):

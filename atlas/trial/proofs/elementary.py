@@ -43,7 +43,10 @@ DOMAINS = {"u": "unit"}
 
 
 def precession() -> Value:
-    """Return the rotation about the unit field (0, hB2, hB3) by the angle k t, as the matrix that (85) prints."""
+    """Return the rotation matrix (3, 3) about the unit field (0, hB2, hB3) by the angle k t, as (85) prints it.
+
+    ck and sk in it are the symbols of cos(k t) and sin(k t).
+    """
     return sympy.Matrix(
         [
             [ck, -hB3 * sk, hB2 * sk],
@@ -63,20 +66,26 @@ def _model(
 
 
 def velocity_model() -> Model:
-    """Return the model of K = (B2 sin, B2 cos, B3) of (62) with the phase phi t, J and g, on the hyperbola (67)."""
+    """Return the model of K = (B2 sin, B2 cos, B3) of (62) with the phase phi t, on the hyperbola (67); for (73).
+
+    J is the inertia tensor, g the tensor of mass moments.
+    """
     letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
     return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
 
 
 def row_model() -> Model:
-    """Return the model of one row gamma of a rotation matrix R(t), with its rate dgamma by dR/dt = R hat(Omega)."""
+    """Return the model of a row gamma (3, 1) of a rotation matrix and its rate dgamma by (12), for (74) and (75)."""
     Omega, row = vector("Omega"), vector("gamma")
     rate = (row.T * hat(Omega)).T
     return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})
 
 
 def integral_model() -> Model:
-    """Return the model of any row gamma with rates (75) and Omega of (73); c is the constant (76) at that state."""
+    """Return the model of any row gamma (3, 1) with the rates (75) for Omega of (73), for (76) to (79).
+
+    c is the conserved sum (76) at that state.
+    """
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
     letters = {"Omega": SPIN, "gamma": gamma}
     letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
@@ -84,20 +93,23 @@ def integral_model() -> Model:
 
 
 def ratio_model() -> Model:
-    """Return the model of the components Bl2, Bl3 of B = (2c/mu) B'."""
+    """Return the model of (77): Bl2 and Bl3, the components of the field B = (2c/mu) B'."""
     mu, light = sympy.symbols("mu light", positive=True)
     letters = {"Bl2": 2 * light / mu * b * hB2, "Bl3": 2 * light / mu * b * hB3}
     return _model(letters, [*FIELD])
 
 
 def rows_model() -> Model:
-    """Return the model whose c is the column of constants (76) of the three rows of R(0) = 1."""
+    """Return the model of text-row-constants: c is the column (3, 1) of constants (76) of the rows of R(0) = 1."""
     value = SPIN.subs(START)
     return _model({"c": sympy.Matrix([value[0], value[1], hB3 * omega2 / hB2])}, [*FIELD])
 
 
 def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
-    """Return a row (3, 1) of the rotation matrix by (78) and (80); ``phase`` is (cos k0, sin k0)."""
+    """Return a row (3, 1) of the rotation matrix by (78) and (80).
+
+    ``constant`` is c of (76), ``size`` the amplitude b of (80), ``phase`` the pair (cos k0, sin k0).
+    """
     third = size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
     rate = -k * size * (sk * phase[0] + ck * phase[1])
     remainder = constant - hB3 * omega2 / hB2 * third
@@ -108,9 +120,9 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
 
 
 def solution_model() -> Model:
-    """Return the model of the row by (78) and (80) for any constants c, amp, k0.
+    """Return the model of a row gamma by (78) and (80) for any constants c, amp (the printed b) and k0.
 
-    `row` (c, amp, k0) is the row at t = 0.
+    It serves (80) to (83). `row` (c, amp, k0) is a function that gives the row (3, 1) at t = 0.
     """
     row = _row(c, amplitude, (c0, s0))
     letters = {"gamma": row, "Omega1": SPIN[0], "Omega2": SPIN[1]}
@@ -123,7 +135,10 @@ def solution_model() -> Model:
 
 
 def matrix_model() -> Model:
-    """Return the model of the motion: Omega of (73), R = P Q, m, its rate dm, and the body's J and g."""
+    """Return the model of the motion (84), (85): Omega of (73), R = P Q, the angular momentum m, its rate dm by (17).
+
+    P is the precession about the field, Q the proper rotation about e3; J and g are the tensors of inertia and of mass.
+    """
     letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
     letters |= {
         "rod": rodrigues,
@@ -138,21 +153,21 @@ def matrix_model() -> Model:
 
 
 def steady_momentum_model() -> list[Model]:
-    """Return two models of a steady angular momentum: `matrix_model` with I = 1, and with omega2 = 0."""
+    """Return two models in which the angular momentum is constant: `matrix_model` with I = 1, and with omega2 = 0."""
     basis = matrix_model()
     vocabulary = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
     return [replace(basis, bindings=[*basis.bindings, pair]) for pair in vocabulary]
 
 
 def resting_row_model() -> Model:
-    """Return the model of the rates dgamma1, dgamma2, dgamma3 of a row for Omega = 0."""
+    """Return the model of a row's rates `dgamma1`, `dgamma2`, `dgamma3` for Omega = 0, for the corrected (78), (83)."""
     basis = row_model()
     remainder = dict.fromkeys(basis.letters["Omega"], sympy.Integer(0))
     return Model({f"dgamma{n}": basis.letters[f"dgamma{n}"].xreplace(remainder) for n in (1, 2, 3)})
 
 
 def frequencies_model() -> Model:
-    """Return the model of phiB = omega3 - (B3/B2) omega2 on the hyperbola, with omega2 = kB hB2."""
+    """Return the model of (86): phiB = omega3 - (B3/B2) omega2 on the hyperbola (67), with omega2 = kB hB2."""
     kB = sympy.Symbol("kB", real=True)
     I3 = sympy.Symbol("I3", positive=True)
     letters = {"phiB": omega3 - B3 / B2 * omega2, "kB": kB, "b": b, "I3": I3}
@@ -160,7 +175,10 @@ def frequencies_model() -> Model:
 
 
 def free_model() -> Model:
-    """Return the model of a free body started with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is left free."""
+    """Return the model of a free body with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)), R = P Q; for (87).
+
+    P turns about B' by k t, Q about e3 by phi t; phi is a symbol that the line defines.
+    """
     I3 = sympy.Symbol("I3", positive=True)
     spin = sympy.Matrix([omega2 * sf, omega2 * cf, I2 * omega2 * B3 / (I3 * B2)])
     body = sympy.diag(I2, I2, I3)
@@ -171,7 +189,10 @@ def free_model() -> Model:
 
 
 def free_frequency_model() -> list[Model]:
-    """Return two models of a free body with omega2 > 0 and omega2 < 0; `size` is |m|, for m = (I2 omega2/B2) B'."""
+    """Return two models of a free body, omega2 > 0 and omega2 < 0; `size` is |m| for m = (I2 omega2/B2) B'.
+
+    They serve text-free-frequency; k = omega2/hB2 is the rate of precession.
+    """
     speed, hB2 = sympy.symbols("speed hB2", positive=True)
     cases = []
     for sign in (1, -1):
@@ -186,14 +207,17 @@ MOTION = f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omeg
 
 
 def hidden_model() -> Model:
-    """Return the model of B = (2c/mu) B' for mu > 0: its component Bl2 and its length Bl."""
+    """Return the model of text-hidden: Bl2, a component of B = (2c/mu) B' for mu > 0, and its length Bl."""
     mu, light = sympy.symbols("mu light", positive=True)
     scale = 2 * light / mu * b
     return _model({"Bl2": scale * hB2, "Bl": scale}, [K_OF_OMEGA2, *FIELD])
 
 
 def free_body_model() -> Model:
-    """Return the model of any motion of a free symmetrical body: axis a, momentum m, angular velocity omega."""
+    """Return the model of text-free-general: any motion of a free symmetrical body, by axis a, momentum m and omega.
+
+    a is a unit vector with the rate [omega, a]; all three are columns (3, 1) in space.
+    """
     a, m = vector("a"), vector("m")
     I3 = sympy.Symbol("I3", positive=True)
     omega = m / I2 + (1 / I3 - 1 / I2) * a.dot(m) * a
@@ -206,7 +230,7 @@ def free_body_model() -> Model:
 
 
 def free_proper_model() -> Model:
-    """Return `free_model` with phi, the rate of proper rotation: Omega3 less m3/I2."""
+    """Return the model of text-free-proper: `free_model` with phi, the rate of proper rotation, as Omega3 - m3/I2."""
     model = free_model()
     I3 = model.letters["I3"]
     m = sympy.Matrix([0, I2 * omega2, I3 * model.letters["Omega0"][2]])
@@ -215,9 +239,10 @@ def free_proper_model() -> Model:
 
 
 def _rows(line: str) -> str:
-    """Return statements row(c, amp, k0) = row of the unit matrix for the constants of each of three rows.
+    """Return statements "row(c, amp, k0) = [1, 0, 0]" and so on for the constants of three rows in the line of (83).
 
-    Raises UnreadableError unless the line gives c, amp, k0 three times, in this order.
+    Further sides of a chain are appended as equations. Raises UnreadableError unless the line gives c, amp, k0 three
+    times, in this order.
     """
     letters, values = zip(*((sides(row)[0], sides(row)[1:]) for row in line.split("; ")), strict=True)
     if letters != ("c", "amp", "k0") * 3:

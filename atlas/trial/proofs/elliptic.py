@@ -30,24 +30,33 @@ LETTERS |= {f"I{n}": moment for n, moment in enumerate(MOMENTS, 1)} | {"g": AXES
 
 
 def energy(momentum: Value) -> Value:
-    """Return H of theorem-lie-poisson for a momentum (3, 1) and the field K."""
+    """Return the expression H = (M, J^-1 M)/2 + (K, J K)/2 of theorem-lie-poisson for a momentum M (3, 1).
+
+    J is the diagonal tensor of inertia and K the field, both symbols of this file.
+    """
     return dot(momentum, AXES.inv() * momentum) / 2 + dot(K, AXES * K) / 2
 
 
 def clebsch(momentum: Value) -> Value:
-    """Return F of theorem-clebsch for a momentum (3, 1) and the field K."""
+    """Return the expression F = M^2 - det(J) (K, J^-1 K) of theorem-clebsch for a momentum M (3, 1).
+
+    J and K are as for `energy`.
+    """
     return dot(momentum, momentum) - D * dot(K, AXES.inv() * K)
 
 
 def elliptic_model() -> Model:
-    """Return the model of any K, z, v and principal moments, with the rate of K that theorem-elliptic claims."""
+    """Return the model of any K, z, v and principal moments, with the rate of K that theorem-elliptic claims.
+
+    That rate is [K, Omega] for Omega = -v (z J + D)^-1 K - K; see `LETTERS` for the letters.
+    """
     return Model(LETTERS, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
 
 
 def integrals_model() -> Model:
-    """Return the model of any M, K, z, v, and any variations m, k.
+    """Return the model of any M, K, z, v, and any variations m, k (3, 1 each) of M and K, for theorem-splitting.
 
-    `normal` is a vector of theorem-splitting's proof.
+    X is the diagonal matrix of x_i = z + D/I_i; `normal` (3, 1) is a vector of the proof.
     """
     letters = {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
     letters["normal"] = X.inv() * (LETTERS["P1"] * ONE - 2 * P * X.inv()) * K
@@ -55,7 +64,10 @@ def integrals_model() -> Model:
 
 
 def multipliers_model() -> Model:
-    """Return the model of any M, K, z, v, and w, the multiplier of K^2/2 in the critical points of F."""
+    """Return the model of theorem-critical: any M, K with H, F, and the multipliers z, v, w of the critical points.
+
+    w multiplies K^2/2; y_i = D I_i - z D/I_i + w are the coefficients of K_i.
+    """
     w = sympy.Symbol("w", real=True)
     y = {n: D * moment - z * D / moment + w for n, moment in enumerate(MOMENTS, 1)}
     letters = {**LETTERS, "H": energy(M), "F": clebsch(M), "w": w, "y": y, "a": [D / moment for moment in MOMENTS]}
@@ -63,14 +75,17 @@ def multipliers_model() -> Model:
 
 
 def root_model(*, elliptic: bool = False) -> Model:
-    """Return the model of v = sqrt(P) with H, F and c = (M, K) at any M, or the elliptic motion's if ``elliptic``."""
+    """Return the model of v = sqrt(P) with H, F and c = (M, K) at any M, or at M = -v X^-1 K, the elliptic motion's.
+
+    The latter if ``elliptic``. P = x_1 x_2 x_3 with x_i = z + D/I_i.
+    """
     momentum = LETTERS["elliptic"] if elliptic else M
     letters = {"H": energy(momentum), "F": clebsch(momentum), "c": dot(momentum, K)}
     return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
 
 
 def edge_model() -> list[Model]:
-    """Return two models of any M and K with I3 the largest moment: I1 <= I2 <= I3, and I2 <= I1 <= I3."""
+    """Return two models of any M and K with I3 the largest moment, I1 <= I2 and I2 <= I1, for theorem-edge."""
     gap, rise = sympy.symbols("first second", nonnegative=True)
     (I1, I2, I3), cases = MOMENTS, []
     for order in ({I2: I1 + gap, I3: I1 + gap + rise}, {I1: I2 + gap, I3: I2 + gap + rise}):
@@ -81,9 +96,9 @@ def edge_model() -> list[Model]:
 
 
 def critical_model() -> Model:
-    """Return the model of F and 2 D H on elliptic motions as functions of z, at any b and c.
+    """Return the model of theorem-bifurcation: F and 2 D H on elliptic motions as functions of z, at any b and c.
 
-    Z is its time, v' = P'/2v.
+    The time of the model is z, with v' = P'/2v, so that `d` of a line is the derivative by z.
     """
     b, c = sympy.symbols("b c", real=True)
     letters = {name: LETTERS[name] for name in ("z", "v", "D", "e2", "P1", "P2")} | {"b": b, "c": c, "P": v**2}
@@ -92,7 +107,10 @@ def critical_model() -> Model:
 
 
 def free_model() -> Model:
-    """Return the model of any field K with the rate [K, Omega] in a free body of moments J_i, Omega_i = s K_i/J_i."""
+    """Return the model of a free body of moments J_i with Omega_i = s K_i/J_i, and any K with the rate [K, Omega].
+
+    It serves theorem-free-body, whose line defines the moments I_i of a charged body that turns alike.
+    """
     K, s, moments = LETTERS["K"], sympy.Symbol("s", real=True), sympy.symbols("J1:4", positive=True)
     letters = {"K": K, "s": s, **{f"J{n}": moment for n, moment in enumerate(moments, 1)}, "one": ONE}
     spin = sympy.Matrix([s * x / moment for x, moment in zip(K, moments, strict=True)])
@@ -100,7 +118,10 @@ def free_model() -> Model:
 
 
 def system_model() -> Model:
-    """Return the model of any Omega and K with the rates (16), (35), and any diagonal matrices X and Y."""
+    """Return the model of any Omega and K with the rates (16), (35), and any diagonal matrices X and Y.
+
+    It serves theorem-identifiable; x and y are the columns of their diagonals.
+    """
     x, y, Omega = (sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("x", "y", "Omega"))
     g, field = AXES.trace() * ONE - 2 * AXES, cross(K, Omega)
     rates = AXES.inv() * (cross(AXES * Omega, Omega) - cross(g * K, Omega))
@@ -110,7 +131,10 @@ def system_model() -> Model:
 
 
 def unidentified_model() -> Model:
-    """Return the model of any K whose rate is that of the angular momentum s K of a free body with moments J_i."""
+    """Return the model of theorem-unidentified: K turns as the angular momentum s K of a free body with moments J_i.
+
+    A is the diagonal matrix of J_i (J_j + J_k); alpha, beta, gamma are any numbers.
+    """
     moments = J1, J2, J3 = sympy.symbols("J1:4", positive=True)
     names = ("s", "alpha", "beta", "gamma")
     letters = {name: sympy.Symbol(name, real=True) for name in names} | {"K": K, "J": sympy.diag(*moments), "one": ONE}
@@ -119,7 +143,10 @@ def unidentified_model() -> Model:
 
 
 def bodies_model(sign: int = 1) -> Model:
-    """Return the model of I_i = J_i (J_j + J_k + s'), s' of this ``sign``, each J_i a sum of two moments of mass."""
+    """Return the model of I_i = J_i (J_j + J_k + s'), with s' of this ``sign`` (1 or -1), for theorem-free-body.
+
+    Each J_i is a sum of two positive moments of mass.
+    """
     (g1, g2, g3), s = sympy.symbols("g1:4", positive=True), sympy.Symbol("s", positive=True)
     moments = g2 + g3, g1 + g3, g1 + g2
     basis = sum(moments)
@@ -127,10 +154,10 @@ def bodies_model(sign: int = 1) -> Model:
 
 
 def linear_model() -> Model:
-    """Return the model of the flow of half the sum of squares, linearised about x_i M_i = -v K_i.
+    """Return the model of theorem-splitting's flow of half the sum of squares, linearised about x_i M_i = -v K_i.
 
-    `char` is the characteristic polynomial in lam of the matrix of the linear flow, `rates` the rates at the point.
-    Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, so that all entries are polynomials.
+    `char` is the characteristic polynomial in lam of the linear flow's matrix (6, 6), `rates` the rates (6, 1) at
+    the point. Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, so that all entries are polynomials.
     """
     w, k, lam = sympy.symbols("w1:4"), sympy.symbols("k1:4"), sympy.Symbol("lam")
     s1, s2, s3 = (root**2 for root in w)
@@ -148,7 +175,7 @@ _SYSTEM = {r"(\operatorname{tr}Y-2Y)": "(tr(Y)*one - 2*Y)", "J^{-1}": "inv(J)"}
 
 
 def _component(i: int, j: int, k: int) -> str:
-    """Return the line of component i of theorem-identifiable; i, j, k are 1, 2, 3 or a cyclic permutation."""
+    """Return the line of component i of theorem-identifiable; (i, j, k) is (1, 2, 3) or a cyclic permutation."""
     share, half = f"x{i}/I{i}*(I{j} - I{k})", f"(y{i} - x{i})"
     field = f"({share} - y{j} + y{k} + {half})*K{j}*Omega{k} + ({share} - y{j} + y{k} - {half})*K{k}*Omega{j}"
     equation = "(X*d(Omega) - cross(X*Omega,Omega) + cross((tr(Y)*one - 2*Y)*K,Omega))"

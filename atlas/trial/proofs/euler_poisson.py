@@ -48,7 +48,8 @@ def _antisymmetric(S: Value) -> Value:
 def multiplier_model() -> Model:
     """Return the model of (10) with any matrix A and multipliers Lam: (10) holds if and only if Lam is symmetric.
 
-    R^T d2R = hat(Omega)^2 + hat(w), with w the rate of Omega. IdOmega is I w, solved from the symmetry of Lam.
+    `ddR` is the second rate of R: R^T d2R = hat(Omega)^2 + hat(w), with w the rate of Omega. `IdOmega` is I w,
+    solved from the symmetry of Lam. Cached.
     """
     A, w = matrix("A"), vector("w")
     Lam = -(hat(Omega) ** 2 + hat(w) + R.T * A) * g
@@ -61,7 +62,10 @@ def multiplier_model() -> Model:
 
 
 def mirrored_model() -> Model:
-    """Return `multiplier_model` with -R in the place of R: every orthogonal matrix of determinant -1."""
+    """Return `multiplier_model` with -R in the place of R, for the corrected text-affirmation.
+
+    -R is every orthogonal matrix of determinant -1 but few.
+    """
     basis = multiplier_model()
     minus = {entry: -entry for entry in R}
     letters = {
@@ -71,21 +75,25 @@ def mirrored_model() -> Model:
 
 
 def magnetic_model() -> Model:
-    """Return `multiplier_model` with the magnetic force of (7) as its matrix A; dR is R hat(Omega)."""
+    """Return `multiplier_model` with the magnetic force of (7) as its matrix A, for (13) to (16); dR = R hat(Omega)."""
     letters, dR = multiplier_model().letters, R * hat(Omega)
     force = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
     return Model({**letters, "dR": dR}, [*zip(letters["A"], force, strict=True), *ROTATION])
 
 
 def euler(tensor: Value, mass: Value, field: Value) -> Value:
-    """Return I dOmega/dt by (16) as corrected, (3, 1); ``tensor`` is I, ``mass`` is g, ``field`` is R^T B."""
+    """Return I dOmega/dt by (16) as corrected, (3, 1), for the symbols Omega of this file.
+
+    ``tensor`` is the inertia tensor I, ``mass`` the tensor g of mass moments, ``field`` is R^T B.
+    """
     return cross(tensor * Omega, Omega) - mu / c * cross(mass * field, Omega)
 
 
 def momentum_model() -> Model:
-    """Return the model of angular momentum in both frames, with its rates by (16) and (12).
+    """Return the model of angular momentum in the body's axes, M, and in space, m = R M, for (17) and (18).
 
-    M is any vector and J any symmetric matrix, the inverse of I: Omega = J M. More isn't needed of them.
+    dM and dm are the rates by (16) and (12). M is any vector and J any symmetric matrix, the inverse of I: Omega = J M.
+    The proof needs no more of them.
     """
     M, J = vector("M"), symmetric("J")
     spin = J * M
@@ -101,7 +109,7 @@ def momentum_model() -> Model:
 
 
 def poisson_model() -> Model:
-    """Return the model of any moving rotation R(q1, q2, q3) with any rates of q; Omega is read off R^T dR/dt."""
+    """Return the model of (12): any rotation R(q1, q2, q3) with any rates of q; Omega (3, 1) is read off R^T dR/dt."""
     R = rotation()
     parameters = sympy.symbols("q1:4", real=True)
     flow = dict(zip(parameters, sympy.symbols("p1:4", real=True), strict=True))
@@ -112,7 +120,7 @@ def poisson_model() -> Model:
 
 
 def matrix_flow_model() -> Model:
-    """Return the model of any matrix R with the rate R hat(Omega), (12)."""
+    """Return the model of any matrix R with the rate R hat(Omega), (12); for text-orthogonal."""
     entries = matrix("R")
     return Model(
         {"R": entries, "Omega": Omega}, flow=dict(zip(entries, entries * hat(Omega), strict=True)), laws="R by (12)"
@@ -120,7 +128,7 @@ def matrix_flow_model() -> Model:
 
 
 def diagonal_model() -> Model:
-    """Return the model of diagonal I and g on principal axes, any K and Omega."""
+    """Return the model of tensors I (inertia) and g (mass) on principal axes, any K and Omega, for (15)."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
     diagonal = sympy.diag(g1, g2, g3)
     tensor = diagonal.trace() * sympy.eye(3) - diagonal
@@ -131,7 +139,11 @@ def diagonal_model() -> Model:
 
 
 def axes_model() -> Model:
-    """Return the model of three masses on principal axes rotated by R; `turned` is their inertia tensor in space."""
+    """Return the model of text-inertia-axes: three masses on principal axes, rotated by R.
+
+    `turned` is their inertia tensor in space, I that on principal axes, `moment` its entries by index; `column` are the
+    columns of R, `e` the unit vectors.
+    """
     masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", positive=True)
     positions = [R.col(n) * x for n, x in enumerate(places)]
     tensor = sum((m * (dot(x, x) * sympy.eye(3) - x * x.T) for m, x in zip(masses, positions, strict=True)), R * 0)
@@ -144,7 +156,10 @@ def axes_model() -> Model:
 
 
 def inertia_model() -> Model:
-    """Return the model of g and I of four particles, I as second derivatives of the kinetic energy by Omega."""
+    """Return the model of g and I of four particles, for text-inertia-tensor.
+
+    I is the matrix (3, 3) of second derivatives of the kinetic energy by Omega, g the sum of m x x^T.
+    """
     masses = sympy.symbols("m1:5", positive=True)
     places = [vector(f"x{n}_") for n in range(1, 5)]
     energy = sum(m * Omega.cross(x).dot(Omega.cross(x)) for m, x in zip(masses, places, strict=True)) / 2
@@ -153,7 +168,10 @@ def inertia_model() -> Model:
 
 
 def grioli_model() -> Model:
-    """Return the model of (16) with B = (0, 0, b); G3 is the third row of R as a column."""
+    """Return the model of (16) with B = (0, 0, b), for text-grioli.
+
+    G3 is the third row of R as a column (3, 1), IdOmega is I dOmega/dt.
+    """
     b = sympy.Symbol("b", positive=True)
     field = sympy.Matrix([0, 0, b])
     return Model(
@@ -163,7 +181,7 @@ def grioli_model() -> Model:
 
 
 def algebraic_model() -> Model:
-    """Return `multiplier_model` on principal axes: g and I are diagonal, the matrix A is any."""
+    """Return `multiplier_model` on principal axes, for text-multipliers-algebraic: g and I diagonal, any matrix A."""
     basis = multiplier_model()
     swap = {g[i, j]: 0 for i in range(3) for j in range(3) if i != j}
     letters = {**basis.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
@@ -171,7 +189,7 @@ def algebraic_model() -> Model:
 
 
 def moments_model() -> list[Model]:
-    """Return two models of moments of mass g1, g2, g3 and of inertia: g3 > 0, and g3 = 0 (a plane body)."""
+    """Return two models of moments of mass g1, g2, g3 and of inertia I1, I2, I3: g3 > 0, and g3 = 0 (a plane body)."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
     cases = []
     for third in (g3, sympy.Integer(0)):
@@ -182,17 +200,20 @@ def moments_model() -> list[Model]:
 
 
 def covariance_model(sign: int = 1) -> Model:
-    """Return the model of S = ``sign`` times any rotation of the laboratory, any vectors Omega, K, tensors I, g."""
+    """Return the model of text-covariance: S is ``sign`` (1 or -1) times any rotation of the laboratory.
+
+    Omega and K are any vectors, I and g any symmetric tensors.
+    """
     symbols, bindings = rotation_symbols("S")
     letters = {"S": sign * symbols, "I": symmetric("I"), "g": symmetric("g"), "K": vector("K")}
     return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, bindings)
 
 
 def flight_model() -> Model:
-    """Return the model of four particles of a body in flight in fields E and B, with centre y0.
+    """Return the model of text-flight: four particles of a body in flight in fields E and B, with centre y0.
 
-    `x` are places from the centre of mass, `moved` those rotated, `y` those in space; w is any dOmega/dt, IdOmega is I
-    dOmega/dt by (16).
+    By particle: `x` places from the centre of mass, `moved` those rotated by R, `y` those in space. w is any dOmega/dt,
+    IdOmega is I dOmega/dt by (16).
     """
     masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))
     places = {N: vector(f"x{N}_") for N in (1, 2, 3)}

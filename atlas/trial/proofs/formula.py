@@ -14,8 +14,9 @@ from atlas.trial.proofs.run import trial
 
 
 def value(name: str, side: str, /, **letters: Any) -> Any:
-    """Evaluate one side of an equation, in the form that has been proved.
+    """Evaluate one side of an equation of the ledger, in the form that has been proved.
 
+    name     the equation: any word that `atlas.trial.ledger.equation` takes
     side     a letter, or a whole side as the trial writes it: "omega3", "d(Omega1)", "0"
     letters  the values of the letters on the other side: numbers (floats are taken as exact), sequences as vectors and
              nested ones as matrices, SymPy objects, functions such as d
@@ -23,8 +24,9 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
         value("(71)", "omega3", omega2=0.7, I=1.5, B2=1.0, B3=2.0)
 
     The corrected form is read first; the printed one where that only adds cases. Of a chain a = b = c the last side
-    counts that has no other letters. Returns an exact SymPy number; a vector or a matrix of such where the side is
-    one, or has one or two free indices. AtlasError if the equation has no such side or lacks a value.
+    counts that has no other letters. Returns an exact SymPy number; a vector or a matrix of such numbers where the
+    side is one, or has one or two free indices. Raises AtlasError if the equation has no such side or lacks a
+    value.
     """
     case = trial(equation(name).name)
     vocabulary = {**COMMON, **{name: _exact(number) for name, number in letters.items()}}
@@ -57,7 +59,7 @@ def _components(reader: Reader, side: ast.expr) -> Any:
 
 
 def _functions(side: ast.expr) -> set[str]:
-    """Return the names of the functions that a formula calls."""
+    """Return the set of names of the functions that a formula calls."""
     return {node.func.id for node in ast.walk(side) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
 
 

@@ -33,7 +33,8 @@ G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
 def top_model() -> Model:
     """Return the model of any state of the symmetric body, in units of I2, with the rates psi1 and chi1 of two angles.
 
-    K is b times a unit vector, nu = K3/b.
+    It serves theorem-top. K is b times a unit vector, nu = K3/b; M3, p = (M, K)/b and H are the constants of the
+    top, psi1 the rate of precession about the field, chi1 that of the rotation about the axis.
     """
     basis = symmetric_model()
     K = sympy.Matrix([basis.letters[f"K{n}"] for n in (1, 2, 3)])
@@ -47,7 +48,10 @@ def top_model() -> Model:
 
 
 def letters_model() -> Model:
-    """Return the model of u, nu and the top's constants as letters, Q of theorem-quartic and q of theorem-top."""
+    """Return the model of theorem-top-quartic, with u, nu and the top's constants as free letters.
+
+    `Q` is the quartic of u = Omega3 by theorem-quartic, `q` the quartic of nu by theorem-top, both as functions.
+    """
     names = ("E", "c5", "Bsquare")
     letters = {name: sympy.Symbol(name, real=True) for name in names}
     letters |= {"I": I, "b": b, "c3": c3, "H": H, "p": p, "u": u, "M3": I * c3, "nu": nu}
@@ -57,9 +61,10 @@ def letters_model() -> Model:
 
 
 def weierstrass_model() -> Model:
-    """Return the model of any quartic Q with a root e; P and P1 are Weierstrass's function and its rate.
+    """Return the model of any quartic Q with a root e, for theorem-weierstrass; P is Weierstrass's function.
 
-    P1^2 = 4 P^3 - g2 P - g3 follows from the coefficients; the rate of P is P1.
+    P1 is its rate. That P1^2 = 4 P^3 - g2 P - g3 is the relation by which the line is solved; a0 to a4 are the
+    coefficients of Q.
     """
     a = sympy.symbols("a0:4", real=True)
     remainder = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
@@ -69,9 +74,9 @@ def weierstrass_model() -> Model:
 
 
 def curve_model() -> Model:
-    """Return the model of nu with the rate w, w^2 = q(nu), and Cayley-Klein parameters a, eta.
+    """Return the model of nu with the rate w, w^2 = q(nu), and Cayley-Klein parameters a, eta; for theorem-lame.
 
-    Both parameters are those of the theorem up to a steady rotation.
+    Both parameters are those of the theorem up to a steady rotation; q is `QUARTIC`.
     """
     w, a, eta = sympy.symbols("w a eta", real=True)
     letters = {"nu": nu, "p": p, "M3": M3, "I": I, "b": b, "A": A, "a": a, "eta": eta}
@@ -85,7 +90,10 @@ def curve_model() -> Model:
 
 
 def residue_model() -> list[Model]:
-    """Return two models of the place nu = -1, dnu/dt of sign 1 and -1, and the residue of xi's logarithmic rate."""
+    """Return two models of theorem-residues at nu = -1, for dnu/dt of sign 1 and -1.
+
+    `residue` is the residue of the logarithmic rate of xi, `w` is dnu/dt.
+    """
     w, cases = sympy.Symbol("w", real=True), []
     rate = (
         w + sympy.I * (p - M3 * nu)
@@ -98,9 +106,10 @@ def residue_model() -> list[Model]:
 
 
 def sigma_model() -> Model:
-    """Model q with a root e, and P, P1 as in `weierstrass_model`; zeta and sigma by their addition theorem and rates.
+    """Return the model of theorem-sigma: q with a root e, P and P1 as in `weierstrass_model`, zeta and sigma.
 
-    zeta(t - z) is zeta(t) - zeta(z) + (P'(t) + P'(z))/(P(t) - P(z))/2; at the zero z of xi nu is -1, and P'(z) is i Y.
+    Both are functions: zeta(t - z) is zeta(t) - zeta(z) + (P'(t) + P'(z))/(P(t) - P(z))/2, and sigma gives a letter
+    whose logarithmic rate is zeta. At the zero z of xi nu is -1, and P'(z) is i Y.
     """
     root = A * e**2 + (p - M3 * e) ** 2 / (1 - e**2)
     q = functions("q", QUARTIC.subs(g, root), nu)

@@ -42,7 +42,10 @@ def _rates() -> tuple[Value, Value]:
 
 
 def constant_model() -> Model:
-    """Return the model of any Omega1, Omega2, K1, K2 with Omega3 = omega3 and K3 = B3 by (40)."""
+    """Return the model of any Omega1, Omega2, K1, K2 with Omega3 = omega3 and K3 = B3 by (40), for (58) to (60).
+
+    dOmega and dK are the rates (3, 1) by (34), (35).
+    """
     dOmega, dK = _rates()
     letters = {"dOmega": dOmega, "dK": dK}
     letters |= {"K3": (omega3 + B3) - omega3, "Omega": sympy.Matrix([Omega1, Omega2, omega3])}
@@ -51,7 +54,7 @@ def constant_model() -> Model:
 
 
 def proportional_model() -> Model:
-    """Return the model of (Omega1, Omega2) = s l and (K1, K2) = kappa l along one vector l: s or kappa may be 0."""
+    """Return the model of (61): (Omega1, Omega2) = s l and (K1, K2) = kappa l along a vector l; s, kappa may be 0."""
     dOmega, dK = _rates()
     flow = {Omega1: dOmega[0], Omega2: dOmega[1], K1: dK[0], K2: dK[1]}
     start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
@@ -65,7 +68,7 @@ def proportional_model() -> Model:
 
 
 def circle_model() -> Model:
-    """Return the model of (Omega1, Omega2), any rotation of (omega1, omega2), and K along it as in (61)."""
+    """Return the model of (62): (Omega1, Omega2) is any rotation of (omega1, omega2), and K along it as in (61)."""
     cosine, sine = turn(p)
     bindings = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
     bindings += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
@@ -73,7 +76,10 @@ def circle_model() -> Model:
 
 
 def precession_model() -> Model:
-    """Return the model of rates with K of (62): phip from the Euler equations (34), phi from the rate (35) of K."""
+    """Return the model of (63), (64), with K of (62): `phip` by the Euler equations (34), `phi` by the rate (35).
+
+    Both are angular velocities of the vector (Omega1, Omega2) in the body; nu1, nu2 are its rates by (35).
+    """
     factor = omega2 * B2 / (omega1**2 + omega2**2)
     swap = {K1: factor * Omega1, K2: factor * Omega2}
     euler, field = (rates.xreplace(swap) for rates in _rates())
@@ -83,7 +89,7 @@ def precession_model() -> Model:
 
 
 def agreement_model() -> Model:
-    """Return the model of the omega3 for which phip and phi of `precession_model` are equal."""
+    """Return the model of (65): omega3 has the value for which phip and phi of `precession_model` are equal."""
     letters = precession_model().letters
     condition = sympy.Poly(sympy.numer(sympy.together((letters["phip"] - letters["phi"]).subs(I3, I * I2))), omega3)
     slope, remainder = condition.all_coeffs()
@@ -91,7 +97,7 @@ def agreement_model() -> Model:
 
 
 def motion_model() -> tuple[Model, Model]:
-    """Return two models with omega1 = 0: omega3 by (66), and the line omega2 = -B2 with I = 1 and any omega3."""
+    """Return two models of (67), omega1 = 0: omega3 by (66), and the line omega2 = -B2 with I = 1 and any omega3."""
     zero = (omega1, sympy.Integer(0))
     ball = [zero, (omega2, -B2), (I, sympy.Integer(1))]
     return Model(LETTERS, [(omega3, constant_omega3()), zero]), Model(LETTERS, ball)
@@ -100,7 +106,8 @@ def motion_model() -> tuple[Model, Model]:
 def both_conditions_model() -> tuple[Model, Model]:
     """Return two models that hold all solutions of (65) and (66): omega1 = 0 with (66), and omega3 = 0 on a circle.
 
-    Raises ArithmeticError unless the difference of both conditions is a multiple of omega1^2 omega3.
+    The circle is omega1^2 + omega2^2 + (2 - I) B2 omega2 = 0. Raises ArithmeticError unless the difference of both
+    conditions is a multiple of omega1^2 omega3.
     """
     square = omega1**2 + omega2**2
     difference = I * B2**2 * omega3 - I * B2**2 * omega2**2 * omega3 / square
@@ -110,19 +117,16 @@ def both_conditions_model() -> tuple[Model, Model]:
 
 
 def degenerate_model() -> list[Model]:
-    """Return two models, of sign 1 and -1, of the lines to which the hyperbola degenerates for I = 1.
+    """Return two models of (70), of sign 1 and -1, of the lines to which the hyperbola degenerates for I = 1.
 
-    They are omega2 = -B2, and omega3 of (66).
+    The lines are omega2 = -B2 with any omega3, and omega3 of (66).
     """
     basis = canonical_model("one", plane=True)
     root = sympy.Symbol("root", positive=True)
     slope = sd / cd  # a2/a3 of this line, since a2^2/a3^2 = (1 + sin(beta))/(1 - sin(beta)) = tan(beta/2 + pi/4)^2
 
     def square_root(value: Value) -> Value:
-        """Return the root of a3, or of (a2/a3)^2 a3, as a multiple of the letter `root`.
-
-        SymPy's root of any other number.
-        """
+        """Return the root of a3, or of (a2/a3)^2 a3, as a multiple of the letter `root`, else SymPy's root."""
         for factor in (sympy.Integer(1), slope):
             quotient = value / (factor**2 * basis.letters["a3"])
             if sympy.cancel(quotient.subs({cd: turn(tangent)[0], sd: turn(tangent)[1]})) == 1:
@@ -139,7 +143,7 @@ def degenerate_model() -> list[Model]:
 
 
 def frequency_model() -> Model:
-    """Return the model of phi = Phi' of (63) at omega1 = 0, on the hyperbola (66)."""
+    """Return the model of (72): phi, the rate Phi' of (63) at omega1 = 0, on the hyperbola (66)."""
     phi = precession_model().letters["phip"].subs(I3, I * I2)
     bindings = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
     return Model({**LETTERS, "phi": phi}, bindings)

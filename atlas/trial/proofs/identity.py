@@ -13,7 +13,10 @@ Value = Any
 
 
 def ordered(bindings: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
-    """Return the pairs (symbol, value) in an order in which each comes after those whose symbols its value contains."""
+    """Return the ``bindings``, pairs (symbol, value), each after the pairs whose symbols its value contains.
+
+    Pairs that depend on each other in a circle are kept, each circle broken at its last pair of the list.
+    """
     remaining, result = list(bindings), list[tuple[Value, Value]]()
     done: set[Value] = set()
     names = {symbol for symbol, _ in bindings}
@@ -36,10 +39,11 @@ def resolved(bindings: list[tuple[Value, Value]]) -> dict[Value, Value]:
 
 
 def vanishes(difference: Value, bindings: dict[Value, Value] | None = None) -> bool:
-    """Whether a rational function is zero identically: the numerator, as a polynomial in free parameters, is nothing.
+    """Whether the rational function ``difference`` is zero identically, with ``bindings`` (symbol -> value) inserted.
 
-    A symbol that is N/n in free parameters becomes N times a symbol for 1/n; at the end each power of that is cleared
-    by the power of n that is missing. So no fraction is ever expanded.
+    It is zero if its numerator, a polynomial in free parameters, expands to nothing. A symbol that is N/n in free
+    parameters becomes N times a symbol for 1/n; at the end each power of 1/n is cleared by the power of n that is
+    missing. So no fraction is ever expanded.
     """
     numerator = sympy.numer(sympy.together(difference))
     if bindings and vanishes(numerator):
@@ -71,9 +75,9 @@ def vanishes(difference: Value, bindings: dict[Value, Value] | None = None) -> b
 
 
 def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value:
-    """Return a polynomial in s = 1/n multiplied by the lowest power of n that clears s, the generator number ``place``.
+    """Return a polynomial in s = 1/n multiplied by the lowest power of n that clears s, an element of ``algebra``.
 
-    ``bottom`` is n as an element of the ring ``algebra``.
+    s is the generator number ``place`` of the ring ``algebra``, ``bottom`` is n as an element of the ring.
     """
     by_power: dict[int, dict[tuple[int, ...], Value]] = {}
     for powers, coefficient in element.terms():
@@ -87,7 +91,7 @@ def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value
 def sign_forms(value: Value, *, strict: bool) -> list[bool]:
     """Return three booleans: whether SymPy sees that a function is positive as given, factored, and expanded.
 
-    Without ``strict`` nonnegative suffices. False means that its sign is not seen.
+    Without ``strict`` nonnegative suffices. False means that the sign is not seen, not that it is another.
     """
     factored = sympy.factor(sympy.together(value))
     forms = value, factored, sympy.expand(sympy.numer(factored)) / sympy.expand(sympy.denom(factored))
@@ -95,5 +99,8 @@ def sign_forms(value: Value, *, strict: bool) -> list[bool]:
 
 
 def positive(value: Value, *, strict: bool) -> bool:
-    """Whether SymPy can see that a function of symbols of known sign is positive, or nonnegative without ``strict``."""
+    """Whether SymPy sees in one of `sign_forms` that a function is positive, or nonnegative without ``strict``.
+
+    ``value`` is an expression in symbols of known sign. False means that nothing is known.
+    """
     return any(sign_forms(value, strict=strict))

@@ -59,14 +59,15 @@ COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": distances
 def potential_energy(*, equal: bool = True) -> Value:
     """Return minus U of (2): the sum of e A0(y) + (e/c) (A(y), v) over particles, A0 = (y, E), A = [B, y]/2.
 
-    All particles have one ratio mu of charge to mass, as in the paper, or, unless ``equal``, each its own.
+    The result is one SymPy expression in the symbols y, v, E, B. All particles have one ratio mu of charge to mass,
+    as in the paper, or, unless ``equal``, each its own.
     """
     charges = {N: (mu if equal else sympy.Symbol(f"mu{N}", real=True)) * m[N] for N in ALL}
     return sum(charges[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
 
 
 def free_action() -> Value:
-    """Return the kinetic energy plus half of each constraint times its multiplier."""
+    """Return the Lagrangian without fields: kinetic energy plus half of each constraint times its multiplier."""
     kinetic = sum(m[N] * dot(dy[N], dy[N]) for N in ALL) / 2
     inner = {key: dot(y[key[0]] - y[1], y[key[1]] - y[1]) - distances[key] for key in lam}
     return kinetic + sum(lam[key] * inner[key] for key in lam) / 2
@@ -74,7 +75,10 @@ def free_action() -> Value:
 
 @cache
 def forces(*, equal: bool = True) -> dict[int, Value]:
-    """Return mass times acceleration (3, 1) of each particle, by varying the action: d/dt dL/dv = dL/dy; cached."""
+    """Return by particle the mass times acceleration (3, 1), from the varied action d/dt dL/dv = dL/dy; cached.
+
+    Unless ``equal`` each particle has its own ratio of charge to mass.
+    """
     L = sympy.expand(free_action() + potential_energy(equal=equal))
     sums = {}
     for N in ALL:
@@ -85,12 +89,12 @@ def forces(*, equal: bool = True) -> dict[int, Value]:
 
 
 def action_model() -> Model:
-    """Return the model of places y, velocities dy and the Lagrangian L without potential energy."""
+    """Return the model of (1): places y, velocities dy (by particle) and the Lagrangian L without potential energy."""
     return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES)
 
 
 def potential_model() -> Model:
-    """Return the model of places, velocities, U, and the potentials A0, A and charges e of each particle."""
+    """Return the model of (2): places, velocities, the energy U, and by particle the potentials A0, A and charge e."""
     A0 = {N: dot(y[N], E) for N in ALL}
     A = {N: cross(Bf, y[N]) / 2 for N in ALL}
     e = {N: mu * m[N] for N in ALL}
@@ -98,7 +102,10 @@ def potential_model() -> Model:
 
 
 def particles_model() -> Model:
-    """Return the model of the particles with accelerations ddy from the action, and rates dy0, ddy0 of their centre."""
+    """Return the model of (3), (4): accelerations ddy of the particles from the action, rates dy0, ddy0 of the centre.
+
+    The centre is that of mass; mu0 is the total mass.
+    """
     forces_on_particles = forces()
     ddy = {N: forces_on_particles[N] / m[N] for N in ALL}
     mass = sum(m.values())
@@ -109,10 +116,10 @@ def particles_model() -> Model:
 
 @cache
 def relative_model(*, equal: bool = True) -> Model:
-    """Return the model of the particles about their centre of mass, with accelerations ddx there; cached.
+    """Return the model of (5): places x, velocities dx and accelerations ddx about the centre of mass; cached.
 
     The centre has the acceleration (4), or, unless ``equal``, the mean of the particles'. Places and velocities of all
-    particles but the last are letters; those of the last follow.
+    particles but the last are letters; those of the last follow. `lami` is the multiplier lambda^i of (5).
     """
     mass = sum(m.values())
     y0, v0 = vector("y0_"), vector("v0_")
@@ -130,19 +137,22 @@ def relative_model(*, equal: bool = True) -> Model:
 
 
 def _about_centre(places: dict[int, Value]) -> dict[int, Value]:
-    """Return places (3, 1) by particle with the last replaced so that the centre of mass is 0."""
+    """Return a copy of places (3, 1) by particle, the last replaced so that the centre of mass is 0."""
     remainder = -sum((m[N] * places[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
     return {**places, ALL[-1]: remainder}
 
 
 def free_model(*, equal: bool = True) -> Model:
-    """Return `relative_model` with the index N over all particles but the last."""
+    """Return `relative_model` with the index N over all particles but the last, whose place follows from the others.
+
+    ``equal`` as there. It serves text-translation, text-electric-field and text-rotation-apart.
+    """
     basis = relative_model(equal=equal)
     return replace(basis, ranges={**RANGES, "N": ALL[:-1]})
 
 
 def _push(x: dict[int, Value]) -> dict[int, Value]:
-    """Return by particle the force (3, 1) of the constraints, with the particles at ``x`` and without fields."""
+    """Return by particle the force (3, 1) of the constraints, with the particles at places ``x`` and without fields."""
     no_field = dict.fromkeys((*E, *Bf), 0)
     places = {s: value for N in ALL for s, value in zip(y[N], x[N], strict=True)}
     return {N: forces()[N].xreplace(no_field).xreplace(places) for N in ALL}
@@ -153,7 +163,11 @@ def _components(x: dict[int, Value]) -> dict[Any, Value]:
 
 
 def rotation_model() -> Model:
-    """Return the model of particles at x_N(t) = R x_N(0), with any matrices R and dR: linear algebra needs no more."""
+    """Return the model of (6) to (9): particles at x_N(t) = R x_N(0), with any matrices R and dR.
+
+    R need not be a rotation: the proofs are linear algebra. g is the sum of m x x^T, lamM the matrix of multipliers
+    (9), ddRg is d2R g by (6), A the force matrix (7).
+    """
     x = y
     R, dR = matrix("R"), matrix("W")
     push = _push(x)
@@ -173,7 +187,7 @@ def rotation_model() -> Model:
 
 
 def rigid_model() -> Model:
-    """Return the model of vectors from particle 1 to 2, 3, 4: columns of X at t and of X0 at 0, and R = X X0^-1."""
+    """Return the model of text-rigid: vectors from particle 1 to 2, 3, 4 as columns of X at t, X0 at 0; R = X X0^-1."""
     X, X0 = matrix("X"), matrix("Y")
     letters = {"X": X, "X0": X0, "R": X * X0.adjugate() / X0.det(), "inverse": X0.adjugate() / X0.det()}
     letters["x"] = {N: X.col(N - 2) for N in FRAME}
@@ -181,22 +195,28 @@ def rigid_model() -> Model:
 
 
 def plane_model() -> Model:
-    """Return the model of vectors X in one plane, a particle x0 there, and x above x0 at a height."""
+    """Return the model of text-rigid's exception: vectors X in one plane, x0 in the plane, and x above x0.
+
+    x is x0 plus ``height`` times the normal e3.
+    """
     X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
     x0, height = sympy.Matrix([*sympy.symbols("p1:3", real=True), 0]), sympy.Symbol("height", positive=True)
     return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height]), "height": height})
 
 
 def spatial_model() -> Model:
-    """Return the model of three independent vectors X, a place x0, and x with the same products: X^T x = X^T x0."""
+    """Return the model of three independent vectors X, a place x0, and the x with the same products: X^T x = X^T x0.
+
+    It serves the corrected text-rigid: x is x0.
+    """
     X, x0 = matrix("X"), vector("p")
     return Model({"X": X, "x0": x0, "x": (X.T.adjugate() / X.det()) * (X.T * x0)})
 
 
 def _equivalent(line: str) -> str:
-    """Return the line (1 + delta) (X - 0) = P - Q for the line "X = 0.
+    """Return the line "(1 + delta) (X - 0) = P - Q" for the line "X = 0; P = Q".
 
-    P = Q": each equation then follows from the other.
+    Each of the two equations then follows from the other.
     """
     slope, held_ = equations(line)
     minuend, subtrahend = (ast.unparse(side) for side in (held_.left, held_.comparators[0]))

@@ -10,7 +10,7 @@ Value = Any
 
 
 class _Indexed:
-    """A function of integer indices, called with square brackets as eps[i, j, k]."""
+    """A function of two or more integer indices, called with square brackets as eps[i, j, k]."""
 
     def __init__(self, function: Callable[..., Value]) -> None:
         self.function = function
@@ -26,14 +26,15 @@ def certain(fact: Any) -> None:
 
 
 def cross(a: Value, b: Value) -> Value:
-    """Vector product [a, b]."""
+    """Return the vector product [a, b] of two columns (3, 1), as a column."""
     return a.cross(b)
 
 
 def partial(value: Value, by: Value) -> Value:
-    """Return the derivative of ``value`` by a symbol or by a column of N symbols.
+    """Return the derivative of ``value`` by a symbol, entry by entry, or by a column of N symbols.
 
-    By a column it is the gradient of a number, (N, 1), or the Jacobian of a column, entry (i, j) = d value_i/d by_j.
+    By a column it is the gradient (N, 1) of an expression, or the Jacobian of a column, entry (i, j) = d value_i/d
+    by_j.
     """
     if not isinstance(by, sympy.MatrixBase):
         return sympy.diff(value, by)
@@ -41,7 +42,7 @@ def partial(value: Value, by: Value) -> Value:
 
 
 def dot(a: Value, b: Value) -> Value:
-    """Scalar product (a, b)."""
+    """Return the scalar product (a, b) of two columns, one expression."""
     return a.dot(b)
 
 
@@ -78,7 +79,10 @@ COMMON: dict[str, Value] = {
 
 
 def vector(name: str, **assumed: bool) -> Value:
-    """Return the column (3, 1) of symbols name1, name2, name3, real unless other assumptions of SymPy are given."""
+    """Return the column (3, 1) of symbols name1, name2, name3, real unless other assumptions of SymPy are given.
+
+    ``assumed`` are such assumptions by name: positive=True.
+    """
     return sympy.Matrix(sympy.symbols(f"{name}1:4", **(assumed or {"real": True})))
 
 
@@ -104,9 +108,9 @@ def direction() -> Value:
 
 
 def rotation(name: str = "q") -> Value:
-    """Return a rotation matrix (3, 3), rational in three real symbols: any but half turns (Cayley's formula).
+    """Return a rotation matrix (3, 3), rational in three real symbols name1, name2, name3 (Cayley's formula).
 
-    The symbols are name1, name2, name3.
+    It is any rotation but one by a half turn.
     """
     x, y, z = sympy.symbols(f"{name}1:4", real=True)
     n = 1 + x**2 + y**2 + z**2
@@ -123,13 +127,19 @@ def rotation(name: str = "q") -> Value:
 
 
 def rotation_symbols(name: str = "R") -> tuple[Value, list[tuple[Value, Value]]]:
-    """Return the matrix (3, 3) of nine symbols, see `matrix`, and nine pairs (symbol, entry of `rotation`)."""
+    """Return (matrix (3, 3) of nine symbols, see `matrix`; nine pairs (symbol, entry of `rotation`)).
+
+    ``name`` stands before the two digits of each symbol.
+    """
     symbols = matrix(name)
     return symbols, list(zip(symbols, rotation(), strict=True))
 
 
 def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
-    """Return the matrix (3, 3) of the right-handed rotation about a unit vector by an angle of this cosine and sine."""
+    """Return the matrix (3, 3) of the right-handed rotation about a unit vector ``axis`` (3, 1).
+
+    The angle is given by its cosine and sine.
+    """
     return cosine * sympy.eye(3) + (1 - cosine) * axis * axis.T + sine * hat(axis)
 
 
@@ -139,9 +149,9 @@ def turn(p: Value) -> tuple[Value, Value]:
 
 
 def functions(name: str, value: Value, variable: Value) -> dict[str, Callable[[Value], Value]]:
-    """Return functions of one number by name: q, from the expression ``value`` in ``variable``, dq, ddq, dddq.
+    """Return four functions by name, q, dq, ddq, dddq for the name "q": an expression and its first three derivatives.
 
-    The others are its first three derivatives.
+    q is ``value`` as a function of ``variable``, a symbol in it; each function takes one number or expression.
     """
 
     def derivative(order: int) -> Callable[[Value], Value]:
@@ -203,7 +213,7 @@ class Model:
     def about(self, axis: Value) -> Callable[[Value], Value]:
         """Return a function from an angle to the matrix (3, 3) of the right-handed rotation about a unit vector.
 
-        Integer multiples of `phases` enter by their cosines and sines.
+        Integer multiples of `phases` enter by the symbols of their cosines and sines.
         """
         return lambda angle: rodrigues(axis, *self._cosine_sine(angle))
 

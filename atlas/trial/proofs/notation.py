@@ -25,7 +25,11 @@ _SIGNS = {ast.Eq: "=", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">",
 
 
 class NoMeaningError(ValueError):
-    """A line that has no meaning: its indices do not balance, or a vector stands where a number should."""
+    """A line that has no meaning: its indices do not balance, or a vector stands where a number should.
+
+    `example` has the texts "reason" and, where both are known, "left" and "right": a counterexample of
+    `decide.Outcome`.
+    """
 
     def __init__(self, reason: str, lhs: str = "", rhs: str = "") -> None:
         super().__init__(reason)
@@ -76,7 +80,10 @@ def write(trees: list[ast.Compare]) -> str:
 
 
 def sides(line: str) -> list[str]:
-    """Return the sides of the first relation of a line as texts. Raises NoMeaningError if a relation is no equation."""
+    """Return the two or more sides of the first relation of a line as texts.
+
+    Raises NoMeaningError if any relation of the line is no equation.
+    """
     tree = equations(line)[0]
     return [write([ast.Compare(side, [ast.Eq()], [ast.Constant(0)])])[:-4] for side in (tree.left, *tree.comparators)]
 
@@ -96,7 +103,7 @@ def conserved(line: str) -> str:
 
 
 def names(node: ast.AST) -> set[str]:
-    """Return the index names that occur in the square brackets of a formula."""
+    """Return the set of index names in the square brackets of a formula, given as its syntax tree."""
     letters = set()
     for node_inside in ast.walk(node):
         if isinstance(node_inside, ast.Subscript):
@@ -105,7 +112,10 @@ def names(node: ast.AST) -> set[str]:
 
 
 def factors(node: ast.expr) -> Iterator[tuple[ast.expr, bool]]:
-    """Yield pairs (factor, whether it divides) of a product or quotient; (formula, False) for any other formula."""
+    """Yield pairs (factor, whether it divides) of a product or quotient; (formula, False) for any other formula.
+
+    Formulas and factors are syntax trees.
+    """
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div):
         yield from factors(node.left)
         divides = isinstance(node.op, ast.Div)
@@ -115,14 +125,15 @@ def factors(node: ast.expr) -> Iterator[tuple[ast.expr, bool]]:
 
 
 def is_sum(node: ast.expr) -> TypeGuard[ast.BinOp]:
-    """Whether a formula is a sum or a difference."""
+    """Whether a formula, given as its syntax tree, is a sum or a difference."""
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
 
 
 class Reader:
-    """Evaluates lines with given values of letters; indices run over 1, 2, 3 unless `ranges` gives other integers.
+    """Evaluates lines of `notation` with given values of letters (name -> value).
 
-    A letter without a value is a real symbol of its name.
+    Indices run over 1, 2, 3 unless `ranges` (index -> integers) gives others. A letter without a value is a real
+    symbol of its name.
     """
 
     def __init__(self, letters: Mapping[str, Value], ranges: Mapping[str, tuple[int, ...]] | None = None) -> None:
@@ -161,9 +172,9 @@ class Reader:
         return relations
 
     def free_indices(self, node: ast.expr) -> set[str]:
-        """Return the names of the free indices of a formula, without those of particles (`ranges`).
+        """Return the set of names of the free indices of a formula, without those of particles (`ranges`).
 
-        Raises NoMeaningError if terms of a sum have different free indices.
+        ``node`` is the formula's syntax tree. Raises NoMeaningError if terms of a sum have different free indices.
         """
         if is_sum(node):
             lhs, rhs = self.free_indices(node.left), self.free_indices(node.right)
@@ -195,7 +206,8 @@ class Reader:
     def value(self, node: ast.expr, bound: Mapping[str, int]) -> Value:
         """Return the value of a formula, an expression or a matrix, with the indices in ``bound`` at these integers.
 
-        All other indices are summed over. Raises KeyError for a function that the letters lack.
+        ``node`` is the formula's syntax tree. All other indices are summed over. Raises KeyError for a function
+        that the letters lack.
         """
         if bound and not names(node) and not isinstance(node, ast.Constant | ast.Name):
             key = ast.dump(node)
@@ -213,9 +225,10 @@ class Reader:
         return sum(terms[1:], terms[0]) if terms else sympy.Integer(0)
 
     def summed(self, operands: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
-        """Return those of ``indices`` over which the product is summed as a whole.
+        """Return the set of those of ``indices`` over which the product of ``operands`` is summed as a whole.
 
-        An index within a single factor that is itself a sum is summed inside that factor.
+        ``operands`` are the pairs (factor, whether it divides) of `factors`. An index within a single factor that
+        is itself a sum is summed inside that factor.
         """
         holders = {name: [factor for factor, _ in operands if name in names(factor)] for name in indices}
         return {name for name, group in holders.items() if len(group) > 1 or not is_sum(group[0])}
@@ -227,9 +240,10 @@ class Reader:
     def _products(
         self, operands: list[tuple[ast.expr, bool]], sums: set[str], bound: dict[str, int], so_far: Value
     ) -> Iterator[Value]:
-        """Yield ``so_far`` times each product of factor values, one product for each value of the indices ``sums``.
+        """Yield ``so_far`` times each product of the values of ``operands``, one for each value of indices ``sums``.
 
-        A factor that has a new index and is zero, and is no divisor, is skipped with all its products.
+        ``operands`` are the pairs of `factors`, ``bound`` the integers of the indices that are fixed. A factor that
+        has a new index and is zero, and is no divisor, is skipped with all its products.
         """
         if not operands:
             yield so_far
@@ -265,9 +279,9 @@ class Reader:
         return self.value(node, bound)
 
     def _power(self, base: Value, power: Value) -> Value:
-        """Return v.v for a vector and the exponent 2, a power of a square matrix, or its inverse for the exponent -1.
+        """Return v.v for a column and the exponent 2, or a power of a square matrix; the exponent -1 gives the inverse.
 
-        Raises NoMeaningError for another power of a vector, and for an exponent of a matrix that is no integer.
+        Raises NoMeaningError for another power of a column, and for an exponent of a matrix that is no integer.
         """
         if base.shape[1] == 1 and power == 2:
             return base.dot(base)
@@ -276,9 +290,10 @@ class Reader:
         return self.letters["inv"](base) if power == -1 else base**power
 
     def _entry(self, node: ast.Subscript, bound: Mapping[str, int]) -> Value:
-        """Return the entry of a vector, matrix or dictionary at indices; those of vectors and matrices count from 1.
+        """Return the entry of a vector, matrix or dictionary at the indices in square brackets.
 
-        Raises NoMeaningError if a dictionary with a key above 3 has a spatial index.
+        Indices of vectors and matrices count from 1; those in ``bound`` have the integers given there. Raises
+        NoMeaningError if a dictionary with a key above 3, one that counts particles, has a spatial index.
         """
         base = self._factor(node.value, bound)
         strange = isinstance(node.slice, ast.Name) and node.slice.id not in self.ranges
@@ -291,7 +306,7 @@ class Reader:
 
 
 def letters_of(tree: ast.AST) -> tuple[str, ...]:
-    """Return the distinct letters of a formula in their order, without indices in brackets and names of functions."""
+    """Return the distinct letters of a formula, a syntax tree, in their order: no indices in brackets, no functions."""
     functions = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     inside = {id(name) for node in ast.walk(tree) if isinstance(node, ast.Subscript) for name in ast.walk(node.slice)}
     letters = [node for node in ast.walk(tree) if isinstance(node, ast.Name) and id(node) not in functions | inside]
@@ -299,12 +314,12 @@ def letters_of(tree: ast.AST) -> tuple[str, ...]:
 
 
 def is_zero(node: ast.expr) -> bool:
-    """Whether a formula is the number 0."""
+    """Whether a formula, given as its syntax tree, is the number 0."""
     return isinstance(node, ast.Constant) and node.value == 0
 
 
 def _entries(lhs: Value, rhs: Value) -> list[tuple[Value, Value]]:
-    """Return pairs of corresponding entries of two values: one pair for two numbers.
+    """Return pairs of corresponding entries of the values of two sides, row by row: one pair for two numbers.
 
     The number 0 stands for a zero matrix of any shape. Raises NoMeaningError if the shapes differ.
     """

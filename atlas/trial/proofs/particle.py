@@ -39,7 +39,10 @@ e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
 
 
 def euler(lagrangian: Value) -> Value:
-    """Return the acceleration (3, 1) by a Lagrangian of place y and velocity v: d/dt dL/dv = dL/dy, solved."""
+    """Return the acceleration (3, 1) by a Lagrangian of place y and velocity v: d/dt dL/dv = dL/dy, solved.
+
+    ``lagrangian`` is an expression in the symbols of y and v.
+    """
     momentum = partial(lagrangian, v)
     force = partial(lagrangian, y) - momentum.jacobian(y) * v
     return (momentum.jacobian(v).inv() * force).applyfunc(sympy.cancel)
@@ -48,7 +51,8 @@ def euler(lagrangian: Value) -> Value:
 def lagrangian_model() -> Model:
     """Return the model of the Lagrangian (104) with the potentials (102): K, U, and the acceleration ddy by variation.
 
-    `force`, `grad`, `curl` and `acceleration` are functions of expressions in y and v.
+    K is the kinetic, U the potential energy. `force`, `grad`, `curl` and `acceleration` are functions of
+    expressions in y and v. It serves (89) and (102) to (104).
     """
     A0, A = dot(y, E), cross(B, y) / 2
     L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
@@ -68,14 +72,17 @@ def lagrangian_model() -> Model:
 
 
 def potentials_model() -> Model:
-    """Return the model of the potentials (102) with any share of E taken from A0 into an A that changes in time."""
+    """Return the model of text-potentials: (102) with any share of E taken from A0 into an A that changes in time."""
     base, share = lagrangian_model().letters, sympy.Symbol("share", real=True)
     letters = {**base, "A0": (1 - share) * base["A0"], "A": base["A"] - share * c * t * E}
     return Model({**letters, "partial_t": lambda field: field.diff(t)})
 
 
 def velocity_model() -> Model:
-    """Return the model of a particle at y with velocity dy, in fields E and B, and a constant vector C."""
+    """Return the model of (90): a particle at y in fields E and B (letter Bf), and a constant vector C.
+
+    The rate of y is a vector of symbols; the line defines the velocity dy.
+    """
     C = vector("C")
     letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
     flow = {t: sympy.Integer(1), **dict(zip(y, v, strict=True))}
@@ -83,7 +90,7 @@ def velocity_model() -> Model:
 
 
 def fall_model() -> Model:
-    """Return the model of a particle without magnetic field: y0, C, E and mu; its solution is defined by the line."""
+    """Return the model of text-no-magnetic-field: constants y0, C (3, 1), E and mu; the line defines y."""
     C, y0 = vector("C"), vector("yo")
     letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
@@ -102,7 +109,10 @@ def _split() -> dict[str, Value]:
 
 
 def split_model() -> Model:
-    """Return the model of (90) in parts along and across B = (0, 0, b), E in the plane (e2, e3), mu of any sign."""
+    """Return the model of (90) in parts along and across B = (0, 0, b), E in the plane (e2, e3), mu of any sign.
+
+    It serves (91), (92), (94). Letters end in `par` or `perp`: Cpar, ypar, dypar, Epar and so on, (3, 1) each.
+    """
     components = _split()
     flow = dict(zip(components["y"], components["dypar"] + components["dyperp"], strict=True))
     start = {t: sympy.Integer(0), components["y"][2]: components["ypar0"][2]}
@@ -110,21 +120,21 @@ def split_model() -> Model:
 
 
 def parallel_model() -> Model:
-    """Return the model of constants for the part along B, with ypar left to be defined by the line."""
+    """Return the model of (93): constants of the part along B, see `split_model`; the line defines ypar."""
     letters = _split()
     del letters["ypar"]
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
 def fall_along_model() -> Model:
-    """Return the model of the part along B by (93), ypar as a function of t."""
+    """Return the model of text-parallel-acceleration: the part ypar along B by (93), as a function of t."""
     components = _split()
     ypar = components["ypar0"] + components["Cpar"] * t + mu * PARALLEL * t**2 / 2
     return Model({**components, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
 def helix_model() -> Model:
-    """Return the model with E = 0: y2, the part across B from its centre, and ypar, which rises with velocity C3."""
+    """Return the model of text-helix, E = 0: y2, the part across B from its centre, and ypar, of velocity C3."""
     place, rise = vector("y"), sympy.Symbol("C3", real=True)
     speed_across = sympy.diag(1, 1, 0) * place
     flow = dict(zip(place, mu / c * cross(speed_across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
@@ -132,7 +142,10 @@ def helix_model() -> Model:
 
 
 def along_field_model() -> list[Model]:
-    """Return two models with B = 0, mu > 0 and mu < 0: the motion of text-no-magnetic-field in E along e3."""
+    """Return two models with B = 0, mu > 0 and mu < 0, of y by text-no-magnetic-field, with E along e3.
+
+    They serve text-along-field.
+    """
     C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
     cases = []
     for mu in (strength, -strength):
@@ -142,7 +155,7 @@ def along_field_model() -> list[Model]:
 
 
 def shifted_model() -> Model:
-    """Return the model of the shifted variables y1 and y2 of the part across B, with their rates by (92)."""
+    """Return the model of (95), (96): the shifted variables y1, y2 of the part across B, with their rates by (92)."""
     components = _split()
     drift = c * cross(ACROSS, ALONG_Z) / b**2
     second = (c * cross(components["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
@@ -158,7 +171,8 @@ def shifted_model() -> Model:
 def charges_model(choice: str = "any") -> list[Model]:
     """Return two models, mu > 0 and mu < 0, with B along e3 and E_perp along e2; omega t and omega0 are phases.
 
-    ``choice`` sets C_perp: "any" vector across B, that of the text for (99), "origin", or for (100), "trochoid".
+    omega is |mu| b/c in both. ``choice`` sets the constant C_perp: "any" vector across B, or the vector in the text for
+    (99), "origin", or for (100), "trochoid". O = (mu E2/omega) t e1 and P are parts of the solution (98).
     """
     cases = []
     for sign in (1, -1):
@@ -178,7 +192,7 @@ def charges_model(choice: str = "any") -> list[Model]:
 
 
 def drift_model() -> list[Model]:
-    """Return two models, mu > 0 and mu < 0, of the velocity `drift` that (89) keeps constant, solved from (89)."""
+    """Return two models, mu > 0 and mu < 0, of the constant velocity `drift` across B for which (89) gives no force."""
     cases = []
     for case in charges_model():
         remainder = sympy.symbols("rest1:3", real=True)
@@ -191,18 +205,24 @@ def drift_model() -> list[Model]:
 
 
 def signed_model(choice: str = "any") -> list[Model]:
-    """Return the two models of `charges_model` with omega of the sign of mu."""
+    """Return the two models of `charges_model` with omega = mu b/c, of the sign of mu, as the corrections have it.
+
+    ``choice`` as there.
+    """
     model, second = charges_model(choice)
     return [model, replace(second, bindings=[(omega, -strength * b / c), *second.bindings[1:]])]
 
 
 def _general(model: Model, **letters: Value) -> Value:
-    """Return the right side (3, 1) of (98) at the model's letters, some of them replaced."""
+    """Return the right side (3, 1) of (98) at the model's letters; ``letters`` replace some of them by name."""
     return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 
 def start_model() -> list[Model]:
-    """Return two models of (98) as corrected, with omega0 = 0 and the C_perp for which its first term vanishes."""
+    """Return two models of text-initial-position: yperp by the corrected (98) with omega0 = 0.
+
+    C_perp is chosen so that the first term of (98) vanishes.
+    """
     return [
         replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
         for model in signed_model("origin")
@@ -214,7 +234,7 @@ _SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
 
 
 def trajectory_model(*, signed: bool = True) -> list[Model]:
-    """Return two models, mu > 0 and mu < 0, of ypar of (93) and yperp of (99).
+    """Return two models, mu > 0 and mu < 0, of ypar of (93) and yperp of (99), for (101) and text-ball-centre.
 
     omega has the sign of mu if ``signed``; otherwise it is positive as in (97), and the models are those of t = 0.
     """
@@ -228,7 +248,7 @@ def trajectory_model(*, signed: bool = True) -> list[Model]:
 
 
 def later_model() -> list[Model]:
-    """Return two models with (98) as corrected as a function `place` of time, C_perp and omega0."""
+    """Return two models of text-time-shift: `place` is the corrected (98) as a function of time, C_perp and omega0."""
 
     def place(model: Model) -> Callable[..., Value]:
         return lambda time, constant, angle: _general(model, t=time, Cperp=constant, omega0=angle)
@@ -237,7 +257,10 @@ def later_model() -> list[Model]:
 
 
 def rolling_model() -> list[Model]:
-    """Return two models of (100) as corrected: a point at distance a from the middle of a circle that rolls."""
+    """Return two models of text-trochoid: x, y of the corrected (100), a point at distance a from a circle's centre.
+
+    The circle, of radius r, rolls along e1.
+    """
     cases = []
     for model in signed_model("trochoid"):
         mu_ = model.letters["mu"]

@@ -31,9 +31,9 @@ START = dict(zip([*Omega, *K], [*omega, 0, B2, B3], strict=True))
 
 
 def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
-    """Return E', c3 and c5 at a point by name: twice the energy over I2, (40) and (41).
+    """Return E', c3 and c5 at a point as a dictionary "E", "c3", "c5": twice the energy over I2, (40) and (41).
 
-    ``spin`` is Omega, ``field`` K, ``scale`` I = I3/I2.
+    ``spin`` is Omega (3, 1), ``field`` K (3, 1), ``scale`` I = I3/I2.
     """
     c3 = field[2] + spin[2]
     return {
@@ -44,9 +44,9 @@ def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
 
 
 def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Value]:
-    """Return the coefficients a0 ... a3 of the cubic (48), as corrected, by name.
+    """Return the coefficients of the cubic (48), as corrected, as a dictionary "a0" ... "a3" of expressions.
 
-    ``values`` has E', c3, c5; ``square`` is K^2, ``scale`` I = I3/I2.
+    ``values`` has "E" (E'), "c3" and "c5", see `integrals`; ``square`` is K^2, ``scale`` I = I3/I2.
     """
     E, c3, c5 = values["E"], values["c3"], values["c5"]
     return {
@@ -61,7 +61,8 @@ def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Va
 def state_model() -> Model:
     """Return the model of any Omega, K with rates (34), (35), and E', c3, c5, the cubic, phi and f at that state.
 
-    Cached.
+    The letters a0 ... a3 are the coefficients of the cubic (48), phi and f the functions (44); `rank` gives the
+    rank of the gradients of functions at one point. Cached; it serves (33) to (47).
     """
     energy = (tensor * Omega).dot(Omega) / 2
     letters = {"omega": omega, "Omega": Omega, "K": K, "B2": B2, "B3": B3, "I": ratio, **integrals(Omega, K, ratio)}
@@ -78,12 +79,15 @@ def state_model() -> Model:
 
 
 def launch_model() -> Model:
-    """Return `state_model` at the start in the paper's field: K = B' = (0, B2, B3), both positive."""
+    """Return `state_model` at the start in the paper's field, for (48): K = B' = (0, B2, B3), both positive."""
     return replace(state_model(), bindings=[(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)])
 
 
 def field_model() -> Model:
-    """Return the model of a symmetric body with K = mu/(2c) R^T B, I dOmega/dt by (16) and dK/dt by (12)."""
+    """Return the model of a symmetric body with K = mu/(2c) R^T B, for (34) and (35).
+
+    IdOmega is I dOmega/dt by (16), dK the rate of K by (12), Bp the field B' = mu B/(2c).
+    """
     (R, bindings), B = rotation_symbols(), vector("B")
     mu, c = general.mu, general.c
     field_in_body = mu / (2 * c) * R.T * B
@@ -108,7 +112,7 @@ def field_model() -> Model:
 
 
 def frame_model() -> Model:
-    """Return the model of K = R^T B' with B' = (0, B2, B3), B = (2c/mu) B', Omega = R^T omega; R = 1 at t = 0."""
+    """Return the model of (31), (32): K = R^T B' with B' = (0, B2, B3), B = (2c/mu) B', Omega = R^T omega; R(0) = 1."""
     mu, c = general.mu, general.c
     field = sympy.Matrix([0, 2 * c * B2 / mu, 2 * c * B3 / mu])
     (R, bindings), w = rotation_symbols(), vector("w")
@@ -129,13 +133,16 @@ def frame_model() -> Model:
 
 
 def symmetric_body_model() -> Model:
-    """Return the model of a body with mass moments g1, g1, g3: I1 = I2 = g1 + g3, I3 = 2 g1."""
+    """Return the model of text-mass-matrix: mass moments g1, g1, g3, so that I1 = I2 = g1 + g3, I3 = 2 g1."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"g": sympy.diag(g1, g1, g3), "I1": g1 + g3, "I2": g1 + g3, "I3": 2 * g1})
 
 
 def passing_model() -> Model:
-    """Return `quadrature_model` with a root rho of E' - I u^2 of either sign, rate -I u w/rho, and f = ln(rho)."""
+    """Return the model of the corrected (45): `quadrature_model` with a root rho of E' - I u^2 of either sign.
+
+    rho has the rate -I u w/rho, and f is ln(rho).
+    """
     basis = quadrature_model()
     rho, u, I, E = sympy.Symbol("rho", real=True), *(basis.letters[name] for name in ("u", "I", "E"))
     bindings = [(E, rho**2 + I * u**2), *basis.bindings[1:]]
@@ -144,9 +151,9 @@ def passing_model() -> Model:
 
 
 def quadrature_model() -> Model:
-    """Return the model of any function Omega3 = u of time with rate w, and an angle Phi with rate phi.
+    """Return the model of (45): any function Omega3 = u of time with rate w, and an angle Phi with rate phi.
 
-    E' - I u^2 is n^2, n > 0, and f half its logarithm; Phi and phi0 are phases.
+    E' - I u^2 is n^2 with n > 0, and f is half its logarithm; Phi and phi0 are phases.
     """
     u, w, E, phi, Phi, phi0, f0 = sympy.symbols("u w E phi Phi phi0 f0", real=True)
     I, n = sympy.symbols("I n", positive=True)
@@ -160,14 +167,20 @@ def quadrature_model() -> Model:
 
 
 def free_constant_model(*, fixed: bool = False) -> list[Model]:
-    """Return one model of any state with any f0, or two with f0 = 1 and -1 if ``fixed``."""
+    """Return one model of text-free-constant with any f0, or two with f0 = 1 and -1 if ``fixed``.
+
+    Each is the letters of `state_model` without rates.
+    """
     letters = state_model().letters
     values = map(sympy.Integer, (1, -1)) if fixed else [sympy.Symbol("f0", real=True)]
     return [Model({**letters, "f0": value}) for value in values]
 
 
 def initial_model() -> Model:
-    """Return the model of the cubic (47), (48) as corrected in Omega3, with its integrals at Omega = omega, K = B'."""
+    """Return the model of (49): the cubic (47), (48) as corrected in Omega3, with integrals at Omega = omega, K = B'.
+
+    The letter ddOmega3 is the value of the cubic.
+    """
     u, field = sympy.Symbol("Omega3", real=True), sympy.Matrix([0, B2, B3])
     a = cubic(integrals(omega, field, ratio), dot(field, field), ratio)
     letters = {"omega": omega, "Omega3": u, "B2": B2, "B3": B3, "I": ratio}
@@ -176,7 +189,10 @@ def initial_model() -> Model:
 
 
 def laboratory_model(B_across: Value = B2, B_along: Value = B3) -> Model:
-    """Return the model of a field with this part across e3, at any angle to e2, and S, the rotation about e3 by it."""
+    """Return the model of text-laboratory: a field B, and S, a rotation about e3.
+
+    B has the part ``B_across`` across e3, at any angle to e2, and ``B_along`` along e3; S turns by this angle.
+    """
     cosine, sine = turn(sympy.Symbol("p", real=True))
     S = sympy.Matrix([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
     field = sympy.Matrix([B_across * sine, B_across * cosine, B_along])
@@ -184,7 +200,10 @@ def laboratory_model(B_across: Value = B2, B_along: Value = B3) -> Model:
 
 
 def degree_model() -> list[Model]:
-    """Return three models, I > 1, I < 1 and I = 1, of the cubic's coefficients: leading, square, slope."""
+    """Return three models, I > 1, I < 1 and I = 1, of the cubic's coefficients, for text-cubic-degree.
+
+    `leading` is that of Omega3^3, `square` of Omega3^2, `slope` of Omega3.
+    """
     excess, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
     cases = []
     for scale in (1 + excess, 1 / (1 + excess), sympy.Integer(1)):

@@ -22,11 +22,14 @@ _TAKEN = {"at0", "check", "d", "flow", "left", "point", "right", "start", "where
 
 
 class _NoFormulaError(Exception):
-    """A function of the model's own over indices stands in a formula, so that its components are written out."""
+    """Raised where a formula calls a function of the model's own with a loop's index; components are listed instead."""
 
 
 class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
-    """Prints an expression as Python: fractions exact, each symbol by its identifier, matrices on one line."""
+    """Prints an expression as Python: fractions exact, matrices on one line.
+
+    `identifier` is a function from a symbol to the name under which the symbol is printed.
+    """
 
     def __init__(self, identifier: Callable[[Value], str]) -> None:
         super().__init__()
@@ -54,9 +57,13 @@ class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
 
 
 class Line:
-    """One line of a trial in one model, as Python code.
+    """One line of a trial in one model, as Python code for a script with SymPy.
 
-    `relations` are to be checked, `used` are the model's letters in the code written so far, `symbols` its symbols.
+    Made from the line, the model, the letters that the line defines, and the second line ``solves`` (see
+    `decide.decide`); raises NoMeaningError for a line without values in the model. `relations` are to be checked,
+    `model` is the model with the definitions added, `definitions` maps defined letters to syntax trees. `used`
+    (letter -> value) and `symbols` grow as code is written: they hold the model's letters and SymPy symbols in it.
+    ``node``, in the methods, is the syntax tree of a formula of the line.
     """
 
     def __init__(self, line: str, model: Model, defines: tuple[str, ...], solves: str) -> None:
@@ -88,10 +95,7 @@ class Line:
         return self.identifiers[symbol]
 
     def plain(self, value: Value) -> str:
-        """Return a number, expression, matrix or dictionary of these as Python code.
-
-        Its symbols are added to `symbols`.
-        """
+        """Return a number, expression, matrix or dictionary of these as Python code; adds its symbols to `symbols`."""
         if isinstance(value, dict):
             return "{" + ", ".join(f"{key}: {self.plain(entry)}" for key, entry in value.items()) + "}"
         value = value.as_immutable() if isinstance(value, sympy.MatrixBase) else sympy.sympify(value)
@@ -100,7 +104,7 @@ class Line:
         return f"Integer({text})" if value.is_Matrix is not True and value.is_Integer else text
 
     def table(self, values: Mapping[Value, Value]) -> str:
-        """Return the code of a dictionary from symbols to expressions."""
+        """Return the code of a dictionary from symbols to expressions; adds their symbols to `symbols`."""
         pairs = (f"{self.plain(s)}: {v if sympy.sympify(v).is_Integer else self.plain(v)}" for s, v in values.items())
         return "{" + ", ".join(pairs) + "}"
 
@@ -110,12 +114,15 @@ class Line:
         return points(parameters(self.relations, self.model, every), self.model)
 
     def symbols_reached(self) -> set[Value]:
-        """Return the symbols on which the code depends, directly or through `bindings` and rates of the model."""
+        """Return the set of symbols on which the code so far depends, directly or through `bindings` and rates."""
         values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
         return reached(values, [*self.model.bindings, *self.model.flow.items()])
 
     def assumptions(self) -> dict[str, str]:
-        """Return assumptions of the symbols by identifier, as text of arguments: ", positive=True", or ""."""
+        """Return by identifier the assumptions of the code's symbols, as text of arguments: ", positive=True", or "".
+
+        Adds the symbols of `used` letters to `symbols`.
+        """
         for value in self.used.values():
             if isinstance(value, sympy.Symbol):
                 self.plain(value)
@@ -133,7 +140,8 @@ class Line:
     def definition(self, name: str) -> str:
         """Return the code of a defined letter's value: its formula as read, or its components written out.
 
-        They are written out where the formula has a function of the model's own.
+        The components are written out where the formula has a function of the model's own. Raises KeyError for a
+        letter that the line does not define.
         """
         try:
             text = self.code(self.definitions[name], ())
@@ -142,9 +150,9 @@ class Line:
             return self.plain(self.model.letters[name])
 
     def in_order(self) -> list[str]:
-        """Return the names that the line defines, each after those in its definition.
+        """Return the list of letters that the line defines, each after those in its definition.
 
-        Names in a circle are left out.
+        Letters whose definitions form a circle are left out.
         """
         ordered: list[str] = []
         for _ in self.definitions:
@@ -154,7 +162,11 @@ class Line:
         return ordered
 
     def loops(self, relation: Relation) -> list[tuple[str, tuple[int, ...]]]:
-        """Return (index, its integers) for each free index of a relation; [] where its components are written out."""
+        """Return pairs (index, its integers), one for each free index of a relation that the script runs through.
+
+        The list is empty where the relation's components are written out. An index of particles is left out where
+        the relation has fewer components than its loops would give.
+        """
         tree = parse(relation.text)[0]
         ranges = self.reader.ranges
         indices = sorted(self.reader.free_indices(tree.left) | (names(tree.left) & set(ranges)))
@@ -174,7 +186,7 @@ class Line:
     def sides(self, relation: Relation) -> list[str]:
         """Return the code of the left and the right side of a relation, with free indices as variables.
 
-        Where the model has a function of indices, both are code of a matrix of all components.
+        Where the model has a function of indices, both are code of the matrix (N, 1) of all N components.
         """
         tree, indices = parse(relation.text)[0], tuple(name for name, _ in self.loops(relation))
         try:
@@ -183,7 +195,7 @@ class Line:
             return [self.plain(sympy.Matrix(side)) for side in (relation.lhs, relation.rhs)]
 
     def difference(self, relation: Relation, *, reverse: bool = False) -> str:
-        """Return the code of left side - right side, or of right - left if ``reverse``."""
+        """Return the code of left side - right side, or of right - left if ``reverse``; a right side 0 is left out."""
         lhs, rhs = self.sides(relation)
         if is_zero(parse(relation.text)[0].comparators[0]):
             return f"-({lhs})" if reverse else lhs
@@ -191,11 +203,17 @@ class Line:
         return ast.unparse(ast.parse(f"({lhs}) - ({rhs})", mode="eval"))
 
     def code(self, node: ast.expr, bound: tuple[str, ...]) -> str:
-        """Return a formula as Python; indices in `bound` are variables of loops around it, all others are summed."""
+        """Return a formula as Python; indices in ``bound`` are variables of loops around it, all others are summed.
+
+        Raises _NoFormulaError as `call` and `name` do.
+        """
         return ast.unparse(ast.fix_missing_locations(self.formula(node, bound)))
 
     def formula(self, node: ast.expr, bound: tuple[str, ...]) -> ast.expr:
-        """Return the syntax tree of a formula in Python, as `Reader.value` understands it."""
+        """Return the syntax tree in Python of a formula in plain letters, as `Reader.value` understands the formula.
+
+        Indices outside ``bound`` are summed by a `sum` over a generator; quotients of two numbers become Rational.
+        """
         if is_sum(node):
             return ast.BinOp(self.formula(node.left, bound), node.op, self.formula(node.right, bound))
         if isinstance(node, ast.UnaryOp):
@@ -219,13 +237,16 @@ class Line:
         return _tree(f"sum(({ast.unparse(product)} {loops}){start})")
 
     def value(self, node: ast.expr, bound: tuple[str, ...]) -> Value:
-        """Return the value of a formula, each index in ``bound`` at its first integer."""
+        """Return the value of a formula, expression or matrix, with each index in ``bound`` at its first integer."""
         return self.reader.value(node, {name: self.reader.ranges.get(name, (1,))[0] for name in bound})
 
     def factor(  # noqa: PLR0911  one return for each kind of factor
         self, node: ast.expr, bound: tuple[str, ...]
     ) -> ast.expr:
-        """Return the syntax tree of a factor in Python, as `Reader` understands it."""
+        """Return the syntax tree in Python of one factor of a formula, as `Reader` understands the factor.
+
+        Indices of vectors and matrices are less by one: Python counts from 0. ``bound`` as in `code`.
+        """
         match node:
             case ast.Constant():
                 return node
@@ -260,7 +281,7 @@ class Line:
     def name(self, node: ast.Name, bound: tuple[str, ...]) -> ast.expr:
         """Return the syntax tree of a letter; unless it is an index, defined or common, it is added to `used`.
 
-        Raises _NoFormulaError if its value in the model is a function.
+        ``bound`` are the indices of loops. Raises _NoFormulaError if the letter's value in the model is a function.
         """
         value = self.model.letters.get(node.id, sympy.Symbol(node.id, real=True))
         if node.id in bound or node.id in self.definitions:
@@ -275,7 +296,8 @@ class Line:
     def call(self, node: ast.Call, name: str, bound: tuple[str, ...]) -> ast.expr:
         """Return the syntax tree of a function's call: SymPy's function or method, d(...), at0(...), or its value.
 
-        Raises _NoFormulaError for a function of the model's own that has an index of a loop.
+        ``name`` is the function's name, ``bound`` the indices of loops. A function of the model's own is replaced
+        by its value; raises _NoFormulaError if it has an index of a loop.
         """
         vocabulary = {*_METHODS, *_CALLED, "T", "norm", "d", "d2", "at0"}
         if name not in vocabulary or (
@@ -316,5 +338,5 @@ def _function_names(tree: ast.AST) -> set[str]:
 
 
 def _words(node: ast.expr) -> set[str]:
-    """Return the names in a formula."""
+    """Return the set of names in a formula: letters, indices and functions."""
     return {name.id for name in ast.walk(node) if isinstance(name, ast.Name)}

@@ -36,7 +36,7 @@ LETTERS = {
 def at_start(u: Value) -> Value:
     """Return the cubic of (47), (48) as corrected, an expression in u = Omega3, with its integrals at t = 0.
 
-    At t = 0 are Omega = (omega1, omega2, omega3) and K = B' = (0, B2, B3).
+    At t = 0 the state is Omega = (omega1, omega2, omega3) and K = B' = (0, B2, B3).
     """
     field = sympy.Matrix([0, B2, B3])
     a = cubic(integrals(sympy.Matrix([omega1, omega2, omega3]), field, I), field.dot(field), I)
@@ -55,7 +55,7 @@ def constant_omega3() -> Value:
 
 
 def condition_model() -> tuple[Model, Model]:
-    """Return the two models of all points at which Omega3 = omega3 solves the cubic for all times.
+    """Return the two models of (50), (51): all points at which Omega3 = omega3 solves the cubic (47) for all times.
 
     The first has omega3 of `constant_omega3`, the second the lines omega2 = -B2, omega1 = s B2, I = 1 - s^2 with any
     omega3. Raises ArithmeticError if the cubic had other zeros at omega2 = -B2.
@@ -67,14 +67,17 @@ def condition_model() -> tuple[Model, Model]:
 
 
 def free_model() -> Model:
-    """Return the model of any initial angular velocity (omega1, omega2, omega3), on the surface (50) or not."""
+    """Return the model of any initial angular velocity (omega1, omega2, omega3), on the surface (50) or not.
+
+    It serves the corrected (52), (71) and the equivalence of (50) and (51).
+    """
     return Model(LETTERS)
 
 
 def lost_lines_model() -> list[Model]:
     """Return two models, of sign 1 and -1, of the lines omega2 = -B2 of the quadric for I < 1, with any omega3.
 
-    On them omega1 = sign sqrt(1 - I) B2; I is written 1 - s^2.
+    On them omega1 = sign sqrt(1 - I) B2; I is written 1 - s^2. They serve the corrected (52).
     """
     root = sympy.Symbol("s", positive=True)
     cases = []
@@ -86,9 +89,9 @@ def lost_lines_model() -> list[Model]:
 
 
 def _angles() -> list[tuple[Value, Value]]:
-    """Return the bindings of B3, cos(delta), sin(delta), delta in p = tan(delta/2), where delta = beta/2 + pi/4.
+    """Return the bindings of B3, cos(delta), sin(delta), delta: pairs (symbol, value) with p = tan(delta/2).
 
-    B3 follows from tan(beta) = B3/(I B2) with beta = 2 delta - pi/2.
+    delta = beta/2 + pi/4; B3 follows from tan(beta) = B3/(I B2).
     """
     return [
         (B3, -I * B2 * (cd**2 - sd**2) / (2 * cd * sd)),
@@ -105,8 +108,8 @@ PHASES = {delta: (cd, sd)}
 def coordinates_model() -> Model:
     """Return the model of (53): values of the quadratic forms in which its coordinates w1, w2, w3 must agree.
 
-    `form` is the quadratic form of (51), `length` the squared distance from -B', a2 and a3 are those of (54), and
-    `sense` is the determinant of the coordinates' Jacobian.
+    `form` is the quadratic form of (51), `length` the squared distance from -B', a2 and a3 are those of (54).
+    `sense` is a function from the coordinates, a column (3, 1), to the determinant of their Jacobian.
     """
     form = omega1**2 + (omega2 + B2) ** 2 - I * B2 / B3 * (omega2 + B2) * (omega3 + B3)
     length = omega1**2 + (omega2 + B2) ** 2 + (omega3 + B3) ** 2
@@ -119,9 +122,9 @@ def coordinates_model() -> Model:
 
 @cache
 def _axes() -> tuple[Value, Value]:
-    """Return the unit eigenvectors (cos, sin) and (-sin, cos) of the form (51) in the plane (omega2, omega3).
+    """Return the unit eigenvectors (cos, sin) and (-sin, cos), (2, 1) each, of the form (51) in the plane omega1 = 0.
 
-    The angle is delta of `_angles`. Raises ArithmeticError if one is no eigenvector.
+    The angle is delta of `_angles`. Raises ArithmeticError if one is no eigenvector. Cached.
     """
     cotangent = I * B2 / B3
     form = sympy.Matrix([[1, -cotangent / 2], [-cotangent / 2, 0]])
@@ -136,9 +139,10 @@ def _axes() -> tuple[Value, Value]:
 
 
 def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
-    """Return the model of points of the quadric in coordinates w1, w2, w3 along its eigenvectors, from the centre -B'.
+    """Return the model of (54) to (57), (68), (69): points of the quadric in coordinates w1, w2, w3 about -B'.
 
-    ``ratio`` is "any", "one" (I = 1), "above" (I > 1) or "below" (I < 1); ``plane`` restricts to omega1 = 0.
+    The coordinates are along the quadric's eigenvectors. ``ratio`` is "any", "one" (I = 1), "above" (I > 1) or "below"
+    (I < 1); ``plane`` restricts to omega1 = 0.
     """
     direction, normal = _axes()
     shifted = sympy.Matrix([omega2 + B2, omega3 + B3])
@@ -153,7 +157,7 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
 
 
 def axes_model(above: bool, sheets: int) -> Model:
-    """Return the model of squared semi-axes, of (55) for two sheets and of (57) for one.
+    """Return the model of squared semi-axes C1s, C2s, C3s, of (55) for two ``sheets`` and of (57) for one.
 
     ``above`` has I > 1, otherwise I < 1; sin(beta) is any number in (0, 1).
     """
@@ -164,27 +168,30 @@ def axes_model(above: bool, sheets: int) -> Model:
 
 
 def angle_model() -> Model:
-    """Return the model of beta as the angle of I^-1 B' = r (0, cos beta, sin beta), with I = I3/I2."""
+    """Return the model of text-beta: beta is the angle in I^-1 B' = r (0, cos beta, sin beta), with I = I3/I2."""
     I2, I3, r = sympy.symbols("I2 I3 r", positive=True)
     letters = {"I": I3 / I2, "B2": I2 * r * cd, "B3": I3 * r * sd, "beta": delta}
     return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1]), (delta, 2 * sympy.atan(p))], phases=PHASES)
 
 
 def range_model() -> Model:
-    """Return the model of beta in (0, pi/2); at0 and at_end are its limits at both ends of the interval."""
+    """Return the model of text-beta-range: beta in (0, pi/2); `at0` and `at_end` give limits at both ends."""
     beta, s = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
     letters = {"beta": beta, "at_end": lambda x: x.subs(beta, sympy.pi / 2)}
     return Model(letters, [(beta, sympy.pi / 2 * s / (1 + s))], start={beta: 0})
 
 
 def _sharp(line: str) -> str:
-    """Return the line "a < f < b; a = at0(f); b = at_end(f)" for a line a < f < b: its bounds are the limits of f."""
+    """Return the line "a < f < b; a = at0(f); b = at_end(f)" for a line a < f < b: its bounds are the limits of f.
+
+    Raises ValueError for another number of sides.
+    """
     lower, middle, upper = sides(line.replace("<", "="))
     return f"{line}; {lower} = at0({middle}); {upper} = at_end({middle})"
 
 
 def shell_model() -> Model:
-    """Return the model of I = I3/I2 of a cylindrical shell of radius r and height h, by integrals over the surface."""
+    """Return the model of text-short-cylinder: I = I3/I2 of a shell of radius r and height h, by surface integrals."""
     r, h, z, w, M = sympy.symbols("r h z w M", positive=True)
     density = M / (2 * sympy.pi * h)
     bounds = ((w, 0, 2 * sympy.pi), (z, -h / 2, h / 2))
@@ -194,13 +201,13 @@ def shell_model() -> Model:
 
 
 def plane_body_model() -> Model:
-    """Return the model of a body with two equal moments of mass g1, and g3 along its axis: I = 2 g1/(g1 + g3)."""
+    """Return the model of text-plane-body: two equal moments of mass g1, and g3 along the axis: I = 2 g1/(g1 + g3)."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"I": 2 * g1 / (g1 + g3), "g3": g3, "I2": g1 + g3})
 
 
 def leaving_points_model() -> Model:
-    """Return the model of points of the quadric with omega1 > 0; `rate` is dOmega3/dt there at t = 0, by (38).
+    """Return the model of text-not-all: points of the quadric with omega1 > 0; `rate` is dOmega3/dt at t = 0, by (38).
 
     Raises ArithmeticError unless that rate is omega1 B2.
     """
@@ -217,7 +224,10 @@ AXES = ("C1s", "C2s", "C3s")
 
 
 def turned_model() -> Model:
-    """Return the model of axes e'_1, e'_2, e'_3, rotated by delta about e1, and components w of omega + B' there."""
+    """Return the model of text-turned: axes e'_1, e'_2, e'_3, rotated by delta about e1, and components of omega + B'.
+
+    By index 1, 2, 3: `axis` are the rotated axes (3, 1), `w` the components along them.
+    """
     rolled = sympy.Matrix([[1, 0, 0], [0, cd, -sd], [0, sd, cd]])
     shifted = sympy.Matrix([omega1, omega2 + B2, omega3 + B3])
     letters = {**LETTERS, **BETA, "Bp": sympy.Matrix([0, B2, B3]), "omega": sympy.Matrix([omega1, omega2, omega3])}

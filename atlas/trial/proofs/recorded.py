@@ -32,7 +32,10 @@ def _normal(stem: str) -> str:
 
 @cache
 def _reach(stem: str) -> frozenset[str]:
-    """Return the stems of files here that a topic's file imports, directly or not, itself included, not "verdict"."""
+    """Return the stems of the files of proofs that a topic's file imports, directly or not, without "verdict".
+
+    The stem itself is among them.
+    """
     text = _normal(stem)
     direct = set(re.findall(r"^from atlas\.trial\.proofs\.(\w+) import", text, re.MULTILINE))
     for names in re.findall(r"^from atlas\.trial\.proofs import (.+)$", text, re.MULTILINE):
@@ -47,15 +50,18 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 
 
 def source(name: str) -> str:
-    """Return the fingerprint of an entry's proof, 16 hexadecimal digits. Raises AtlasError for an unknown entry."""
+    """Return the fingerprint of an entry's proof, 16 hexadecimal digits.
+
+    ``name`` is any word that `atlas.trial.ledger.equation` takes. Raises AtlasError for an unknown entry.
+    """
     entry = equation(name)
     return hashlib.sha256(f"{_fingerprint(topic(name), MACHINERY)}\0{entry}".encode()).hexdigest()[:16]
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:
-    """Return the recorded verdicts by name, in the ledger's order; {} if the file is missing.
+    """Return the recorded verdicts, a dictionary by name in the ledger's order; {} if the file is missing.
 
-    Raises AtlasError if it holds no valid JSON.
+    Verdicts of entries that the ledger no longer has are left out. Raises AtlasError if the file holds no valid JSON.
     """
     recorded = {entry["name"]: Verdict(**entry) for entry in _read(path)}
     return {name: recorded[name] for name in EQUATIONS if name in recorded}
@@ -74,19 +80,22 @@ def _read(path: Path) -> list[dict[str, Any]]:
 
 
 def scripts(path: Path = SCRIPTS) -> dict[str, str]:
-    """Return by name the recorded script, or the sentence on why there is none; {} if the file is missing."""
+    """Return by name the recorded Python script, or the sentence on why there is none; {} if the file is missing.
+
+    Raises ValueError for a file that is no valid JSON.
+    """
     return dict(json.loads(path.read_text("utf-8"))) if path.is_file() else {}
 
 
 def save_scripts(texts_by_name: Mapping[str, str], path: Path = SCRIPTS) -> None:
-    """Write scripts by name into the record, which keeps scripts of other names, in the ledger's order."""
+    """Write scripts by name into the record at ``path``, in the ledger's order; scripts of other names are kept."""
     texts = scripts(path) | dict(texts_by_name)
     ordered = {name: texts[name] for name in EQUATIONS if name in texts}
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
 def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
-    """Write verdicts into the record, which keeps those of other names, in the ledger's order.
+    """Write verdicts into the record at ``path``, in the ledger's order; recorded verdicts of other names are kept.
 
     The seconds of a verdict stay as recorded unless the proof has another fingerprint.
     """
@@ -102,9 +111,10 @@ def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
 
 
 def differs(verdicts: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
-    """Return (name, recorded decision, decision found) for verdicts that differ from the record, read if none is given.
+    """Return (name, recorded decision, decision found) for each verdict that differs from the record.
 
-    A decision is text such as "refuted, corrected form proved"; "not recorded" for a new entry.
+    ``recorded`` has the record's verdicts by name; None reads the record. A decision is text such as "refuted,
+    corrected form proved"; "not recorded" for a new entry.
     """
     records = load() if recorded is None else recorded
     changed = []

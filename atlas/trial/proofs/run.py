@@ -29,7 +29,7 @@ Progress = Callable[[str, int, int], None]
 
 
 class OverTimeError(Exception):
-    """A trial has used up its time."""
+    """Raised by `limit`: a trial has used up its processor time."""
 
 
 @contextmanager
@@ -56,7 +56,10 @@ def limit(seconds: float) -> Iterator[None]:
 
 @cache
 def trials(stem: str) -> dict[str, Trial]:
-    """Return the trials of one topic by name, each with the topic's `SIGNS` added to its own; cached."""
+    """Return the trials of one topic by name, each with the topic's `SIGNS` added to its own; cached.
+
+    ``stem`` is the topic, the stem of its file of proofs, such as "quadric".
+    """
     module = import_module(f"atlas.trial.proofs.{stem}")
     signs: dict[str, str] = getattr(module, "SIGNS", {})
     return {
@@ -66,7 +69,10 @@ def trials(stem: str) -> dict[str, Trial]:
 
 
 def trial(name: str) -> Trial:
-    """Return the trial of an entry of the ledger. Raises AtlasError for an unknown entry, or one without a trial."""
+    """Return the `Trial` of an entry of the ledger by its exact name, such as "(72)".
+
+    Raises AtlasError for an unknown entry, or one without a trial.
+    """
     equation(name)
     named = trials(topic(name)).get(name)
     if named is None:
@@ -75,7 +81,10 @@ def trial(name: str) -> Trial:
 
 
 def try_one(name: str) -> Verdict:
-    """Try an entry of the ledger now, and return its verdict; each form is undecided after `LIMIT` seconds."""
+    """Try an entry of the ledger now, and return its verdict; each form is undecided after `LIMIT` seconds.
+
+    ``name`` is the exact name, such as "(72)". Raises AtlasError as `trial` does.
+    """
     entry, case = equation(name), trial(name)
     start = time.process_time()
     outcome = within_time(lambda: case.of_printed(shrink=True))
@@ -109,10 +118,7 @@ def try_one(name: str) -> Verdict:
 
 
 def _unread(case: Trial) -> Iterable[str]:
-    """Return the clauses of assumptions that the trial does not read.
-
-    One sentence if reading takes longer than `LIMIT`.
-    """
+    """Return the clauses of assumptions that the trial does not read, or one sentence if reading exceeds `LIMIT`."""
     try:
         with limit(LIMIT):
             return case.assumed.unread
@@ -142,9 +148,14 @@ def verify(
 ) -> list[Verdict]:
     """Try entries of the ledger, all if none is named, and return their verdicts in the ledger's order.
 
-    progress      called with (name, how many are done, how many there are) after each trial
-    jobs          processes side by side
-    store         cache in which verdicts are kept by the fingerprint of their proof; None tries everything anew
+    names         words that `find` takes; None or empty for all entries progress      called with (name, how many
+    are done, how many there are) after each trial that is made, not for verdicts
+                  from the store
+    jobs          processes side by side store         cache with methods get(key) and put(key, bytes), in which
+    verdicts are kept by the fingerprint of their
+                  proof; None tries everything anew
+
+    Raises AtlasError for a word that means no entry.
     """
     meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
     names_in_order = [name for name in EQUATIONS if name in meant]

@@ -45,8 +45,9 @@ Rows = tuple[dict[str, str], list[str]]  # symbols with their assumptions, and t
 def script_of(verdict: Verdict) -> str:
     """Return the Python script that proves or refutes an entry, or a sentence on why there is none.
 
-    It refutes the printed form where that is refuted, unless by its indices, and proves a corrected one; otherwise it
-    proves the printed form. There is none for an undecided entry.
+    The script refutes the printed form where that is refuted, unless by its indices, and proves a corrected one;
+    otherwise it proves the printed form. There is none for an undecided entry, or one refuted by its indices
+    without a correction.
     """
     case = trial(verdict.name)
     if verdict.verdict == "undecided" or (verdict.method == "indices" and not case.corrected):
@@ -68,7 +69,10 @@ def script_of(verdict: Verdict) -> str:
 
 
 def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
-    """Yield the rows of all blocks, without repetitions; each symbol is declared before its first use."""
+    """Yield the rows of a script for all blocks, without repetitions; each symbol is declared before its first use.
+
+    A block is a pair (assumptions by symbol, rows), see `_stated`.
+    """
     symbols, vocabulary, comment = dict[str, str](), dict[str, str](), ""
     supposed = [any(row.startswith("where = ") for row in rows) for _, rows in blocks]
     for (declared, rows), has_supposition in zip(blocks, supposed, strict=True):
@@ -96,9 +100,10 @@ def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
 
 
 def sides_of(name: str) -> list[str]:
-    """Return a text for each relation of an entry's true form, with the common value of its sides; see `_sides`.
+    """Return a list of texts, one for each relation of an entry's true form, with the common value of its sides.
 
-    It is [] if that takes longer than `LIMIT`.
+    ``name`` is the entry's exact name. The texts are those of `_sides`; the list is [] if they take longer than
+    `LIMIT`.
     """
     sides: list[str] = []
     try:
@@ -111,9 +116,10 @@ def sides_of(name: str) -> list[str]:
 
 
 def _sides(relation: Relation, line: Line) -> str:
-    """Return "relation: each side is VALUE" in free parameters; of several components the first that is not 0.
+    """Return "RELATION: each side is VALUE" in free parameters; of several components the first that is not 0.
 
-    For an inequality it is "relation: left - right = VALUE"; where all sides are 0 it names the values of the symbols.
+    For an inequality the text is "RELATION: left - right = VALUE"; where all sides are 0 it names the values of the
+    relation's symbols. ``line`` gives the bindings and the names.
     """
     bindings, printer = resolved(line.model.bindings), line.printer
     pairs = [(sympy.sympify(a), sympy.sympify(b)) for a, b in zip(relation.lhs, relation.rhs, strict=True)]
@@ -133,7 +139,10 @@ def _sides(relation: Relation, line: Line) -> str:
 
 
 def _short(value: Value, printer: StrPrinter) -> str:
-    """Return a rational function as text; beyond `_LONG` letters, its numbers of terms and its degrees in words."""
+    """Return a rational function as text; beyond `_LONG` letters, its numbers of terms and its degrees in words.
+
+    ``printer`` gives the names of the symbols.
+    """
     text = str(printer.doprint(value)).replace("**", "^")
     if len(text) <= _LONG:
         return text
@@ -148,7 +157,10 @@ def _lines(statements: Sequence[Part]) -> list[Line]:
 
 
 def _proved(line: Line) -> Rows:
-    """Return the rows of a script that check all relations of a line in one model, after their premises."""
+    """Return (assumptions by symbol, rows of a script) that check all relations of a line in one model.
+
+    Rows that state the premises come first, see `_stated`.
+    """
     bindings, rows = resolved(line.model.bindings), list[str]()
     for relation in line.relations:
         indent = ""
@@ -170,7 +182,7 @@ def _proved(line: Line) -> Rows:
 
 
 def _refuted(statements: Sequence[Part]) -> Rows:
-    """Return the rows of a script that evaluate both sides at a point which refutes a line.
+    """Return (assumptions by symbol, rows of a script) that evaluate both sides at a point which refutes a line.
 
     Raises ValueError if no point refutes any of the lines.
     """
@@ -213,7 +225,10 @@ def _broken(line: Line, relation: Relation, entry: int, values: dict[Value, Valu
 
 
 def _stated(line: Line, rows: Sequence[str]) -> Rows:
-    """Return (assumptions by symbol, rows): ``rows`` after those that define letters, rates and values of symbols."""
+    """Return (assumptions by symbol, rows): ``rows`` after those that define letters, rates and values of symbols.
+
+    The values are left out where a row sets `point`, since all symbols have numbers there.
+    """
     definitions = [f"{name} = {line.definition(name)}" for name in line.in_order()]
     text = "\n".join([*definitions, *rows])
     letters = [f"{name} = {line.plain(value)}" for name, value in line.used.items() if line.is_said(name, value)]

@@ -26,9 +26,10 @@ T, C = sympy.symbols("T C", real=True)
 
 
 def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]:
-    """Return M3, p, G and q with its derivatives, by name, of a steady precession at nu0, by theorem-steady.
+    """Return M3, p, G, and q, dq, ddq, dddq, by name, of a steady precession at nu = ``double``, by theorem-steady.
 
-    ``rate`` is its angular velocity w, ``leading`` A, ``double`` nu0; G stands for g.
+    ``rate`` is its angular velocity w, ``leading`` A; M3 and p are the momenta, G stands for g, and q is `QUARTIC` with
+    these constants, a function of nu as are its derivatives.
     """
     momentum = double * (rate**2 + leading) / rate
     momentum_along_field = rate * (1 - double**2) + double * momentum
@@ -40,13 +41,19 @@ def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]
 
 
 def any_model() -> Model:
-    """Return the model of any constants of the quartic q, and any nu0; g is 2H - M3^2/I - b^2."""
+    """Return the model of any constants of the quartic q, and any nu0, for the converse of theorem-steady.
+
+    g is 2H - M3^2/I - b^2, w the angular velocity (p - M3 nu0)/(1 - nu0^2).
+    """
     letters = {"nu0": nu0, "A": A, "M3": M3, "p": p, "g": g, "w": (p - M3 * nu0) / (1 - nu0**2)}
     return Model({**letters, **functions("q", QUARTIC.xreplace({general.g: g, general.A: A}), nu)})
 
 
 def precession_model() -> Model:
-    """Return the model of an elementary motion: omega3 by (71), its rate k, and the constants of its top."""
+    """Return the model of theorem-steady: an elementary motion, omega3 by (71), its rate k, and constants of its top.
+
+    The constants are M3, p, H, A and nu0 = B3/b, in units of I2; w is the rate of precession in Larmor's frame.
+    """
     I, B2, B3, omega2, q1 = sympy.symbols("I B2 B3 omega2 q1", real=True)
     h2, h3 = turn(q1)[::-1]
     omega3 = B3 * omega2 * (omega2 + (2 - I) * B2) / (I * B2 * (omega2 + B2))
@@ -61,14 +68,17 @@ def precession_model() -> Model:
 
 
 def nutation_model() -> list[Model]:
-    """Return two models, of sign 1 and -1, of a steady precession with rate w at nu0; nun2 is -q''(nu0)/2."""
+    """Return two models, of sign 1 and -1, of a steady precession with rate w at nu0, for theorem-nutation.
+
+    nun2 is -q''(nu0)/2, the square of the frequency of nutation.
+    """
     letters = {"nu0": nu0, "A": A, "w": w, **steady(w, A)}
     letters["nun2"] = -letters["ddq"](nu0) / 2
     return [Model({**letters, "sign": sympy.Integer(sign)}) for sign in (1, -1)]
 
 
 def range_model() -> Model:
-    """Return the model of a steady precession with A = -w^2/z, any z in the range of the theorem, and q at nu."""
+    """Return the model of theorem-companion-range: a steady precession with A = -w^2/z, any z > 0, and q at nu."""
     z = sympy.Symbol("z", positive=True)
     letters = {"nu": nu, "nu0": nu0, "w": w, "z": z, "A": -(w**2) / z, "b": b, "I": 1 - w**2 / z / b**2}
     letters |= steady(w, -(w**2) / z)
@@ -76,9 +86,9 @@ def range_model() -> Model:
 
 
 def _spinors(model: Model) -> Model:
-    """Return the model with functions of a pair of complex numbers added: `height`, and `argument` (pair, 1 or 2).
+    """Return the same model, changed in place, with functions of a pair of complex numbers added to its letters.
 
-    `height` is (|a|^2 - |b|^2)/(|a|^2 + |b|^2), `argument` the rate of one number's argument.
+    `height` (pair) is (|a|^2 - |b|^2)/(|a|^2 + |b|^2), `argument` (pair, 1 or 2) the rate of that number's argument.
     """
 
     def size(value: Value) -> Value:
@@ -100,7 +110,7 @@ def _spinors(model: Model) -> Model:
 def family_model() -> Model:
     """Return the model of theorem-companion's family, in tangents of half the angles kappa and delta, w and b.
 
-    All its constants are rational. With T = S/C of the theorem, dT/dt = (1 - c T^2)/2 and dC/dt = c S/2.
+    All its constants are rational in these. With T = S/C of the theorem, dT/dt = (1 - c T^2)/2 and dC/dt = c S/2.
     """
     kappa, delta, x, y = sympy.symbols("kappa delta x y", real=True)
     ck, sk, cd, sd = sympy.symbols("ck sk cd sd", real=True)
@@ -126,7 +136,10 @@ def family_model() -> Model:
 
 
 def double_model() -> Model:
-    """Return the model of any quartic with a double root nu0 and a root e = nu0 + y; dS/dt = C/2, dC/dt = c S/2."""
+    """Return the model of any quartic with a double root nu0 and a root e = nu0 + y, for theorem-companion-nutation.
+
+    S and C move by dS/dt = C/2, dC/dt = c S/2, from 0 and 1.
+    """
     y, S = sympy.symbols("y S", real=True)
     letters = {"nu0": nu0, "e": nu0 + y, "A": A, "c": c, "S": S, "C": C, "d": -(c + A * y**2) / y}
     shift = nu - nu0
@@ -135,7 +148,7 @@ def double_model() -> Model:
 
 
 def triple_model() -> Model:
-    """Return the model of a quartic with double root nu0 and roots -nu0 + 2 nu0 and -nu0 - 2 nu0: a triple root.
+    """Return the model of a quartic with the triple root nu0 and the root -3 nu0, for theorem-companion-triple.
 
     It is an end of the band of theorem-companion-range.
     """
@@ -146,7 +159,10 @@ def triple_model() -> Model:
 
 
 def axis_model() -> Model:
-    """Return the model of any state near the spin along the field, in letters of the top; n = K/b."""
+    """Return the model of any state of the top, in letters for the spin along the field; n = K/b, nu = n3.
+
+    It serves theorem-axis-stable: M1, M2 and n1, n2 are the parts across the axis, A = (I - 1) b^2.
+    """
     basis = top_model()
     M, K, letters = basis.letters["M"] / basis.letters["I2"], basis.letters["K"], dict(basis.letters)
     letters |= {"M1": M[0], "M2": M[1], "n1": K[0] / b, "n2": K[1] / b, "nu": K[2] / b}
@@ -155,7 +171,10 @@ def axis_model() -> Model:
 
 
 def escape_model() -> list[Model]:
-    """Return two models of a motion that leaves the axis, M3 > 0 and M3 < 0; A = a^2, e = cos(2 delta), T = S/C."""
+    """Return two models of theorem-axis-escape, a motion that leaves the axis, M3 > 0 and M3 < 0.
+
+    A = a^2, e = cos(2 delta), T = S/C with dT/dt = (1 - c T^2)/2; `size` is |M3|.
+    """
     a, delta = sympy.Symbol("a", positive=True), sympy.Symbol("delta", real=True)
     cosine = 1 / sympy.sqrt(1 - c * T**2)  # C, for C^2 = 1 + c S^2
     letters = {"delta": delta, "e": e, "c": c, "M3": M3, "c3": c3, "b": b, "I": 1 + a**2 / b**2, "t": t}
@@ -173,7 +192,10 @@ def escape_model() -> list[Model]:
 
 
 def pushed_model() -> Model:
-    """Return the model of x = tan(theta/2)^2 and its rate, for the state Omega = (s1, 0, omega3), K = (0, 0, b)."""
+    """Return the model of theorem-axis-pushed: x = tan(theta/2)^2 and its rate.
+
+    The state is Omega = (s1, 0, omega3), K = (0, 0, b).
+    """
     x, s1 = sympy.symbols("x s1", real=True)
     place = (1 - x) / (1 + x)
     state = {general.p: M3, general.A: A, general.g: s1**2 + A, nu: place}
@@ -182,7 +204,10 @@ def pushed_model() -> Model:
 
 
 def pendulum_model() -> Model:
-    """Return the model of nu as a function of T = tanh(a t), a^2 = A, for M3 = p = 0 and 2H - b^2 = A."""
+    """Return the model of theorem-axis-pendulum: T = tanh(a t), a^2 = A, for M3 = p = 0 and 2H - b^2 = A.
+
+    The line defines nu as a function of T.
+    """
     a = sympy.Symbol("a", positive=True)
     zero = sympy.Integer(0)
     state = {general.p: zero, general.M3: zero, general.A: a**2, general.g: a**2}

@@ -56,19 +56,23 @@ _PAIRS = {"(": (")", "dot"), "[": ("]", "cross"), r"\{": (r"\}", "br")}
 
 
 class UnreadableError(ValueError):
-    """A formula with something in it that is neither read nor defined by the table."""
+    """Raised for a formula with something in it that is neither read nor defined by the table of signs."""
 
 
 @dataclass(frozen=True)
 class _Said:
-    """A phrase of the TeX already replaced by `plain`, its text in plain letters from the table."""
+    """A phrase of the TeX already replaced by `plain`, its text in plain letters from the table of signs."""
 
     plain: str
 
 
 @dataclass(frozen=True)
 class _Letter:
-    """A letter of TeX: `accents` from outside in, `base` with its font, number of `primes`, tokens of its index."""
+    """A letter of TeX, key of a `_Table`.
+
+    `accents` are commands from outside in, `base` is the letter with its font, `primes` their number, `below` the
+    tokens of its lower index.
+    """
 
     accents: tuple[str, ...]
     base: str
@@ -97,7 +101,7 @@ class _Table:
 
 
 def line(tex: str, signs: Mapping[str, str]) -> str:
-    """Return TeX as a line of `notation`, relations joined by "; ".
+    """Return the formula ``tex`` as a line of `notation`, relations joined by "; ".
 
     ``signs`` maps letters and phrases in TeX to plain ones. Raises UnreadableError if something is neither read nor in
     ``signs``, nothing is a relation, or one plain name stands for a bold and a thin letter.
@@ -106,7 +110,10 @@ def line(tex: str, signs: Mapping[str, str]) -> str:
 
 
 def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
-    """Return the plain names of letters of a formula that are not bold and have no index: none may be a vector."""
+    """Return the set of plain names of a formula's letters that are not bold and have no index: none may be a vector.
+
+    ``tex`` and ``signs`` as in `line`; raises UnreadableError as `line` does.
+    """
     return _read(tex, tuple(signs.items()))[1]
 
 
@@ -188,9 +195,10 @@ def _tokens(tex: str) -> list[str]:
 
 
 def _statements(tokens: list[_Token]) -> list[list[_Token]]:
-    """Return the token lists of single statements: they end at commas, spaces, arrows, ends of rows and words between.
+    r"""Return the token lists of single statements: they end at commas, spaces, arrows, ends of rows and words between.
 
-    A part that begins with a sign of comparison, or after an end of row with + or -, continues the statement before.
+    A part that begins with a sign of comparison, or with + or - after an end of row, continues the statement before.
+    Separators inside brackets count for nothing; a statement with y_\pm becomes two, see `_signed`.
     """
     statements: list[list[_Token]] = [[]]
     depth, row, ended = 0, False, False
@@ -214,7 +222,7 @@ def _statements(tokens: list[_Token]) -> list[list[_Token]]:
 
 
 def _signed(statement: list[_Token]) -> list[list[_Token]]:
-    r"""Return two statements, of y_+ and of y_-, for y_\pm = a \pm b; any other is one."""
+    r"""Return the statement alone in a list, or two, of y_+ and of y_-, for y_\pm = a \pm b."""
     if not any(pair[0] == "_" and pair[1] in {r"\pm", r"\mp"} for pair in pairwise(statement)):
         return [statement]
     upper, lower = {r"\pm": "+", r"\mp": "-"}, {r"\pm": "-", r"\mp": "+"}
@@ -224,7 +232,10 @@ def _signed(statement: list[_Token]) -> list[list[_Token]]:
 
 
 def _said(tokens: list[str], table: _Table) -> list[_Token]:
-    """Return tokens with each phrase of the table replaced by the tokens of its meaning, see `_phrase`."""
+    """Return the tokens with each phrase of the table replaced by the tokens of its meaning, the longest phrase first.
+
+    See `_phrase`.
+    """
     result: list[_Token] = []
     place = 0
     while place < len(tokens):
@@ -240,9 +251,9 @@ def _said(tokens: list[str], table: _Table) -> list[_Token]:
 
 
 def _phrase(plain: str) -> list[_Token]:
-    """Return the tokens for the meaning of a phrase.
+    """Return the list of tokens for the meaning ``plain`` of a phrase.
 
-    That is a comma for an empty meaning, the tokens of a meaning in TeX, a left side and "=" for one that ends in "=",
+    It is a comma for an empty meaning, the tokens of a meaning in TeX, a left side and "=" for one that ends in "=",
     a statement of its own between commas for a relation, and one `_Said` for an expression.
     """
     if not plain:
@@ -257,8 +268,9 @@ def _phrase(plain: str) -> list[_Token]:
 class _Formula:
     """A recursive-descent reader of one statement, a list of tokens; `position` is the index of the next token.
 
-    Methods named for a part of a formula read it, step past it and return its syntax tree. They raise UnreadableError
-    at a token that they do not expect.
+    Methods named for a part of a formula read the part, step past it and return its syntax tree. They raise
+    UnreadableError at a token that they do not expect. `thin` and `vectors` collect plain names of letters that are
+    not bold and bold, `sums` the indices that are summed.
     """
 
     def __init__(self, tokens: list[_Token] | list[str], table: _Table) -> None:
@@ -273,8 +285,8 @@ class _Formula:
     def relations(self) -> list[str]:
         """Return the statement as one or two relations in plain letters; "= const" at its end says d(left side) = 0.
 
-        Raises UnreadableError if tokens are left over, nothing is compared, or a sum has the free index of the left
-        side.
+        Raises UnreadableError if tokens are left over, nothing is compared, or an index of the left side is summed on
+        another.
         """
         if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
             return [write(parse(self.tokens[0].plain))]
@@ -300,7 +312,7 @@ class _Formula:
         return ([write([ast.Compare(sides[0], operators, sides[1:])])] if operators else []) + lines
 
     def peek(self, ahead: int = 0) -> _Token:
-        """Return the token ``ahead`` places behind the position, "" past the end."""
+        """Return the token ``ahead`` places after the next one, without stepping; "" past the end."""
         return self.tokens[self.position + ahead] if self.position + ahead < len(self.tokens) else ""
 
     def take(self, mark: str = "") -> _Token:
@@ -315,7 +327,7 @@ class _Formula:
         return here
 
     def sum(self) -> ast.expr:
-        """Read a sum."""
+        r"""Read a sum, and return its syntax tree; \pm x becomes + sign*x, \mp x becomes - sign*x."""
         result: ast.expr | None = None
         while result is None or self.peek() in {"+", "-", r"\pm", r"\mp"}:
             sign = str(self.take()) if self.peek() in {"+", "-", r"\pm", r"\mp"} else "+"
@@ -363,7 +375,8 @@ class _Formula:
     def argument(self, before: ast.expr | None) -> None:
         """Raise UnreadableError if a bracket with one token, such as (x) or (-x), stands next: it may be an argument.
 
-        Nothing is done where no factor stands ``before``, or the token in the bracket is an already replaced phrase.
+        Nothing is done where no factor ``before`` (None) stands, or the token in the bracket is an already replaced
+        phrase.
         """
         if before is None or self.peek() != "(":
             return
@@ -374,14 +387,20 @@ class _Formula:
             raise UnreadableError(f"({''.join(str(mark) for mark in behind).rstrip(')')}) is not read as an argument")
 
     def ends(self, *, of_letters: bool) -> bool:
-        """Whether the next token ends a product; ``of_letters`` stops also at all but letters, digits and slashes."""
+        """Whether the next token ends a product; ``of_letters`` stops also at all but letters, digits and slashes.
+
+        Nothing is read.
+        """
         here = self.peek()
         if here == "" or here in _SIGNS or here in {"+", "-", r"\pm", r"\mp", ",", ";", r"\\"} or here in _CLOSING:
             return True
         return of_letters and not (self.is_letter() or str(here).isdigit() or here == "/")
 
     def summed(self) -> list[str]:
-        """Step past a sign of sum or product and its lower index; return the index names, [] without an index."""
+        """Step past a sign of sum or product and its lower index; return the index names, [] without an index.
+
+        The names are added to `sums` too.
+        """
         self.take()
         if self.peek() != "_":
             return []
@@ -424,12 +443,12 @@ class _Formula:
         return ast.BinOp(base, ast.Pow(), exponent)
 
     def braced(self) -> bool:
-        """Whether a single letter in braces stands here."""
+        """Whether a single letter in braces stands next; nothing is read."""
         mark = self.peek(1)
         return self.peek() == "{" and self.peek(2) == "}" and isinstance(mark, str) and mark.isalpha()
 
     def group(self) -> ast.expr:
-        """Read a sum in braces, one digit, or one atom without braces."""
+        """Read a sum in braces, one digit, or one atom without braces; return its syntax tree."""
         if self.peek() == "{":
             self.take()
             result = self.sum()
@@ -492,7 +511,10 @@ class _Formula:
         raise UnreadableError("a row of numbers is not read where a column should stand")
 
     def entries(self, opening: str) -> list[ast.expr]:
-        """Read the sums between commas or semicolons up to the bracket that closes ``opening``; return their trees."""
+        """Read the sums between commas or semicolons up to the bracket that closes ``opening``; return their trees.
+
+        ``opening`` is the token of the bracket, which has been read.
+        """
         entries = [self.sum()]
         while self.peek() in {",", ";"}:
             self.take()
@@ -501,7 +523,7 @@ class _Formula:
         return entries
 
     def length(self) -> ast.expr:
-        """Read a formula between bars: norm(...) if it has a bold letter, else abs(...)."""
+        """Read a formula between bars: the tree of norm(...) if a letter in it is bold, else of abs(...)."""
         self.take()
         bold, self.bold = self.bold, False
         inside = self.sum()
@@ -530,7 +552,7 @@ class _Formula:
         return inside
 
     def matrix(self) -> ast.expr:
-        """Read a matrix as a list of rows, or a column as a list of its entries."""
+        """Read a matrix, and return the tree of a list of rows, or of a list of entries for a single column."""
         self.take()
         rows: list[list[ast.expr]] = [[]]
         while True:
@@ -547,7 +569,7 @@ class _Formula:
         return ast.List([ast.List(row) for row in rows])
 
     def is_letter(self) -> bool:
-        """Whether a letter stands here, with or without accents."""
+        """Whether a letter stands next, with or without accents; nothing is read."""
         here = self.peek()
         if not isinstance(here, str) or here in _FUNCTIONS:
             return False
@@ -593,7 +615,7 @@ class _Formula:
                 return _Letter(tuple(accents), (font and f"{font} ") + base, primes, tuple(below))
 
     def below(self) -> list[str]:
-        """Return the tokens of a lower index: one token, or those in braces."""
+        """Read a lower index, behind its underscore, and return its tokens: one token, or those in braces."""
         if self.peek() != "{":
             return [str(self.take())]
         self.take()
@@ -606,11 +628,11 @@ class _Formula:
         return marks
 
     def indices(self) -> list[str]:
-        """Return the names of a lower index, each a letter or a number. Raises UnreadableError for any other token."""
+        """Read a lower index, and return its names, each a letter or a number; UnreadableError for any other token."""
         return _plain(self.below())
 
     def named(self) -> ast.expr:
-        """Return the syntax tree of a letter: the table's meaning, or its own name with its index.
+        """Read a letter, and return its syntax tree: the table's meaning, or its own name with its index.
 
         A letter without a meaning stands in d(...) or d2(...) if it has dots. A meaning that ends in "()" is called
         with the bracket that follows; one that ends in "[]" takes the index. Plain names are noted in `vectors` (bold)
@@ -662,13 +684,16 @@ _COMMON = {r"\mathbf{1}": "one", r"\epsilon": "eps[]"}
 
 
 def _expanded(term: ast.expr, index: str, sign: str) -> ast.expr:
-    """Return the sum ("+") or product ("*") of three copies of a term, with its index at 1, 2 and 3."""
+    """Return the tree of the sum (``sign`` "+") or product ("*") of three copies of a term, with ``index`` 1, 2, 3."""
     text = ast.unparse(term)
     return _expression(sign.join("(" + re.sub(rf"\b{index}\b", str(n), text) + ")" for n in (1, 2, 3)))
 
 
 def _plain(below: Iterable[str]) -> list[str]:
-    """Return indices without backslashes: numbers, single letters, Greek names. Raises UnreadableError otherwise."""
+    """Return the tokens of an index as names without backslashes: numbers, single letters, Greek names.
+
+    Raises UnreadableError for any other token.
+    """
     names = [_name(mark.strip("\\")) for mark in below]
     if not all(
         index.isdigit() or _GREEK.fullmatch(index.rstrip("_")) or (len(index) == 1 and index.isalpha())
@@ -696,7 +721,7 @@ def _product(product: ast.expr | None, factor: ast.expr) -> ast.expr:
 
 
 def _minus(term: ast.expr) -> ast.expr:
-    """Return a term with the opposite sign: the minus stands before the first factor of a product."""
+    """Return the tree of a term with the opposite sign: the minus stands before the first factor of a product."""
     if isinstance(term, ast.BinOp) and isinstance(term.op, ast.Mult | ast.Div):
         return ast.BinOp(_minus(term.left), term.op, term.right)
     return ast.UnaryOp(ast.USub(), term)

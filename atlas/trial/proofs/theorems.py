@@ -31,7 +31,11 @@ ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, an
 
 
 def quartic_model() -> Model:
-    """Return the model of u = Omega3 at any state of the symmetric body, with the cubic's coefficients, b^2 = K^2."""
+    """Return the model of theorem-quartic: u = Omega3 at any state of the symmetric body, with its rate by (34).
+
+    E, c3, c5, I and Bsquare = K^2 are symbols bound to the state, a0 ... a3 the cubic's coefficients; `leading`
+    gives the coefficient of u^4.
+    """
     basis = state_model().letters
     names = ("E", "c3", "c5", "I", "Bsquare")
     fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
@@ -44,10 +48,10 @@ def quartic_model() -> Model:
 
 
 def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
-    """Return Q of theorem-quartic and its derivatives by name, and nun2 = -Q''(omega3)/2.
+    """Return Q of theorem-quartic and its derivatives by name (Q, dQ, ddQ, dddQ), and nun2 = -Q''(omega3)/2.
 
     The motion starts with ``spin`` (3, 1) in the field (0, B2, B3); ``scale`` is I. nun2 is the square of the frequency
-    of nutation.
+    of nutation, an expression.
     """
     field = sympy.Matrix([0, B2, B3])
     letters = {**integrals(spin, field, scale), "Bsquare": field.dot(field), "I": scale, "u": U}
@@ -56,7 +60,10 @@ def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
 
 
 def stability_model() -> Model:
-    """Return the model of Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
+    """Return the model of theorem-stability: Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2.
+
+    w = k + b = x b; nun2 as in `quartic`.
+    """
     b, hB3 = elementary.b, elementary.hB3
     bindings = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), *elementary.FIELD]
     letters = {"tau": hB3 / elementary.hB2, "x": x, "w": x * b, "b": b, "Bsquare": b**2, "hB3": hB3}
@@ -64,7 +71,7 @@ def stability_model() -> Model:
 
 
 def short_model() -> Model:
-    """Return the model of Q on the hyperbola for 1 <= I <= 2, omega2 = X - B2 with any X but 0."""
+    """Return the model of theorem-stable-short: Q on the hyperbola for 1 <= I <= 2, omega2 = X - B2, any X but 0."""
     X, surplus = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
     bindings = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + surplus})), (omega2, X - B2), (B3, tau * B2)]
     letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + surplus), "X": X, "tau": tau, "I": 1 + surplus}
@@ -73,7 +80,10 @@ def short_model() -> Model:
 
 @cache
 def _slope_in_squares() -> Value:
-    """Return -Q''(omega3)/2 on the hyperbola, an expression in z = x^2, t2 = tau^2, I and B2; cached."""
+    """Return -Q''(omega3)/2 on the hyperbola, an expression in z = x^2, T2 = tau^2, I and B2; cached.
+
+    tau = B3/B2, x = (omega2 + B2)/B2.
+    """
     value = quartic(sympy.Matrix([0, omega2, omega3]))["nun2"]
     for symbol, meaning in ((omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), (B3, tau * B2)):
         value = value.subs(symbol, meaning)
@@ -81,9 +91,9 @@ def _slope_in_squares() -> Value:
 
 
 def places_model(*, within: bool) -> list[Model]:
-    """Return models of z = x^2 ``within`` the band, its ends among them, or below and above it.
+    """Return models of theorem-band with z = x^2 ``within`` the band, its ends among them, or below and above it.
 
-    8 tau^2 = 1 - root^2.
+    There are four, two for each root in `ROOTS`, where 8 tau^2 = 1 - root^2; t2 is tau^2, nun2 as in `quartic`.
     """
     share, surplus = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
     long, cases = 1 - 1 / (1 + excess), []
@@ -98,16 +108,19 @@ def places_model(*, within: bool) -> list[Model]:
 
 
 def above_model() -> Model:
-    """Return the model of any z = x^2 > 0 with 8 tau^2 = 1 + gain and I < 1."""
+    """Return the model of theorem-band above its tip: any z = x^2 > 0 with 8 tau^2 = 1 + gain and I < 1.
+
+    nun2 as in `quartic`, t2 is tau^2.
+    """
     t2, scale = (1 + r) / 8, 1 / (1 + excess)
     slope = _slope_in_squares().subs({T2: t2, I: scale})
     return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
 
 
 def root_model() -> list[Model]:
-    """Return three models of Q for elementary motions: the hyperbola, and two kinds of lines omega2 = -B2.
+    """Return three models of theorem-root, Q for elementary motions: the hyperbola, and lines omega2 = -B2.
 
-    On the lines I = 1 with any omega3, or B3 = 0 with any I and omega3.
+    On the two kinds of lines I = 1 with any omega3, or B3 = 0 with any I and omega3; v is u - omega3.
     """
     zero = sympy.Integer(0)
     letters = {**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), "v": sympy.Symbol("v", real=True)}
@@ -120,7 +133,7 @@ def root_model() -> list[Model]:
 
 
 def leaving_model() -> Model:
-    """Return the model of I < 1, time, and Q by theorem-root with nutation frequency 0."""
+    """Return the model of theorem-band-ends: I < 1, the time t, and Q by theorem-root with nutation frequency 0."""
     t, v = sympy.symbols("t v", real=True)
     letters: dict[str, Value] = {"I": 1 / (1 + excess), "B3": B3, "t": t, "v": v, "omega3": omega3}
     basis = evaluated("theorem-root", SIGNS, {**letters, "nun2": sympy.Integer(0)})
@@ -129,21 +142,24 @@ def leaving_model() -> Model:
 
 
 def equatorial_model() -> Model:
-    """Return the model of nun2 for B3 = 0: `upright`, omega2 = -B2 with any omega3; `level`, omega3 = 0, any omega2."""
+    """Return the model of theorem-equatorial-stability: the squared nutation frequency for B3 = 0 on two lines.
+
+    `upright` is that for omega2 = -B2 with any omega3, `level` for omega3 = 0 with any omega2.
+    """
     lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
     rates = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
     return Model({**LETTERS, **rates}, [(B3, sympy.Integer(0))])
 
 
 def ball_nutation_model() -> Model:
-    """Return the model of nun2 for I = 1 and any initial angular velocity omega."""
+    """Return the model of theorem-ball-nutation: nun2 of `quartic` for I = 1 and any initial angular velocity omega."""
     spin = sympy.Matrix([omega1, omega2, omega3])
     Q = quartic(spin, sympy.Integer(1))
     return Model({"nun2": Q["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
 
 
 def torque_model() -> Model:
-    """Return the model of m and its rate dm by (17), for any symmetric mass matrix and any Omega."""
+    """Return the model of theorem-moment: momentum m, rate dm by (17), for any symmetric mass matrix and any Omega."""
     basis = euler_poisson.magnetic_model()
     R, tensor, mass = (basis.letters[name] for name in ("R", "I", "g"))
     spin, field = euler_poisson.Omega, euler_poisson.Bf
@@ -153,16 +169,17 @@ def torque_model() -> Model:
 
 
 def lines_model() -> list[Model]:
-    """Return two models, of sign 1 and -1: omega2 = -B2, omega1 = sign sqrt(1 - I) B2."""
+    """Return two models of theorem-quadric-lines, of sign 1 and -1: omega2 = -B2, omega1 = sign sqrt(1 - I) B2."""
     size = sympy.Symbol("size", positive=True)
     letters = {**LETTERS, "I": 1 - size**2, "omega2": -B2}
     return [Model({**letters, "sign": sympy.Integer(sign), "omega1": sign * size * B2}) for sign in (1, -1)]
 
 
 def turning_model(case: str) -> Model:
-    """Return the model of two rotations, about the field by -b t, or about e2 by -B2 t, and about e3, on the lines.
+    """Return the model of two rotations on the lines omega2 = -B2: about the field by -b t or e2 by -B2 t, and e3.
 
-    ``case`` is "ball" (I = 1, about the field), otherwise B3 = 0 and e2; Omega = (-B2 sin, -B2 cos, omega3).
+    ``case`` is "ball" (I = 1, about the field, theorem-ball-line), otherwise B3 = 0 and e2 (theorem-equatorial-field);
+    Omega = (-B2 sin, -B2 cos, omega3). The line defines R.
     """
     e = elementary
     precession, axis, bindings = (
@@ -181,7 +198,7 @@ def turning_model(case: str) -> Model:
 
 
 def rest_model() -> Model:
-    """Return the model of a ball with m = (0, 0, -alpha I0)."""
+    """Return the model of theorem-ball-rest: m = (0, 0, -alpha I0) and the phase alpha t; the line defines R."""
     b = ball
     letters = {"alpha": b.alpha, "t": b.t, "I0": b.I0, "m": sympy.Matrix([0, 0, -b.alpha * b.I0])}
     model = Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})
@@ -190,9 +207,10 @@ def rest_model() -> Model:
 
 
 def angles_model() -> Model:
-    """Return the model of R = R_z(psi) R_x(theta) R_z(chi) with any rates of the angles; Omega is read off R^T dR/dt.
+    """Return the model of R = R_z(psi) R_x(theta) R_z(chi) with any rates of the angles, for theorem-angles.
 
-    K is b times the third row of R; xi and eta are logarithmic rates of the Cayley-Klein parameters.
+    Omega is read off R^T dR/dt; u = Omega3, K is b times the third row of R, nu = K3/b, P = Omega1 K1 + Omega2 K2.
+    xi and eta are logarithmic rates of the Cayley-Klein parameters, for theorem-cayley-klein.
     """
     b = sympy.Symbol("b", positive=True)
     names = sympy.symbols("psi theta chi", real=True)
@@ -221,7 +239,7 @@ def angles_model() -> Model:
 
 
 def _and_only_there(line: str) -> str:
-    """Return a line a <= b; ... with "a > b" added as its last statement."""
+    """Return the line "a <= b; ..." with the reverse of its first statement, "a > b", added at its end."""
     return f"{line}; {line.split('; ', maxsplit=1)[0].replace('<=', '>')}"
 
 

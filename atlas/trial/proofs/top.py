@@ -21,12 +21,16 @@ QUARTIC = (1 - nu**2) * (g - 2 * a * nu - A * nu**2) - (p - M3 * nu) ** 2
 
 
 def _force(b: Value) -> Value:
-    """Return U'(nu) = a0 + A0 nu for the unit vector b, nu = b3."""
+    """Return the derivative U'(nu) = a0 + A0 nu of the potential at a unit vector b (3, 1), nu = b3."""
     return a0 + A0 * b[2]
 
 
 def state_model() -> Model:
-    """Return the model of any state M, b of the top, |b| = 1, with its rates, constants h, p, M3, g, and psi1, chi1."""
+    """Return the model of theorem-every-top: any state M, b of the top, |b| = 1, with its rates, and psi1, chi1.
+
+    The constants at that state are h (twice the energy), p = (M, b), M3 and g; psi1 and chi1 are the rates of
+    precession about the field and of rotation about the axis; nu = b3.
+    """
     M, b = vector("M"), vector("b")
     Omega = J.inv() * (M - COUPLING * b)
     rates = cross(M, Omega) + cross(COUPLING * Omega - _force(b) * E3, b), cross(b, Omega)
@@ -52,9 +56,9 @@ def state_model() -> Model:
 
 
 def start_model() -> Model:
-    """Return the model of the start with b = (0, n2, n3) and Omega = omega.
+    """Return the model of theorem-top-quadric: the start with b = (0, n2, n3) and Omega = (omega1, omega2, omega3).
 
-    W and v are symbols, D is of the theorem.
+    w and v are symbols that the line defines, D = A + kappa^2 + a0/n3.
     """
     basis, (n2, n3) = state_model(), turn(x)[::-1]
     omega, direction = sympy.Matrix([omega1, omega2, omega3]), sympy.Matrix([0, *sympy.symbols("n2 n3", real=True)])
@@ -67,7 +71,7 @@ def start_model() -> Model:
 
 
 def paper_model() -> Model:
-    """Return `start_model` for the paper's body: k2 = b, k3 = I b, and no potential."""
+    """Return `start_model` for the paper's body: k2 = b, k3 = I b, and no potential; for theorem-top-quadric."""
     b = sympy.Symbol("b", positive=True)
     bindings = [(k2, b), (k3, I * b), (a0, sympy.Integer(0)), (A0, sympy.Integer(0))]
     letters = {**start_model().letters, "b": b}
@@ -75,7 +79,10 @@ def paper_model() -> Model:
 
 
 def turns_model() -> Model:
-    """Return the model of b rotated about e3, and Omega = psi1 b + chi1 e3, on the top's hyperbola."""
+    """Return the model of theorem-top-hyperbola: b rotated about e3, and Omega = psi1 b + chi1 e3.
+
+    w and v are the coordinates omega2 and omega3 shifted to the quadric's centre, U is U'(nu).
+    """
     base = start_model().letters
     n2, n3 = base["n2"], base["n3"]
     c, s, w, v, psi, chi = sympy.symbols("c s w v psi1 chi1", real=True)
@@ -87,13 +94,16 @@ def turns_model() -> Model:
 
 
 def quartic_model() -> Model:
-    """Return the model of any constants of the quartic q, any nu0, and w = (p - M3 nu0)/(1 - nu0^2)."""
+    """Return the model of any constants of the quartic q, any nu0, and w = (p - M3 nu0)/(1 - nu0^2).
+
+    It serves the converse of theorem-top-precession.
+    """
     letters = {"nu0": r, "a": a, "A": A, "M3": M3, "p": p, "g": g, "w": (p - M3 * r) / (1 - r**2)}
     return Model({**letters, **functions("q", QUARTIC, nu)})
 
 
 def precession_model() -> Model:
-    """Return the model of a steady precession with rate w at nu = r; M3, p and g follow."""
+    """Return the model of theorem-top-precession: a steady precession with rate w at nu = nu0; M3, p and g follow."""
     w = sympy.Symbol("w", real=True)
     momentum = (r * w**2 + a + A * r) / w
     momentum_along_field, remainder = w * (1 - r**2) + r * momentum, 2 * a * r + A * r**2 + w**2 * (1 - r**2)
@@ -104,7 +114,10 @@ def precession_model() -> Model:
 
 
 def marginal_model() -> Model:
-    """Return `precession_model` with nutation frequency 0; A and a follow from c = (a + A r)/w."""
+    """Return `precession_model` with nutation frequency 0, for the further statements of theorem-top-nutation.
+
+    The coefficients A and a of the quartic follow from c = (a + A r)/w, r the cosine nu0, w the rate.
+    """
     base = precession_model()
     w = base.letters["w"]
     c = sympy.Symbol("c", real=True)
@@ -114,7 +127,7 @@ def marginal_model() -> Model:
 
 
 def sleeping_model() -> list[Model]:
-    """Return two models of the quartic q of a top at rest at nu = sigma, sigma = 1 and -1."""
+    """Return two models of theorem-sleeping-top: q of a top that spins upright at nu = sigma, sigma = 1 and -1."""
     models = []
     for sigma in (1, -1):
         letters = {"nu": nu, "a": a, "A": A, "M3": M3, "sigma": sympy.Integer(sigma)}
@@ -123,7 +136,7 @@ def sleeping_model() -> list[Model]:
 
 
 def border_model() -> list[Model]:
-    """Return `sleeping_model`, two models, at the border of stability: A = M3^2/4 - sigma a."""
+    """Return the two models of `sleeping_model` at the border of stability, A = M3^2/4 - sigma a."""
     return [Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model()]
 
 

@@ -21,15 +21,19 @@ r, k2, kappa, spin = sympy.symbols("nuc k2 kappa spin", real=True)
 
 
 def cusp_model() -> Model:
-    """Return the model of any constants of q, and psi1, the rate of precession as a function of nu."""
+    """Return the model of theorem-cusp: any constants of q, and psi1, the rate of precession as a function of nu.
+
+    nuc is the value of nu at the cusp.
+    """
     letters = {"nu": nu, "nuc": r, "a": a, "A": A, "M3": M3, "g": g, "k2": k2, "p": p}
     return Model({**letters, "psi1": (p - M3 * nu) / (1 - nu**2) - k2, **functions("q", QUARTIC, nu)})
 
 
 def spin_model() -> list[Model]:
-    """Return two models of any state M, b, |b| = 1.
+    """Return two models of theorem-focus, sigma = 1 and -1: any state M, b (3, 1) with |b| = 1.
 
-    Sigma = 1 and -1 is the sense of the spin about e3 near which it is.
+    sigma is the sense of the spin about e3 near which the state is; z is (b1, b2), `momentum` (M1, M2) less sigma
+    M3 z/2.
     """
     models = []
     for sense in (1, -1):
@@ -43,7 +47,10 @@ def spin_model() -> list[Model]:
 
 
 def residue_model() -> list[Model]:
-    """Return two models of residues of the rates of psi and chi at nu = sigma, for any constants of q."""
+    """Return two models of theorem-residue, sigma = 1 and -1: residues of dpsi and dchi at nu = sigma.
+
+    `res_dpsi` and `res_dchi` are those of the rates of psi and chi over sqrt(q), `root` is sqrt(q) there.
+    """
     turn, cases = (p - M3 * nu) / (1 - nu**2), []
     for sense in (1, -1):
         letters = {"nu": nu, "M3": M3, "p": p, "k2": k2, "sigma": sympy.Integer(sense), **functions("q", QUARTIC, nu)}

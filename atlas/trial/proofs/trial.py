@@ -18,7 +18,7 @@ Cases = Model | Sequence[Model]
 
 @cache
 def _made(model: Callable[[], Cases]) -> Sequence[Model]:
-    """Call ``model`` and return its models as a sequence, of one model where it returns one; cached by function."""
+    """Call ``model`` and return its models as a sequence, of one for a single `Model`; cached by function."""
     models = model()
     return [models] if isinstance(models, Model) else models
 
@@ -30,13 +30,20 @@ def _assumed(
     model: Callable[[], Cases],
     excluded: tuple[str, ...],
 ) -> Read:
-    """Compare assumptions with the models by `assumed.compare`; cached. ``signs`` are pairs of the table of letters."""
+    """Return the `Read` of assumptions compared with the models of ``model`` by `assumed.compare`; cached.
+
+    ``signs`` are pairs (TeX, plain letter) of the table of letters, ``excluded`` clauses that are not read.
+    """
     return compare(assumptions, dict(signs), _made(model), excluded)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Part:
-    """A further line that an entry needs: the converse of the first one, or another of its cases; see `Trial`."""
+    """A further line that an entry needs: the converse of the first one, or another of its cases; see `Trial`.
+
+    `line` is a line of `notation`, `model` the function that makes its model or models, `defines` and `solves` are
+    as in `decide.decide`.
+    """
 
     line: str
     model: Callable[[], Cases]
@@ -269,8 +276,8 @@ class Trial:
     def _unlike(self, read: Read) -> str:
         """Return a sentence with the first conflict between assumptions and models; empty if there is none.
 
-        Conflicts are an assumption that is false in a model, and one that gives a number to a free symbol for which a
-        side of the first part is infinite or undefined.
+        ``read`` are the assumptions compared with the models. Conflicts are an assumption that is false in a model,
+        and one that gives a number to a free symbol for which a side of the first part is infinite or undefined.
         """
         if read.broken:
             return f"assumed, and not so in the model: {'; '.join(read.broken)}"
@@ -286,24 +293,28 @@ class Trial:
 
 
 def read(name: str, signs: Mapping[str, str]) -> str:
-    """Return the printed TeX of an entry of the ledger as a line of `notation`; ``signs`` are its table of letters."""
+    """Return the printed TeX of an entry of the ledger as a line of `notation`.
+
+    ``name`` is the exact name, ``signs`` maps TeX of letters to plain letters. Raises UnreadableError as `tex.line`
+    does.
+    """
     return tex.line(EQUATIONS[name].tex, signs)
 
 
 def evaluated(name: str, signs: Mapping[str, str], letters: Mapping[str, Value], side: int = 1) -> Value:
     """Return the value, SymPy expression or matrix, of a side of the first relation of an entry's printed form.
 
-    ``side`` counts the sides from 0: by default the one behind the first sign of equality. ``letters`` are added to
-    `COMMON`; other letters stay symbols.
+    ``name`` is the entry's exact name, ``signs`` its table of letters. ``side`` counts the sides from 0: by default
+    the one behind the first sign of equality. ``letters`` are added to `COMMON`; other letters stay symbols.
     """
     line = sides(read(name, signs))[side]
     return Reader({**COMMON, **letters}).value(parse(f"{line} = 0")[0].left, {})
 
 
 def _joined(outcomes: Sequence[Outcome]) -> Outcome:
-    """Return the outcome of several lines: the first one refuted, else undecided, else supported, else proved.
+    """Return the first outcome that is refuted, else undecided, else supported, else "proved" for all lines together.
 
-    A proof names the methods of all lines, each once.
+    A proof names the methods of all lines, each once; without lines it is proved with an empty method.
     """
     for decision in ("refuted", "undecided", "supported"):
         for outcome in outcomes:
