@@ -23,7 +23,7 @@ class NumberArray(Protocol):
 
 
 class NumberSequence(Protocol):
-    """A list or tuple of numbers, or of lists of them; `str` and `bytes` differ in `__contains__`."""
+    """A list or tuple of numbers, or of lists of them, for type checkers; text and bytes do not match."""
 
     def __len__(self) -> int: ...
 
@@ -37,19 +37,19 @@ RealArrayLike: TypeAlias = SupportsFloat | NumberArray | NumberSequence
 
 
 class Body(Protocol):
-    """Moments of inertia I2 = I1 and I3 of a `SymmetricBody`."""
+    """Object with moments of inertia I2 = I1 and I3, for type checkers: a `SymmetricBody`."""
 
     @property
     def I2(self) -> Any:
-        """Moment of inertia perpendicular to the axis."""
+        """Moment of inertia perpendicular to the axis, a number or one for each body."""
 
     @property
     def I3(self) -> Any:
-        """Moment of inertia along the axis."""
+        """Moment of inertia along the axis, a number or one for each body."""
 
 
 class VectorField(Protocol):
-    """A constant field with exact components, a `Field`."""
+    """Object with the exact components of a constant field, for type checkers: a `Field`."""
 
     @property
     def exact_pair(self) -> tuple[Any, ...]:
@@ -57,7 +57,7 @@ class VectorField(Protocol):
 
 
 class AsMatrix(Protocol):
-    """A rotation with a method `as_matrix`, such as SciPy's `Rotation`."""
+    """Object with a method `as_matrix`, for type checkers: a rotation such as SciPy's `Rotation`."""
 
     def as_matrix(self) -> Any:
         """Return the rotation matrix, shape (3, 3) or (N, 3, 3)."""

@@ -28,7 +28,10 @@ SPARE_BITS = 1 << 16  # bits of precision beyond those asked for at which the se
 
 @dataclass(frozen=True)
 class Printed:
-    """A number as text, the count of its proven digits, and whether all requested digits are proven."""
+    """A number as text, the count of its proven digits, and whether all requested digits are proven.
+
+    `digits` counts significant digits, in the layout "fixed" decimals; it is 0 for a text such as "not certified".
+    """
 
     text: str
     digits: int
@@ -38,10 +41,12 @@ class Printed:
 def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain", spare: int = SPARE_BITS) -> Any:
     """Return the result of ``function``, each certified number in it as text with ``digits`` proven digits.
 
-    ``function`` takes no argument and computes at the current precision. It returns a number or nested lists, tuples
-    and dictionaries of numbers; other items (names, None) are unchanged. ``digits`` counts significant digits, in the
-    layout ``fixed`` decimals. Only an exact zero has the text ``0``. The search for digits of any other number ends
-    ``spare`` bits beyond; a number that is then not told from zero has the text ``0 within 1e-k``, k >= ``digits``.
+    ``function`` takes no argument and computes at the current precision. It returns a number or nested lists,
+    tuples and dictionaries of numbers; other items (names, None) are unchanged. ``digits`` counts significant
+    digits, in the layout ``fixed`` decimals. Only an exact zero has the text ``0``. The search for digits of any
+    other number ends ``spare`` bits beyond; a number that is then not told from zero has the text ``0 within
+    1e-k``, k >= ``digits``. Raises AtlasError for fewer than one digit (of decimals, none) and for a layout that is
+    not in `LAYOUTS`.
     """
     _check(digits, layout)
 
@@ -53,9 +58,11 @@ def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain"
 
 
 def enclosed(function: Callable[[], Any], bits: int) -> Any:
-    """Return the result of ``function``, its balls with relative radii below 2**-bits, or as near as possible.
+    """Return the result of ``function``, its balls with relative radii below 2**-bits, or as near as the search comes.
 
-    A ball about zero within 2**-4000 suffices: zero is the float nearest to all its points.
+    ``function`` takes no argument, computes at the current precision and returns a number or nested dictionaries, lists
+    and tuples of numbers. The search ends at 4 ``bits`` + `SPARE_BITS` of precision. A ball about zero within 2**-4000
+    suffices: zero is the float nearest to all its points.
     """
 
     def enough(x: Real) -> bool:
@@ -68,9 +75,10 @@ def enclosed(function: Callable[[], Any], bits: int) -> Any:
 
 
 def printed(value: Real, digits: int, layout: Layout) -> Printed:
-    """Return a number as `Printed`, with at most ``digits`` proven digits, a mark behind fewer.
+    """Return a ball or rational as `Printed`, with at most ``digits`` proven digits, a mark behind fewer.
 
-    An infinite ball is the text `INFINITE`, complete; one without a proven digit or not finite is `NOT_CERTIFIED`.
+    ``layout`` is one of `LAYOUTS`; "fixed" counts decimals. An infinite ball is the text `INFINITE`, complete; one
+    without a proven digit or not finite is `NOT_CERTIFIED`. A ball about zero within 10^-digits is "0 within 1e-k".
     """
     if isinstance(value, arb) and value == arb("inf"):
         return Printed(INFINITE, digits, complete=True)
@@ -91,7 +99,7 @@ def printed(value: Real, digits: int, layout: Layout) -> Printed:
 
 
 def numbers(value: Any) -> Iterator[Real]:
-    """Yield the balls and rationals in a nested structure of dictionaries, lists and tuples."""
+    """Yield the balls and rationals in a nested structure of dictionaries, lists and tuples; skip other items."""
     if isinstance(value, arb | fmpq):
         yield value
     elif isinstance(value, dict):
@@ -103,9 +111,9 @@ def numbers(value: Any) -> Iterator[Real]:
 
 
 def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool], spare: int = SPARE_BITS) -> Any:
-    """Return function() at a precision at which ``enough`` holds, doubled from bits + 64 (Ziv's strategy).
+    """Return function() at a precision at which ``enough`` of the result holds, doubled from bits + 64 (Ziv).
 
-    Beyond 4 bits + spare the last value is returned, whether enough or not.
+    Beyond 4 bits + spare the last result is returned, whether enough or not.
     """
     precision = bits + 64
     while True:
@@ -117,7 +125,10 @@ def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], boo
 
 
 def _mapped(value: Any, change: Callable[[Real], Any]) -> Any:
-    """Return a nested dictionary, list or tuple with `change` applied to each ball or rational in it."""
+    """Return a copy of a nested dictionary, list or tuple with ``change`` applied to each ball or rational in it.
+
+    Other items are unchanged.
+    """
     if isinstance(value, arb | fmpq):
         return change(value)
     if isinstance(value, dict):
@@ -135,7 +146,7 @@ def _check(digits: int, layout: str) -> None:
 
 
 def _ends(value: Real) -> tuple[fmpq, fmpq]:
-    """Return the lower and the upper end of a ball, exact rationals."""
+    """Return the lower and the upper end of a ball as exact rationals; for a rational the number twice."""
     if isinstance(value, fmpq):
         return value, value
     middle, radius = value.mid().fmpq(), value.rad().fmpq()
@@ -143,7 +154,10 @@ def _ends(value: Real) -> tuple[fmpq, fmpq]:
 
 
 def _most(lower: fmpq, upper: fmpq, digits: int) -> int:
-    """Return an upper bound on the number of digits that both ends share; 0 if zero lies between them."""
+    """Return an upper bound, at most ``digits``, on the number of digits that both ends share.
+
+    It is ``digits`` for equal ends, else 0 if zero lies between them.
+    """
     if lower == upper:
         return digits
     if lower <= 0 <= upper:
@@ -163,7 +177,7 @@ def _exponent(x: fmpq) -> int:
 
 
 def _rounded(x: fmpq, count: int) -> tuple[int, int]:
-    """Return (m, e) with m of ``count`` digits and x = m 10^(e+1-count) to half a unit, half to even."""
+    """Return (m, e) with m of ``count`` digits and x = m 10^(e+1-count) to half a unit, half to even; (0, 0) for 0."""
     if x == 0:
         return 0, 0
     e = _exponent(abs(x))
@@ -172,7 +186,10 @@ def _rounded(x: fmpq, count: int) -> tuple[int, int]:
 
 
 def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
-    """Return a number between two bounds as `Printed` with ``decimals`` decimals, or fewer proven ones and a mark."""
+    """Return a number between two bounds as `Printed` with ``decimals`` proven decimals, or fewer and a mark.
+
+    The text is `NOT_CERTIFIED` where the bounds do not round to the same integer.
+    """
     for count in range(decimals, -1, -1):
         low, high = round(lower * 10**count), round(upper * 10**count)
         if low == high:
@@ -183,7 +200,11 @@ def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
 
 
 def _decimal_text(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
-    """Return the text of m 10^(e+1-count), where the integer m has ``count`` digits, with `mark` behind the digits."""
+    """Return the text of m 10^(e+1-count), where the integer m has ``count`` digits, with ``mark`` behind the digits.
+
+    It is in scientific notation for the layout "scientific", for numbers below 1e-5, and for those with more than
+    ``count`` digits before the point.
+    """
     sign, text = "-" * (m < 0), str(abs(m))
     if layout != "scientific" and -5 <= e < count:
         text = "0" * -e + text

@@ -16,7 +16,8 @@ Real: TypeAlias = fmpq | arb
 def rational(value: Any, name: str) -> fmpq:
     """Return a float, integer, fraction or decimal string as an exact rational number.
 
-    A float is taken exactly, so that 0.1 is 3602879701896397/2**55; the string "0.1" is 1/10.
+    A float is taken exactly, so that 0.1 is 3602879701896397/2**55; the string "0.1" is 1/10. ``name`` stands in
+    errors: AtlasError for a value that is no finite real number, DomainError for infinity.
     """
     if isinstance(value, fmpq):
         return value
@@ -38,7 +39,10 @@ def rational(value: Any, name: str) -> fmpq:
 
 
 def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:
-    """Return ``count`` numbers as exact rationals, see `rational`. Raises AtlasError for another number of them."""
+    """Return a sequence of ``count`` numbers as a tuple of exact rationals, see `rational`.
+
+    ``name`` stands in errors. Raises AtlasError for another length, and as `rational` does.
+    """
     if isinstance(values, str) or not hasattr(values, "__len__"):
         raise AtlasError(f"{name} must hold {count} numbers, not {values!r}.")
     if len(values) != count:

@@ -18,8 +18,8 @@ from flint import acb, arb
 def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
     """Return four complex balls, the roots of a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4, if all are simple.
 
-    The coefficients are exact numbers; ``sign`` gives the sign of one, ``ball`` its ball. At too low a precision, or
-    for double roots, balls may be infinite or overlap.
+    ``a`` holds (a0, a1, a2, a3, a4), exact numbers or balls; ``sign`` gives the sign of one, -1, 0 or 1, ``ball``
+    its ball. At too low a precision, or for double roots, balls may be infinite or overlap.
     """
     a0, a1, a2, a3, _ = a
     g2, g3 = _invariants(*a)
@@ -54,7 +54,7 @@ def _invariants(a0: Any, a1: Any, a2: Any, a3: Any, a4: Any) -> tuple[Any, Any]:
 
 
 def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return three complex balls, the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3; see `four_roots`."""
+    """Return three complex balls, the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3; arguments as in `four_roots`."""
     b0, b1, b2, b3 = b
     H, G = b1 * b1 - b0 * b2, b0 * b0 * b3 - 3 * b0 * b1 * b2 + 2 * b1 * b1 * b1
     discriminant, h = 4 * H * H * H - G * G, ball(H)
@@ -72,10 +72,11 @@ def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[An
 
 
 def discriminant(c: Sequence[Any]) -> Any:
-    """Return a positive multiple of the discriminant of a polynomial of degree one to four, c0 + c1 x + ...
+    """Return a positive multiple of the discriminant of a polynomial of degree at most four, c0 + c1 x + ...
 
-    Zero where a root is a double one; of the quartic it has the sign of 256 a0^6 times the product of the squared
-    differences of the roots.
+    ``c`` holds the coefficients, the constant one first. The result is zero where a root is a double one, 1 for
+    degree one or less; of the quartic it has the sign of 256 a0^6 times the product of the squared differences of
+    the roots.
 
         >>> discriminant([2, -3, 1])
         1
@@ -91,7 +92,10 @@ def discriminant(c: Sequence[Any]) -> Any:
 
 
 def two_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return two complex balls, the roots of b0 x^2 + 2 b1 x + b2; of real roots the one of larger magnitude first."""
+    """Return two complex balls, the roots of b0 x^2 + 2 b1 x + b2; of real roots the one of larger magnitude first.
+
+    Arguments as in `four_roots`.
+    """
     b0, b1, b2 = b
     root = _root(ball(b1 * b1 - b0 * b2))
     if root.imag.is_zero() and sign(b1):

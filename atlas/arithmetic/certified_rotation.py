@@ -19,7 +19,7 @@ def identity() -> Matrix:
 
 
 def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
-    """Return the rotation matrix about a vector (not zero) by an angle given by cosine and sine (Rodrigues).
+    """Return the rotation matrix, three rows, about a vector (not zero) by an angle given by cosine and sine.
 
     For a rational vector only its length may be irrational, and an entry that is zero at all angles is exactly zero.
     """
@@ -35,21 +35,24 @@ def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
 
 
 def turns(t: Any, outer: tuple[Sequence[Real], Real], inner: tuple[Sequence[Real], Real]) -> Matrix:
-    """Return the product of two rotation matrices at time t.
+    """Return the matrix R_outer(t) R_inner(t) of two rotations at time t, three rows of balls or rationals.
 
-    ``outer`` and ``inner`` are pairs (axis, rate in rad/time).
+    ``outer`` and ``inner`` are pairs (axis, rate in rad/time); an axis has any length but 0.
     """
     (s, c), (S, C) = sin_cos(outer[1] * t), sin_cos(inner[1] * t)
     return product(turn(outer[0], c, s), turn(inner[0], C, S))
 
 
 def product(matrix: Matrix, factor: Matrix) -> Matrix:
-    """Return the product of two matrices, lists of three rows."""
+    """Return the matrix product of ``matrix`` and ``factor``, in this order; all are lists of three rows."""
     columns = list(zip(*factor, strict=True))
     return [[a * x + b * y + c * z for x, y, z in columns] for a, b, c in matrix]
 
 
 def turned_back(vector: Sequence[Real], cos: Real, sin: Real) -> list[Real]:
-    """Return the components (list of three) of a vector along axes rotated about the third by the angle given."""
+    """Return the components, a list of three, of a vector along axes rotated about the third.
+
+    The angle of the rotation is given by its cosine and sine.
+    """
     x, y, z = vector
     return [x * cos + y * sin, y * cos - x * sin, z]

@@ -19,7 +19,11 @@ Polynomial: TypeAlias = tuple["Surd", ...]
 
 @dataclass(frozen=True)
 class Surd:
-    """The number a + b sqrt(N), N > 0; N is no square, or b is zero."""
+    """The number a + b sqrt(N), with rational a, b and N > 0; N is no square, or b is zero.
+
+    Sums, products and quotients with a `Surd`, a rational or an integer are exact; both surds must have the same N
+    unless one has b = 0 and stands on the right.
+    """
 
     a: fmpq
     b: fmpq
@@ -27,13 +31,13 @@ class Surd:
 
     @classmethod
     def root(cls, N: fmpq) -> "Surd":
-        """Return sqrt(N) as a `Surd`: with b = 0 where N is a rational square."""
+        """Return sqrt(N) of a rational N > 0 as a `Surd`: with b = 0 where N is a rational square."""
         exact = root(N)
         return cls(exact, fmpq(0), N) if isinstance(exact, fmpq) else cls(fmpq(0), fmpq(1), N)
 
     @classmethod
     def rational(cls, x: fmpq) -> "Surd":
-        """Return a rational number as a `Surd`."""
+        """Return a rational number as a `Surd` with b = 0 and N = 1."""
         return cls(x, fmpq(0), fmpq(1))
 
     def of(self, x: "Surd | fmpq | int") -> "Surd":
@@ -79,7 +83,7 @@ class Surd:
 
     @property
     def value(self) -> fmpq | arb:
-        """The number: an exact rational if b = 0, otherwise a ball accurate to the current precision."""
+        """The number: an exact rational if b = 0, otherwise a ball accurate to the current precision less 8 bits."""
         if self.b == 0:
             return self.a
         precision = ctx.prec
@@ -92,7 +96,7 @@ class Surd:
 
 
 def evaluated(p: Polynomial, x: Surd) -> Surd:
-    """Return p(x), a `Surd`; coefficients with the lowest power first."""
+    """Return p(x) as a `Surd`; ``p`` has the coefficients with the lowest power first."""
     value = x.of(0)
     for c in reversed(p):
         value = value * x + c
@@ -100,12 +104,12 @@ def evaluated(p: Polynomial, x: Surd) -> Surd:
 
 
 def derivative(p: Polynomial) -> Polynomial:
-    """Return the derivative p' of a polynomial."""
+    """Return the derivative p' of a polynomial, coefficients with the lowest power first; () for a constant."""
     return trimmed([c * n for n, c in enumerate(p)][1:])
 
 
 def trimmed(p: "list[Surd] | Polynomial") -> Polynomial:
-    """Return a polynomial, a tuple with the lowest power first, without zero coefficients of the highest powers."""
+    """Return coefficients, the lowest power first, as a tuple without the zeros of the highest powers; () for zero."""
     c = list(p)
     while c and c[-1].is_zero:
         c.pop()
@@ -113,7 +117,10 @@ def trimmed(p: "list[Surd] | Polynomial") -> Polynomial:
 
 
 def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
-    """Return pairs (factor without multiple roots, multiplicity of its roots in p), by Yun's algorithm."""
+    """Return pairs (factor without multiple roots, multiplicity of its roots in p), by Yun's algorithm.
+
+    A polynomial without multiple roots is returned itself, the only pair.
+    """
     if discriminant([_ball(c) for c in p]) != 0:
         return [(p, 1)]
     factors, n = list[tuple[Polynomial, int]](), 1
@@ -132,8 +139,9 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
 def roots(p: Polynomial) -> list[acb]:
     """Return the simple roots of a polynomial as disjoint balls: the real ones ascending, then the complex ones.
 
-    The degree is at most four. The balls are as accurate as the current precision, for which it is raised as far as
-    needed. Raises DomainError where roots are too many orders of magnitude apart.
+    The degree is one to four; coefficients have the lowest power first. The balls are as accurate as the current
+    precision, for which it is raised as far as needed. Raises DomainError where roots are too many orders of
+    magnitude apart.
     """
     if len(p) == 2:
         return [acb((-(p[0] / p[1])).value)]
@@ -160,7 +168,10 @@ def _sorted(values: list[acb]) -> list[acb]:
 
 
 def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
-    """Return the roots in closed form at the current precision, perhaps inaccurate; [NaN] where a sign is unknown."""
+    """Return the roots in closed form, a list of balls at the current precision, perhaps inaccurate.
+
+    ``exact`` decides signs by exact arithmetic; otherwise by balls, and the list is [NaN] where a sign is unknown.
+    """
     formula = {5: four_roots, 4: three_roots, 3: two_roots}[len(p)]
     weights = {5: (1, 4, 6, 4, 1), 4: (1, 3, 3, 1), 3: (1, 2, 1)}[len(p)]
     numbers = p if exact else [_ball(c) for c in p]
@@ -172,7 +183,7 @@ def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
 
 
 class UnsureError(Exception):
-    """The sign of a ball is unknown: the ball contains zero."""
+    """Raised where the sign of a ball is unknown: the ball contains zero."""
 
 
 def _sure_sign(x: arb) -> int:
@@ -186,7 +197,7 @@ def _ball(x: Surd) -> arb:
 
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
-    """Return quotient and remainder of polynomials p/q."""
+    """Return (quotient, remainder) of the polynomials p/q; q is not zero, () stands for zero."""
     remainder, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
     for n in range(len(p) - len(q), -1, -1):
         factor = remainder[n + len(q) - 1] / q[-1]
@@ -197,14 +208,14 @@ def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
 
 
 def gcd(p: Polynomial, q: Polynomial) -> Polynomial:
-    """Return the greatest common divisor with leading coefficient one."""
+    """Return the greatest common divisor of two polynomials, p not zero, with leading coefficient one."""
     while q:
         p, q = q, divided(p, q)[1]
     return tuple(c / p[-1] for c in p)
 
 
 def _minus(p: Polynomial, q: Polynomial) -> Polynomial:
-    """Return the difference p - q of polynomials."""
+    """Return the difference p - q of polynomials, not both zero; () if they are equal."""
     zero = (p or q)[0].of(0)
     size = max(len(p), len(q))
     first_coefficient, second = ([*x, *[zero] * (size - len(x))] for x in (p, q))
@@ -212,5 +223,5 @@ def _minus(p: Polynomial, q: Polynomial) -> Polynomial:
 
 
 def sign_of(x: fmpq) -> int:
-    """Return the sign, -1, 0 or 1."""
+    """Return the sign of a rational number, -1, 0 or 1."""
     return int(x > 0) - int(x < 0)

@@ -9,7 +9,10 @@ HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0,
 
 
 def signs(sums: FloatArray) -> FloatArray:
-    """Replace, in place, each integer + ROUNDER by 1.0 for an even integer, -1.0 for an odd one; return the array."""
+    """Replace, in place, each integer + ROUNDER by 1.0 for an even integer, -1.0 for an odd one; return the array.
+
+    ``sums`` is a float64 array of any shape; ROUNDER is that of `phase`.
+    """
     parity = sums.view(np.int64)
     np.left_shift(parity, SIGN_BIT, out=parity)
     np.bitwise_or(parity, ONE_BITS, out=parity)
@@ -27,6 +30,7 @@ def circle_of(
 ) -> None:
     """Fill ``cos``, ``sin`` and ``versine`` as `Phases.circle` does, from u = x/2, its rounding error e, and signs.
 
+    All arrays are (n, m) but ``versine`` (m,); ``sign`` holds 1 or -1, the sign of the half turns that x leaves out.
     u, e and ``square`` are overwritten. Without e, x/2 is exactly u.
     """
     # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine;

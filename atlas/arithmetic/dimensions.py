@@ -23,16 +23,17 @@ _HERTZ = "hertz", "hz"
 
 
 def is_quantity(value: Any) -> bool:
-    """Whether a value has a unit, of pint or of astropy."""
+    """Whether a value has a unit: a quantity of pint or of astropy."""
     return (hasattr(value, "to_value") and hasattr(value, "unit")) or (
         hasattr(value, "magnitude") and hasattr(value, "units")
     )
 
 
 def bare(value: Any, name: str, unit: str) -> Any:
-    """Return a quantity as a number or array in the SI unit `unit`; lists by component, other values unchanged.
+    """Return a quantity as a number or array in the SI unit ``unit``; lists by component, other values unchanged.
 
-    Raises AtlasError for another dimension, for a rate in hertz, and, without a unit, for a value with a dimension.
+    ``unit`` is "" for a number without a unit, ``name`` stands in errors. Raises AtlasError for another dimension,
+    for a rate in hertz, and, without a unit, for a value with a dimension.
     """
     if isinstance(value, tuple | list):
         has_units = bool(value) and any(is_quantity(component) for component in value[:3])

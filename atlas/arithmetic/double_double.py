@@ -56,7 +56,7 @@ class DoubleDouble:
 
     @property
     def halves(self) -> Any:
-        """Upper and lower half of `hi`, 26 digits each, by Veltkamp: products of halves are exact."""
+        """Upper and lower half of `hi`, 26 binary digits each, by Veltkamp: products of halves are exact."""
         if self._halves is None:
             t = self.hi * SPLITTER
             head = t - (t - self.hi)
@@ -69,9 +69,9 @@ class DoubleDouble:
         return DoubleDouble(*words)
 
     def __add__(self, addend: "DoubleDouble") -> "DoubleDouble":
-        """Return the sum.
+        """Return the sum, hi + lo normalised; its `rel` has the errors of both terms relative to the sum.
 
-        Its `rel` has the errors of both terms relative to the sum, inf where inexact terms cancel to zero.
+        `rel` is inf where inexact terms cancel to zero.
         """
         s = self.hi + addend.hi
         t = s - self.hi
@@ -136,7 +136,7 @@ class DoubleDouble:
         return DoubleDouble(abs(self.hi), None if self.lo is None else self.lo * np.copysign(1.0, self.hi), self.rel)
 
     def sqrt(self) -> "DoubleDouble":
-        """Return the square root of numbers >= 0."""
+        """Return the square root of numbers >= 0; `rel` grows by `ROOT`."""
         s = np.sqrt(self.hi)
         root = DoubleDouble(s)
         p, e = _product(root, root)
@@ -146,14 +146,14 @@ class DoubleDouble:
         return DoubleDouble(*_normal(s, remainder / (s + s + (s == 0))), self.rel + ROOT)
 
     def scaled(self, exponent: int) -> "DoubleDouble":
-        """Return this number times 2^exponent."""
+        """Return this number times 2^exponent, exactly unless a word over- or underflows."""
         unit = 2.0**exponent
         return DoubleDouble(self.hi * unit, None if self.lo is None else self.lo * unit, self.rel)
 
     def select(self, positive: "DoubleDouble", alternative: "DoubleDouble") -> "DoubleDouble":
         """Return ``positive`` where this number is positive, ``alternative`` elsewhere, element by element.
 
-        The bound is inf where the sign of this number is not certain.
+        `rel` of the result is inf where the sign of this number is not certain.
         """
         selected = chosen(self.hi > 0, positive, alternative)
         if np.ndim(self.rel):
@@ -162,7 +162,7 @@ class DoubleDouble:
 
     @property
     def pi(self) -> "DoubleDouble":
-        """Number pi."""
+        """The number pi in two words, the same for every instance."""
         return DoubleDouble(np.float64(np.pi), np.float64(PI_LOW), PRODUCT)
 
     @property
@@ -191,7 +191,7 @@ ONE = DoubleDouble(np.float64(1.0))
 
 
 def chosen(mask: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return x where ``mask`` is true, y elsewhere, as one array; of two scalar bounds the larger is kept."""
+    """Return x where ``mask`` is true, y elsewhere, as one array; of two scalar bounds `rel` the larger is kept."""
     scalar = not (np.ndim(x.rel) or np.ndim(y.rel))
     hi, low = np.where(mask, x.hi, y.hi), np.where(mask, x.low, y.low)
     return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(mask, x.rel, y.rel))
@@ -203,19 +203,19 @@ def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
 
 
 def stacked(*rows: DoubleDouble) -> DoubleDouble:
-    """Return n numbers or arrays, broadcast to one shape (m,), as one array (n, m)."""
+    """Return n numbers or arrays ``rows``, broadcast to one shape (m,), as one `DoubleDouble` (n, m)."""
     shape = np.broadcast_shapes(*(np.shape(x.hi) for x in rows))
     words = zip(*((x.hi, x.low, x.rel) for x in rows), strict=True)
     return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in word]) for word in words))
 
 
 def constant(value: float, like: DoubleDouble) -> DoubleDouble:
-    """Return an array of the shape of ``like`` with one exact number everywhere."""
+    """Return an array of the shape of ``like`` with the exact number ``value`` everywhere."""
     return DoubleDouble(np.full_like(like.hi, value))
 
 
 def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
-    """Return x times `sign`, an array of 1 and -1; the bound stays."""
+    """Return x times ``sign``, an array of 1 and -1; the bound `rel` stays."""
     return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
 
 
@@ -267,11 +267,12 @@ def over(
 def blocks(
     formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice, bound: float = MAX_INPUT
 ) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[Any]]]:
-    """Yield (rows, row, exponents, results) for blocks of elements of ``shape``, flattened.
+    """Yield (rows, row, exponents, results) for blocks of at most `BLOCK` elements of ``shape``, flattened.
 
-    ``rows`` is their slice, ``row(i)`` returns the inputs of the block's i-th element, ``results`` is a tuple of
-    `DoubleDouble`. Where an input is neither 0 nor of magnitude between 1/``bound`` and ``bound``, those in ``unit``
-    are divided by powers of two: ``exponents`` is then (exponents, mask of rows in range after that), otherwise None.
+    ``rows`` is their slice, ``row(i)`` returns the inputs of the block's i-th element, ``results`` is the tuple of
+    `DoubleDouble` that ``formula`` returns. Where an input is neither 0 nor of magnitude between 1/``bound`` and
+    ``bound``, those in ``unit`` are divided by powers of two: ``exponents`` is then (exponents, mask of rows in
+    range after that), otherwise None.
     """
     size = int(np.prod(shape))
     columns = [column(x, shape) for x in inputs]
@@ -303,7 +304,10 @@ def _index(i: int, shape: tuple[int, ...]) -> Index:
 
 
 def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
-    """Return an input broadcast to a shape and flattened, to be read by slices; a single number unchanged."""
+    """Return an input as a `DoubleDouble`, broadcast to a shape and flattened, to be read by slices.
+
+    A single number stays one. ``x`` is a float, an array or a `Given`.
+    """
     if np.ndim(x) == 0:
         return DoubleDouble(x.hi[()], x.lo[()], x.rel) if isinstance(x, Given) else DoubleDouble(np.float64(x))
     if isinstance(x, Given):
@@ -313,7 +317,7 @@ def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
 
 
 def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
-    """Return some rows of a column."""
+    """Return the ``rows`` of a column; words and bounds that are single numbers stay as they are."""
     words = (y if y is None or isinstance(y, float) else y[rows] for y in (x.hi, x.lo, x.rel))
     return DoubleDouble(*words)
 
@@ -363,7 +367,10 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
 
 
 def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> Any:
-    """Return a mask (rows,): true where all numbers are zero or of magnitude between 1/``bound`` and ``bound``."""
+    """Return a mask (rows,): true where all numbers are zero or of magnitude between 1/``bound`` and ``bound``.
+
+    ``columns`` are numbers or arrays (rows,).
+    """
     ordinary = np.ones(rows, dtype=bool)
     for size in map(abs, columns):
         ordinary &= (size == 0) | ((size >= 1 / bound) & (size <= bound))
@@ -371,9 +378,10 @@ def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> An
 
 
 def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
-    """Return inputs with those in ``unit`` divided by a power of two per row, and (exponents, mask of rows in range).
+    """Return (inputs with those in ``unit`` divided by a power of two per row, (exponents, mask of rows in range)).
 
-    Rows where ``plain`` is true keep exponent 0. A row in which the division underflows to zero is out of range.
+    ``columns`` are the inputs, numbers or arrays of rows, ``plain`` a mask of rows that keep exponent 0. A row in
+    which the division underflows to zero is out of range.
     """
     rows = plain.size
     largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in columns[unit])), axis=0)
@@ -396,7 +404,10 @@ def _normal(s: Any, e: Any) -> tuple[Any, Any]:
 
 
 def _product(x: DoubleDouble, y: DoubleDouble) -> tuple[Any, Any]:
-    """Return the product of the high words and its rounding error, by Dekker's algorithm."""
+    """Return (the product of the high words, rounded, its rounding error), by Dekker's algorithm.
+
+    Low words are left out.
+    """
     (a, b), (c, d) = x.halves, y.halves
     p = x.hi * y.hi
     e = a * c

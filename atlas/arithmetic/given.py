@@ -45,7 +45,7 @@ class Given:
         return len(self.shape)
 
     def at(self, index: Index) -> fmpq:
-        """Return the exact rational at an index of an array to which this one broadcasts."""
+        """Return the exact rational at an index of an array to which this one broadcasts; () for a single number."""
         return self._exact(_broadcast_index(self.shape, index))
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
@@ -60,7 +60,7 @@ class Given:
         return self.hi.tolist()
 
     def as_integer_ratio(self) -> tuple[int, int]:
-        """Return one number as (numerator, denominator), like float.as_integer_ratio."""
+        """Return a single number as (numerator, denominator), like float.as_integer_ratio; ValueError for an array."""
         x = self.at(())
         return int(x.p), int(x.q)
 
@@ -76,7 +76,7 @@ class Given:
         return f"<exact numbers {self.shape}>" if self.shape else repr(Fraction(*self.as_integer_ratio()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return the call that copies one number, as an exact fraction."""
+        """Return the call that copies a single number, as an exact fraction; an array raises ValueError."""
         return exact_number, (Fraction(*self.as_integer_ratio()),)
 
 
@@ -122,7 +122,10 @@ def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
 
 
 def element(x: Any, index: Index) -> Any:
-    """Return one element of an input that broadcasts to all motions: a float, a rational of a `Given`, or None."""
+    """Return one element of an input that broadcasts to all motions: a float, a rational of a `Given`, or None.
+
+    ``index`` is that of the broadcast array; None is the element of None.
+    """
     if isinstance(x, Given):
         return x.at(index)
     x = np.asarray(x)
@@ -139,7 +142,7 @@ def broadcast(x: Any, shape: Index) -> Any:
 
 
 def part(x: Any, rows: Any) -> Any:
-    """Return elements of a flattened array at ``rows``, a slice or indices; a `Given` of a `Given`."""
+    """Return elements of a flattened array or `Given` at ``rows``, a slice or indices; a `Given` of a `Given`."""
     if not isinstance(x, Given):
         return x.reshape(-1)[rows]
     places, shape = np.arange(x.hi.size)[rows], x.shape
@@ -152,14 +155,14 @@ def part(x: Any, rows: Any) -> Any:
 
 
 def low_word(x: Any) -> Any:
-    """Return the low words of exact numbers, an array of their shape; 0.0 for plain doubles."""
+    """Return the low words of a `Given`, an array of its shape; 0.0 for plain doubles."""
     return x.lo if isinstance(x, Given) else 0.0
 
 
 def ldexp(x: Any, power: Any) -> Any:
-    """Return numbers times powers of two.
+    """Return numbers times 2^power, an array, or a `Given` of a `Given`.
 
-    A `Given` then has its two words only, and its exact numbers raise an error.
+    That `Given` has its two words only; asking for its exact numbers raises NotImplementedError.
     """
     if not isinstance(x, Given):
         return np.ldexp(x, power)
@@ -167,5 +170,5 @@ def ldexp(x: Any, power: Any) -> Any:
 
 
 def _words_only(index: Index) -> fmpq:
-    """Raise NotImplementedError: no exact numbers are kept."""
+    """Raise NotImplementedError: of these numbers no exact value is kept, see `ldexp`."""
     raise NotImplementedError(f"Only the words of these numbers are kept, not those at {index}.")

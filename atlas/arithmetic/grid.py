@@ -34,8 +34,8 @@ TIME_BITS = 26
 class Progression:
     """Phases of frequencies f at the times start + (origin + i) step, |i| <= size <= 2^18.
 
-    `turns` are the frequencies, exact, in turns per unit of time. In half turns, whole turns dropped, and with D a
-    power of two,
+    Made from `turns`, the frequencies, exact, in turns per unit of time, and the doubles start and step; `circle`
+    evaluates the phases. In half turns, whole turns dropped, and with D a power of two,
 
         f (start + origin step) = A D + a,    f step = S D + s,    A, S whole,    |a|, |s| <= D/2,
 
@@ -62,12 +62,13 @@ class Progression:
         self.table = np.array([*(cut[:2] for cut in cuts), *(cut[2:] for cut in cuts)])
 
     def circle(self, i: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-        """Fill ``cos``, ``sin`` (n, m) and ``versine`` (m,) as `Phases.circle` does.
+        """Fill ``cos``, ``sin`` (n, m) and ``versine`` (m,) with half functions of the phases, as `Phases.circle` does.
 
-        Rows of ``i`` are integers and ones. They are within the same 8 w. Unless `refined`, x/2 is rounded: that adds
-        half an ulp of it times 1 + u^2, at most w, to the error of u = tan(x/2), and saves that of a sum. As |u| is
-        below 1 + 2^-12 for size <= 8000, u is within 2 w below 1 and 3 w above, cos within 3 w + 3.5 w + 0.5 w, and
-        sin, for which u counts little near 1, within 5 w.
+        ``i`` (2, m) has the integers i above ones, ``work`` (8, n, m) is overwritten. The errors are within the
+        same 8 w. Unless `refined`, x/2 is rounded: that adds half an ulp of it times 1 + u^2, at most w, to the
+        error of u = tan(x/2), and saves that of a sum. As |u| is below 1 + 2^-12 for size <= 8000, u is within 2 w
+        below 1 and 3 w above, cos within 3 w + 3.5 w + 0.5 w, and sin, for which u counts little near 1, within 5
+        w.
         """
         head, remainder, sign, half = self.parts(i, work)
         np.add(head, remainder, out=half)
@@ -77,9 +78,10 @@ class Progression:
         circle_of(half, head if self.refined else None, sign, remainder, cos, sin, versine)
 
     def parts(self, i: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return x/2 for x = f t less whole half turns, as head and rest in rad, the turns' sign, and a spare array.
+        """Return x/2 for x = f t less whole half turns, as head and rest in rad, the sign of the latter, a spare array.
 
-        The four are (n, m) and lie in `work` (8, n, m).
+        The sign is 1.0 for an even number of half turns, -1.0 for an odd one. The four are (n, m) and lie in ``work``
+        (8, n, m); ``i`` (2, m) has integers above ones.
         """
         (head, remainder), half_turns, spare = work[:2], work[2], work[3]
         np.matmul(self.table, i, out=work[:2].reshape(len(self.table), -1))
@@ -93,13 +95,16 @@ class Progression:
 
 
 def _integers(turn: Number) -> tuple[int, int]:
-    """Return integers (m, e) with turn = m 2^e, for the midpoint of a ball."""
+    """Return integers (m, e) with turn = m 2^e, for the midpoint of a ball or a rational to 256 binary digits."""
     m, e = middle(turn).man_exp()
     return int(m), int(e)
 
 
 def _cut(start: int, step: int, e: int, bits: int) -> tuple[float, ...]:
-    """Return S D, A D, s, a for the phases (first + i step) 2^e in half turns, |i| < 2^bits; s and a in radians/2."""
+    """Return S D, A D, s, a of `Progression` for the phases (start + i step) 2^e in half turns, |i| < 2^bits.
+
+    S D and A D are in half turns, s and a in radians/2.
+    """
     e = min(e, 0)  # above zero only for a frequency that is zero
     half = 1 << -e
     mask = 2 * half - 1
@@ -129,7 +134,10 @@ ODD = np.isin(np.arange(11), (2, 3, 6, 7, 10))[:, None]
 
 
 def check_grid(start: float, step: float, count: int, reach: float) -> None:
-    """Raise AtlasError if a time start + i step, 0 <= i < count, exceeds ``reach``, or the step exceeds `MAX_STEP`."""
+    """Raise AtlasError if a time start + i step, 0 <= i < count, exceeds ``reach`` in magnitude.
+
+    Also if the step exceeds `MAX_STEP`. All are in one unit of time.
+    """
     last_time = start + step * max(count - 1, 0)
     if not max(abs(start), abs(last_time)) <= reach or abs(step) > MAX_STEP:
         raise AtlasError(
@@ -139,10 +147,11 @@ def check_grid(start: float, step: float, count: int, reach: float) -> None:
 
 
 def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArray) -> None:
-    """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step.
+    """Fill ``out`` (count, 3, 3) with R of the motion ``turning`` at the exact real numbers start + i step.
 
-    A grid with tables that passes t = 0 is cut there, and each part runs away from zero: so coarse and fine times never
-    cancel. Times are counted from the one nearest to zero. So entries that are small with k t keep their digits.
+    A grid with tables that passes t = 0 is cut there, and each part runs away from zero: so coarse and fine times
+    never cancel. Times are counted from the one nearest to zero. So entries that are small with k t keep their
+    digits. An empty ``out`` is left; AtlasError as by `check_grid`.
     """
     count, size = len(out), len(turning.weights)
     if not count:
@@ -161,7 +170,7 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     before = -(-cut // FINE_TIMES)
 
     def fill(low: int, high: int) -> None:
-        """Write blocks low to high of FINE_TIMES matrices, of which the first `before` end at the cut."""
+        """Write blocks low to high of FINE_TIMES matrices into ``out``; the first ``before`` blocks end at the cut."""
         for i in range(low - before, high - before, COARSE_TIMES):
             j = min(i + COARSE_TIMES, high - before)
             first_index, end, middle = cut + FINE_TIMES * i, cut + FINE_TIMES * j, min(max(-i, 0), j - i)
@@ -179,12 +188,14 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
 
 
 def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> dict[bool, FloatArray]:
-    """Return L_r R(tau) Q_r, (9 or 11, 9 FINE_TIMES), at tau = j step for False; for True at -j step, the last j first.
+    """Return tables L_r R(tau) Q_r, (9 or 11, 9 FINE_TIMES), by side: at tau = j step for False, at -j step for True.
 
-    With the functions G_q of tau, not halved, L_r R(tau) Q_r is the sum over q of G_q L_r L_q Q_q Q_r. Its errors would
-    be those of every matrix of the grid: so it is rounded once. The G_q are made in long doubles, where the machine has
-    them. Both factors are cut into multiples of 2^-25 and rests: sums of products of the multiples are exact, since the
-    terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and the added terms are below 2^-20.
+    0 <= j < FINE_TIMES; for True the last j comes first. ``sides`` names the tables that are made. With the
+    functions G_q of tau, not halved, L_r R(tau) Q_r is the sum over q of G_q L_r L_q Q_q Q_r. Its errors would be
+    those of every matrix of the grid: so it is rounded once. The G_q are made in long doubles, where the machine
+    has them. Both factors are cut into multiples of 2^-25 and rests: sums of products of the multiples are exact,
+    since the terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and the added terms are
+    below 2^-20.
     """
     phases = Progression(turning.turns, 0.0, step, 0, FINE_TIMES)
     head, remainder, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))
@@ -209,9 +220,10 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
 
 
 def product(functions: FloatArray, table: FloatArray, rows: FloatArray, start_row: int) -> None:
-    """Write matrices, functions (r, m) transposed times table (r, 9 FINE_TIMES), into ``rows`` (count, 9).
+    """Write matrices, functions (r, m) transposed times table (r, 9 FINE_TIMES), into ``rows`` (count, 9), one a row.
 
-    The first goes to row ``start_row``; results before row 0 and beyond the last row are dropped.
+    The first goes to row ``start_row``, which may be negative; results before row 0 and beyond the last row are
+    dropped.
     """
     m = functions.shape[1]
     if start_row < 0:

@@ -31,8 +31,8 @@ _OF_FIELD = (
 def real(value: Any, name: str, unit: str = "") -> FloatArray:
     """Return ``value`` as a read-only float64 array of its shape; -0.0 becomes 0.0.
 
-    A quantity of pint or astropy is converted to ``unit`` of SI. Raises AtlasError for text, booleans, masked entries
-    and other dimensions, DomainError for an infinite number or NaN.
+    A quantity of pint or astropy is converted to ``unit`` of SI; ``name`` stands in errors. Raises AtlasError for text,
+    booleans, masked entries and other dimensions, DomainError for an infinite number or NaN.
     """
     if type(value) is float and isfinite(value):
         return frozen(np.array(value + 0.0))
@@ -57,13 +57,16 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
 
 
 def _not_real(value: Any, name: str) -> AtlasError:
-    """Return the error for an input that is not made of real numbers."""
+    """Return the AtlasError, not raised, for an input that is not made of real numbers."""
     hint = " Motions, bodies, fields and surfaces carry a standard deviation." * is_uncertain(value)
     return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.{hint}")
 
 
 def number(value: Any, name: str, unit: str = "") -> float:
-    """Return ``value`` as one finite float, see `real`. Raises AtlasError for an array with axes."""
+    """Return ``value`` as one finite float. Raises AtlasError for an array with axes.
+
+    ``name`` and ``unit`` are those of `real`, which raises for other inputs.
+    """
     if type(value) is float and isfinite(value):
         return value + 0.0
     array = real(value, name, unit)
@@ -73,7 +76,10 @@ def number(value: Any, name: str, unit: str = "") -> float:
 
 
 def positive(value: Any, name: str, unit: str = "") -> float:
-    """Return ``value`` as one finite float, see `number`. Raises DomainError unless it is above zero."""
+    """Return ``value`` as one finite float, see `number`. Raises DomainError unless it is above zero.
+
+    ``name`` and ``unit`` are those of `real`.
+    """
     result = number(value, name, unit)
     if result <= 0:
         raise DomainError(f"{name} must be positive, not {result}.")
@@ -81,7 +87,10 @@ def positive(value: Any, name: str, unit: str = "") -> float:
 
 
 def whole(value: Any, name: str, least: int = 0) -> int:
-    """Return ``value`` as an integer. Raises AtlasError unless it is a whole number, at least ``least``."""
+    """Return ``value`` as an integer. Raises AtlasError unless it is a whole number, at least ``least``.
+
+    ``name`` stands in errors. A float such as 3.0 is taken.
+    """
     if type(value) is int and value >= least:
         return value
     result = number(value, name)
@@ -91,7 +100,10 @@ def whole(value: Any, name: str, least: int = 0) -> int:
 
 
 def vector(value: Any, name: str, unit: str = "") -> FloatArray:
-    """Return ``value`` as a float array (3,), see `real`. Raises AtlasError for another shape."""
+    """Return ``value`` as a read-only float array (3,). Raises AtlasError for another shape.
+
+    ``name`` and ``unit`` are those of `real`, which raises for other inputs.
+    """
     array = real(value, name, unit)
     if array.shape != (3,):
         raise AtlasError(f"{name} must have three components, not the shape {array.shape}.")
@@ -99,7 +111,10 @@ def vector(value: Any, name: str, unit: str = "") -> FloatArray:
 
 
 def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
-    """Return ``value`` as a float array (..., 3), see `real`. Raises AtlasError for another shape."""
+    """Return ``value`` as a read-only float array (..., 3). Raises AtlasError for another shape.
+
+    ``name`` and ``unit`` are those of `real`, which raises for other inputs.
+    """
     array = real(value, name, unit)
     if array.shape[-1:] != (3,):
         raise AtlasError(f"{name} must have three components last, shape (..., 3), not {array.shape}.")
@@ -107,7 +122,10 @@ def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
 
 
 def matrix(value: Any, name: str) -> FloatArray:
-    """Return ``value`` as a float array (3, 3), see `real`. Raises AtlasError for another shape."""
+    """Return ``value`` as a read-only float array (3, 3). Raises AtlasError for another shape.
+
+    ``name`` is that of `real`, which raises for other inputs.
+    """
     array = real(value, name)
     if array.shape != (3, 3):
         raise AtlasError(f"{name} must be a matrix of shape (3, 3), not of shape {array.shape}.")
@@ -117,8 +135,10 @@ def matrix(value: Any, name: str) -> FloatArray:
 def components(value: Any, names: Sequence[str], subject: str, unit: str = "") -> list[Any]:
     """Return the components of a vector, one for each of ``names``: a list of arrays by `real`, or `Given`.
 
-    A `Field` gives (B2, B3), exactly, or (B1, B2, B3) if three are asked for. Raises AtlasError for another number of
-    components, and for a square array or list of lists, whose rows might be meant as well as its columns.
+    ``value`` is a sequence of components, an array whose first axis they are, a data frame, or a `Field`, which gives
+    (B2, B3), exactly, or (B1, B2, B3) if three are asked for. ``subject`` names the vector in errors, ``unit`` is as in
+    `real`. Raises AtlasError for another number of components, and for a square array or list of lists, whose
+    rows might be meant as well as its columns.
     """
     if hasattr(type(value), "exact_pair") and names[-1] == "B3":
         value = value.exact if len(names) == len("123") else value.exact_pair
@@ -141,9 +161,9 @@ def components(value: Any, names: Sequence[str], subject: str, unit: str = "") -
 
 
 def numbers(value: Any, name: str, unit: str = "") -> Any:
-    """Return ``value`` as an array by `real`.
+    """Return ``value`` as an array by `real`; a `Given` unchanged, a Fraction that no double equals as a `Given`.
 
-    A `Given` unchanged, and a Fraction that no double equals as a `Given`.
+    ``name`` and ``unit`` are those of `real`.
     """
     if isinstance(value, Fraction):
         value = exact_number(value)
@@ -156,7 +176,10 @@ def _listed(components: Sequence[Any]) -> bool:
 
 
 def finite(values: Value, name: str) -> Value:
-    """Return computed numbers or arrays unchanged. Raises DomainError where one is infinite or NaN."""
+    """Return computed numbers or arrays, or a tuple of them, unchanged.
+
+    Raises DomainError, with ``name`` as its subject, where one is infinite or NaN.
+    """
     numbers: Any = values if isinstance(values, tuple) else (values,)
     if not all(np.isfinite(value).all() for value in numbers):
         raise DomainError(f"{name} is too large for a float: choose larger units.")
@@ -174,7 +197,7 @@ def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def frozen(value: Value) -> Value:
-    """Return a value, or a tuple or list of values, with its arrays made read-only."""
+    """Return the same value, or tuple or list of values, with its arrays made read-only in place."""
     for array in value if isinstance(value, tuple | list) else (value,):
         if isinstance(array, np.ndarray):
             array.flags.writeable = False
@@ -193,12 +216,15 @@ def plain(array: Any) -> Any:
 
 
 def as_given(array: Any) -> Any:
-    """Return an input for storage: exact numbers unchanged, others by `plain`."""
+    """Return an input for storage: a `Given` unchanged, an array of dimension 0 as a float, others unchanged."""
     return array if isinstance(array, Given) else plain(array)
 
 
 def turn_time(rate: Any) -> float | FloatArray:
-    """Return the time 2 pi/|rate| of one turn, inf for rate 0. Raises DomainError if it exceeds the largest float."""
+    """Return the time 2 pi/|rate| of one turn, inf for rate 0, a float or an array of the rate's shape (rad/time).
+
+    Raises DomainError if it exceeds the largest float.
+    """
     with np.errstate(divide="ignore", over="ignore"):
         times = np.divide(2 * np.pi, np.abs(rate))
     finite(np.where(np.equal(rate, 0), 0.0, times), "The period")
@@ -216,6 +242,6 @@ def scaled(v: FloatArray) -> tuple[FloatArray, Any]:
 
 
 def largest(vectors: FloatArray) -> FloatArray:
-    """Return the largest magnitude of a component of each vector (m, 3), shape (m,)."""
+    """Return the largest magnitude of a component of each vector (m, 3), as an array (m,)."""
     x, y, z = np.abs(vectors).T
     return np.asarray(np.maximum(np.maximum(x, y), z))

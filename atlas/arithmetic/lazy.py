@@ -17,7 +17,7 @@ class cached_property(functools.cached_property[Value]):  # noqa: N801, TID251  
     A method of a subclass may use the value of the parent, `super().name`: that is not stored, since it would stand
     where the subclass's value belongs.
 
-    `finish` of a subclass of this property makes of a value what is stored.
+    A subclass of this property may set `finish`, a function from the computed value to the one that is stored.
     """
 
     finish: Callable[[Any], Any] | None = None
@@ -27,7 +27,7 @@ class cached_property(functools.cached_property[Value]):  # noqa: N801, TID251  
     @overload
     def __get__(self, instance: object, owner: type[Any] | None = None) -> Value: ...
     def __get__(self, instance: object | None, owner: type[Any] | None = None) -> Any:
-        """Return the value, computed if there is none yet."""
+        """Return the stored value, computed and stored first if there is none; on a class the property itself."""
         if instance is None:
             return self
         name = str(self.attrname)

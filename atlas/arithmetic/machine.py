@@ -15,10 +15,10 @@ MIN_THREAD_MATRICES = 100_000
 
 
 def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int = 1) -> None:
-    """Do work(0, count), in two threads, one for each half, if it is long and this process may use two processors.
+    """Do work(low, high) for 0 to ``count``, in two threads, one for each half, if that pays.
 
-    ``grain`` units are done at once: the cut is a multiple of it, so that no bit changes. ``weight`` is the number of
-    matrices in one unit.
+    It pays for `MIN_THREAD_MATRICES` matrices and two processors. ``grain`` units are done at once: the cut is a
+    multiple of it, so that no bit changes. ``weight`` is the number of matrices in one unit.
     """
     half = (count // 2 + grain - 1) // grain * grain
     if half >= count or count * weight < MIN_THREAD_MATRICES or processors() < 2:
@@ -31,7 +31,7 @@ def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int
 
 
 def processors() -> int:
-    """Return the number of processors that this process may use."""
+    """Return the number of processors that this process may use, at least 1."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -45,10 +45,12 @@ MAX_KEPT_BYTES = 2**25
 def keep() -> None:
     """Keep memory for the arrays of this process, once for good: at most 64 MB a thread.
 
-    Every kernel calls this before its first array. In a new process the C library returns the memory that an array of
-    some 100 kB had to the system at once, and the next one pays for each page anew: up to five times the arithmetic of
-    thousands of matrices. So it does for good where MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask. Else it
-    comes to these values by itself, array by array, so that no more is kept than in any long process.
+    Every kernel calls this function before its first array. In a new process the C library of GNU returns the
+    memory of a freed array of some 100 kB to the system at once, and the next array pays for each page anew: up to
+    five times the arithmetic of thousands of matrices. In most processes the library raises its thresholds by
+    itself, array by array; where MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask, it never does. The
+    thresholds set here are those of any long process, so that no more memory is kept. With another C library
+    nothing is done.
     """
     with suppress(AttributeError, OSError, TypeError):  # another C library
         mallopt = ctypes.CDLL(None).mallopt

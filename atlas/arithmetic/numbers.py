@@ -50,7 +50,7 @@ Value = TypeVar("Value")
 
 
 class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
-    """A cached property, recomputed only for a precision above that of the cached value."""
+    """A cached property of exact or certified values, computed again for a precision above the cached value's."""
 
     def __init__(self, function: Callable[[Any], Value]) -> None:
         self._function, self.__doc__ = function, function.__doc__
@@ -63,7 +63,10 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
     @overload
     def __get__(self, instance: object, owner: Any = None) -> Value: ...
     def __get__(self, instance: Any, owner: Any = None) -> Self | Value:
-        """Return the cached value, computed again if the current precision exceeds that of the cached value."""
+        """Return the cached value, computed again if the current precision exceeds that of the cached value.
+
+        On a class the property itself.
+        """
         if instance is None:
             return self
         with _LOCK:  # else the precision could be another thread's, or change while the value is made
@@ -74,7 +77,7 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
 
 
 def rational(x: float | fmpq) -> fmpq:
-    """Return a float as an exact rational number; a rational number unchanged."""
+    """Return a float as an exact rational number; a rational number unchanged. Raises for an infinite float or NaN."""
     return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
 
 
@@ -87,7 +90,10 @@ def as_rational(x: fmpq | arb) -> fmpq:
 
 
 def root(x: Number) -> Number:
-    """Return the square root of a nonnegative number: exact for the square of a rational, else a ball."""
+    """Return the square root of a nonnegative number: exact for the square of a rational, else of its own kind.
+
+    That is a ball for a rational or a ball, a `DoubleDouble` for a `DoubleDouble`.
+    """
     if not isinstance(x, fmpq):
         return x.sqrt()
     p, q = int(x.p), int(x.q)
@@ -96,7 +102,7 @@ def root(x: Number) -> Number:
 
 
 def pi_like(x: Number) -> Number:
-    """Return the number pi in the arithmetic of x."""
+    """Return the number pi as a ball for a rational or a ball x, else as a `DoubleDouble`."""
     return arb.pi() if isinstance(x, fmpq | arb) else x.pi
 
 
@@ -114,7 +120,7 @@ def dot(a: Vector, b: Vector) -> Number:
 
 
 def applied(matrix: Sequence[Vector], vector: Vector) -> list[Number]:
-    """Return a matrix, by its rows, times a vector."""
+    """Return a matrix, a sequence of rows, times a vector, as a list of components."""
     return [dot(row, vector) for row in matrix]
 
 
@@ -145,12 +151,12 @@ def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
 
 
 def length(*components: Number) -> Number:
-    """Return the length of a vector: an exact rational where it is one, else a ball."""
+    """Return the length of the vector with these components: an exact rational where it is one, else as `root`."""
     return root(dot(components, components))
 
 
 def direction(vector: Vector) -> tuple[Number, ...]:
-    """Return the unit vector along a vector; (0, ..., 0, 1) for the exact zero vector."""
+    """Return the unit vector along a vector, a tuple; (0, ..., 0, 1) for the exact zero vector of rationals."""
     size = length(*vector)
     if isinstance(size, fmpq) and size == 0:
         return *vector[:-1], fmpq(1)

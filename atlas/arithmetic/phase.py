@@ -66,10 +66,10 @@ MIN_LONGEST_TIME = 1e-290
 class Phases:
     """Phases of one or two frequencies, with the tables that evaluate them at times t.
 
-    `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
-    `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
-    (2, 1, n, 1) are those of P0. `rounder` (n, 1) rounds to the half turns that are left out: EVEN ones for whole
-    turns.
+    Made from `turns`, the frequencies, exact, in turns per unit of time, and `origins`, if given, phases at t = 0,
+    in turns. `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself;
+    `halves` (2, 1, n, 1) are the upper and lower 26 digits of P0. `rounder` (n, 1) rounds to the half turns that
+    are left out: EVEN ones for whole turns. `longest` is the largest |t|.
 
         >>> t, cos, sin = np.array([1e15]), np.empty((1, 1)), np.empty((1, 1))
         >>> with workprec():
@@ -118,7 +118,7 @@ class Phases:
         return [0] * len(self._small) if self.exponents is None else self.exponents[:, 0].tolist()
 
     def circle_of_one(self, t: float) -> list[tuple[float, float, float]]:
-        """Return cos(x)/2, sin(x)/2 and (1 - cos x)/2 for each phase x = f t at one time, without origins.
+        """Return [(cos(x)/2, sin(x)/2, (1 - cos x)/2), ...] for each phase x = f t at one time, without origins.
 
         The product in turns is exact, and so is its distance from a quarter turn, |y| <= 1/8. The angle 2 pi y is
         rounded once, sine and cosine are within an ulp: cos and sin are within 2 w, w = 2^-53, where `circle` has 8.
@@ -136,11 +136,14 @@ class Phases:
         return functions
 
     def halves_of_one(self, t: float) -> list[float]:
-        """Return half of each phase at one time, less the turns that `rounder` leaves out, in radians, rounded once."""
+        """Return a list of half of each phase at one time, in rad, less the turns that `rounder` leaves out.
+
+        Each is rounded once.
+        """
         return [half / unit for half, unit in self._exact_halves_of_one(t)]
 
     def words_of_one(self, t: float) -> tuple[list[float], list[float]]:
-        """Return the same in two words each: (`halves_of_one`, their rounding errors)."""
+        """Return half of each phase at one time in two words: (`halves_of_one`, their rounding errors), in rad."""
         halves, low_words = list[float](), list[float]()
         for half, unit in self._exact_halves_of_one(t):
             halves.append(half / unit)
@@ -149,18 +152,21 @@ class Phases:
         return halves, low_words
 
     def _exact_halves_of_one(self, t: float) -> Iterator[tuple[int, int]]:
-        """Yield each of `halves_of_one` as a fraction (n, a power of two)."""
+        """Yield each of `halves_of_one` in rad as (numerator, a power of two as denominator), to 2^-SCALAR_BITS."""
         for (x, digits), is_even in zip(self._phases_of_one(t), self._is_even, strict=True):
             half = 1 << digits - (1 if is_even else 2)
             yield (((x + half) % (2 * half)) - half) * TURN_OF_INTEGERS, 1 << digits + SCALAR_BITS + 1
 
     @cached_property
     def _is_even(self) -> list[bool]:
-        """For each phase whether whole turns of it are left out, not half turns."""
+        """List with one boolean a phase: whether whole turns are left out, not half turns."""
         return [bool(x) for x in np.broadcast_to(np.ravel(self.rounder) == EVEN, len(self._small))]
 
     def _phases_of_one(self, t: float) -> Iterator[tuple[int, int]]:
-        """Yield the phases at one time as pairs (n, digits): n/2^digits turns. Raises AtlasError beyond `longest`."""
+        """Yield the phase of each frequency at one time as (n, digits): n/2^digits turns, with its origin.
+
+        Raises AtlasError beyond `longest`.
+        """
         if not abs(t) <= self.longest:
             self.check(np.array([t]))
         p, q = t.as_integer_ratio()
@@ -180,7 +186,7 @@ class Phases:
 
     @cached_property
     def _sums(self) -> tuple[FloatArray, FloatArray]:
-        """Leading 26 binary digits of P0 + P1, and the matrix that sums the rows of `halves_of`."""
+        """Leading 26 binary digits of P0 + P1, (n, 1), and the matrix (n, k) that sums the k rows of `halves_of`."""
         with workprec():
             head, *lows = _columns([_head(p) for p in self._small])
         columns = [] if self.origins is None else [self.origins[1]]
@@ -201,7 +207,7 @@ class Phases:
         return self
 
     def _keep(self, words: FloatArray) -> None:
-        """Set `words` and `halves`, the upper and lower 26 digits of P0, from words (2, n, m)."""
+        """Set `words` (-P0, P1) and `halves`, the upper and lower 26 digits of P0, from words (P0, P1) (2, n, m)."""
         P0, P1 = words
         head = P0 * SPLITTER - (P0 * SPLITTER - P0)
         self.words = np.array([-P0, P1])
@@ -231,10 +237,11 @@ class Phases:
         circle_of(*self.angles(t, work), cos, sin, versine)
 
     def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return x/2 for x = f t less whole half turns, its rounding error, and the sign of the turns.
+        """Return x/2 for x = f t less whole half turns, its rounding error, the sign of those half turns, a free array.
 
-        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near MAX_PHASE
-        the whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8.
+        All are (n, m), the first two in radians, and lie in ``work`` (8, n, m). The sign is 1.0 for an even number
+        of half turns, -1.0 for an odd one. At phases near MAX_PHASE the whole half turns are those nearest to P0 t,
+        whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8.
         """
         half, remainder, half_turns, free_rows = self.reduced(t, work)
         return half, remainder, signs(half_turns), free_rows
@@ -242,7 +249,8 @@ class Phases:
     def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return (x/2, its rounding error, half turns + `rounder`, spare array), as `angles` does with signs.
 
-        `low` are low words of the times t. The arrays are (n, m) and lie in `work`.
+        ``low`` (m,) are low words of the times t (m,). The arrays are (n, m) and lie in ``work`` (8, n, m). Raises
+        AtlasError for a time beyond `longest`.
         """
         farthest_time = farthest(t)
         if not farthest_time <= self.longest:
@@ -299,13 +307,15 @@ class Phases:
     def halves_of(
         self, t: FloatArray, work: FloatArray, low: FloatArray | None = None, turns: FloatArray | None = None
     ) -> FloatArray:
-        """Return x/2, rounded once, as `reduced` does; it lies in `work`, whose last axis may be longer than t's.
+        """Return x/2 for x = f t less the half turns that `rounder` leaves out, (n, m) in rad, rounded once.
 
-        `turns` (n, m), if given, gets the number of half turns that are left out, plus `rounder`.
+        ``t`` (m,) are times, ``low`` (m,) their low words. The result lies in ``work`` (8, n, m), whose last axis
+        may be longer than t's. ``turns`` (n, m), if given, gets the number of half turns that are left out, plus
+        `rounder`.
 
-        For half phases up to NEAR_PHASE_RATIO MAX_NEAR_PHASE the head of the frequency times that of t is exact, and
-        so is its remainder
-        without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
+        For half phases up to NEAR_PHASE_RATIO MAX_NEAR_PHASE the head of the frequency times that of t is exact,
+        and so is its remainder without whole half turns; the products of the rest are below 1/4. A matrix product
+        sums them, the largest last. For other phases the result is that of `reduced`.
         """
         if self.exponents is not None or not farthest(t) <= NEAR_PHASE_RATIO * self.near:
             half, _, half_turns, _ = self.reduced(t, work[..., : t.size], low)
@@ -338,11 +348,12 @@ class Phases:
     def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
         """Return the result of `reduced` for half phases up to MAX_NEAR_PHASE, by Cody and Waite.
 
-        The half phase is half f t less w pi/2, both split. With F0 + F1 half the frequency and t0 + t1 the time, F0 t0
-        and w times the head of pi/2 have 53 digits, and their difference, below 2, is exact. The rest, F0 t1 + F1 t
-        less w times the tail, is below 1/8: two sums of it are within 2^-57, two products within 2^-59, and F1 and the
-        tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x. The low part of a time is in t1, whose sum and product are
-        then within 2^-59 each: 0.1 w more.
+        ``halves`` are the upper and lower halves of the times t. The half phase is half f t less w pi/2, both
+        split. With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53
+        digits, and their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8:
+        two sums of it are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7
+        of x/2, 0.3 w of x. The low part of a time is in t1, whose sum and product are then within 2^-59 each: 0.1 w
+        more.
         """
         products, product, half_turns, w = work[:2], work[2], work[3], work[7]
         np.multiply(self.radians[0], halves, out=products)
@@ -378,7 +389,10 @@ class Phases:
 
 
 def _exponents(halves: Sequence[Number]) -> list[int]:
-    """Return exponents of two by which frequencies are divided: zeros unless a frequency is extreme."""
+    """Return exponents of two by which frequencies, ``halves``, are divided: all zeros unless one is extreme.
+
+    If one is beyond 2^±SAFE_EXPONENT, or all are zero, each frequency has its own, and a zero one ZERO_EXPONENT.
+    """
     moving = [magnitude(p) for p in halves if p != 0]
     if moving and all(abs(x) <= SAFE_EXPONENT for x in moving):
         return [0] * len(halves)
@@ -402,7 +416,7 @@ def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
 
 
 def _reach(fastest: Number) -> float:
-    """Return the longest time for which 2 ``fastest`` t stays within MAX_PHASE; inf for 0."""
+    """Return the longest time for which 2 ``fastest`` t, a phase in rad, stays within MAX_PHASE; inf for 0."""
     return nextafter(nearest(MAX_PHASE / (2 * fastest)), inf) if fastest != 0 else inf
 
 
@@ -415,7 +429,7 @@ def _head(x: Number) -> tuple[float, float, float]:
 
 
 def _cut(turn: Number) -> tuple[float, float]:
-    """Return a phase in turns, reduced by whole turns, as (multiple of 2^-25, remainder) in half turns."""
+    """Return a phase in turns, less the nearest whole number, as (multiple of 2^-25, remainder) in half turns."""
     fraction = turn_of(turn)
     head = round(ldexp(nearest(fraction), 26)) / 2.0**25
     return head, 2 * nearest(fraction - head / 2)

@@ -16,7 +16,7 @@ LENGTH_TOLERANCE, LENGTH_ROUNDING = 1e-3, 1e-6
 
 
 def of_matrix(R: Any) -> FloatArray:
-    """Return a unit quaternion (x, y, z, w) for each rotation matrix (..., 3, 3), shape (..., 4).
+    """Return a unit quaternion (x, y, z, w), the scalar last, for each rotation matrix (..., 3, 3): shape (..., 4).
 
     Its sign is arbitrary.
     """
@@ -25,7 +25,10 @@ def of_matrix(R: Any) -> FloatArray:
 
 
 def rows_of_matrix(R: Any) -> FloatArray:
-    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), of length 4 |q_i|, q_i the largest component."""
+    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), of length 4 |q_i|, q_i the largest component.
+
+    The order is (x, y, z, w).
+    """
     entries: Any = np.moveaxis(np.asarray(R), (-2, -1), (0, 1))
     rows = quaternion_products(entries)
     table = np.array([np.stack(row, -1) for row in rows])
@@ -34,7 +37,7 @@ def rows_of_matrix(R: Any) -> FloatArray:
 
 
 def product(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Return the quaternions of the rotation q followed by p; shapes (..., 4) broadcast."""
+    """Return the quaternions (x, y, z, w) of the rotation q followed by p; shapes (..., 4) broadcast."""
     (a, b, c, d), (x, y, z, w) = np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0)
     return np.stack([
         d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x,
@@ -43,7 +46,10 @@ def product(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def between(R_p: FloatArray, R_r: FloatArray) -> FloatArray:
-    """Return the matrix (4, 4) that maps a row q to the quaternion p q r of the rotation matrices R_p and R_r."""
+    """Return the matrix (4, 4) that maps a row q = (x, y, z, w) to the quaternion p q r.
+
+    p and r are the quaternions of the rotation matrices R_p and R_r, (3, 3) each.
+    """
     return product(product(of_matrix(R_p), np.eye(4)), of_matrix(R_r))
 
 

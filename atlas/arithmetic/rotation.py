@@ -38,9 +38,9 @@ SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
 class Basis:
     """Workspace for the functions F_r at up to `size` times: of two phases, or cos, sin and 1 - cos of one.
 
-    In the order of `resolution`: cos kt, cos phi t, sin kt, sin phi t, 1 - cos kt; cos kt and sin kt times cos phi t,
-    the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t. `phases` are `Phases` or a
-    `Progression` of them.
+    `count` is the number of functions, 3, 9 or 11. In the order of `resolution`: cos kt, cos phi t, sin kt, sin phi t,
+    1 - cos kt; cos kt and sin kt times cos phi t, the same times sin phi t; and, if there are 11, 1 - cos kt times
+    cos phi t and sin phi t. `phases` are `Phases` or a `Progression` of them.
     """
 
     def __init__(self, phases: Any, size: int, count: int = 3) -> None:
@@ -65,7 +65,7 @@ class Basis:
 
 
 def multiply(rows: NDArray[Any]) -> None:
-    """Fill rows 5 to 8, or to 10, of the functions of `Basis` with products of the rows before."""
+    """Fill rows 5 to 8, or to 10, of the functions of `Basis`, (9 or 11, m), with products of rows 0 to 4, in place."""
     precession, proper = rows[0:4:2], rows[1:4:2]
     np.multiply(precession, proper[:, None], out=rows[5:9].reshape(2, 2, -1))
     if len(rows) == 11:
@@ -73,7 +73,10 @@ def multiply(rows: NDArray[Any]) -> None:
 
 
 def rodrigues(axis: Axis) -> FloatArray:
-    """Return the matrices 1, [n, .] and n n^T of a unit vector n, shape (3, 3, 3), each element rounded once."""
+    """Return the matrices 1, [n, .] and n n^T of a unit vector n = ``axis``, (3, 3, 3), each element rounded once.
+
+    [n, .] is the matrix of the vector product with n.
+    """
     n1, n2, n3 = map(nearest, axis)
     with workprec():
         dyad = [[nearest(a * b) for b in axis] for a in axis]
@@ -81,10 +84,10 @@ def rodrigues(axis: Axis) -> FloatArray:
 
 
 def generators(axis: Axis) -> FloatArray:
-    """Return the matrices n n^T, 1 - n n^T, [n, .] and n n^T of a unit vector n, shape (4, 3, 3).
+    """Return the matrices n n^T, 1 - n n^T, [n, .] and n n^T of a unit vector n = ``axis``, shape (4, 3, 3).
 
     The first two sum to 1 exactly, so that R(0) = 1; the first is adjusted for that, the last has its elements rounded
-    once.
+    once. [n, .] is the matrix of the vector product with n.
     """
     _, n_cross, dyad = rodrigues(axis)
     projector = dyad.copy()
@@ -106,9 +109,9 @@ def extended(axis: Axis) -> NDArray[np.longdouble]:
 def resolution(matrices: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
     """Return factors L_r and Q_r of the matrix of each function F_r of `Basis`: two arrays (9, 3, 3), or (11, 3, 3).
 
-    ``matrices`` are those of `generators`. The third column, small when k t is, comes from sin and 1 - cos and keeps
-    its digits. With ``third_row`` so does the third row, by two functions more: it is the third column of the
-    transpose.
+    ``matrices`` (4, 3, 3) are those of `generators`. The third column, small when k t is, comes from sin and 1 -
+    cos and keeps its digits. With ``third_row`` so does the third row, by two functions more: it is the third
+    column of the transpose.
     """
     projector, complement, n_cross, dyad = matrices
     upper = E if third_row else IDENTITY
@@ -133,9 +136,9 @@ LARGEST = float(np.finfo(float).max) / 4
 class DoubleRotation:
     """Rotation matrix R(t) = R_n(k t) R_z(phi t), (85), of a body that precesses about n and turns about its axis.
 
-    `axis` n is a unit vector, `precession` k and `proper` phi are frequencies, all exact. If `inverse`, the matrix is
-    the transposed one, as for the ball, (28). Each entry is a constant linear combination of functions of time, see
-    `Basis`: one small matrix product makes all of them.
+    `axis` n is a unit vector, `precession` k and `proper` phi are frequencies in rad/time, all exact. If `inverse`,
+    the matrix is the transposed one, as for the ball, (28). Each entry is a constant linear combination of
+    functions of time, see `Basis`: one small matrix product makes all of them.
     """
 
     vectors: Mapping[str, tuple[Any, ...]] = MappingProxyType({})
@@ -159,19 +162,20 @@ class DoubleRotation:
 
     @cached_property
     def precession(self) -> Phases:
-        """The phase k t by itself."""
+        """The `Phases` of k t alone."""
         return Phases(self.turns[:1])
 
     @cached_property
     def proper(self) -> Phases:
-        """The phase phi t by itself."""
+        """The `Phases` of phi t alone."""
         return Phases(self.turns[1:])
 
     @cached_property
     def composition(self) -> tuple[FloatArray, FloatArray]:
-        """Matrices L_r L_q Q_q Q_r of `Basis`, times SCALE of r, as multiples of 2^-25 and remainders.
+        """Matrices L_r L_q Q_q Q_r of `Basis`, times SCALE of r, cut into multiples of 2^-25 and rests: two arrays.
 
-        By r, q and entry: the multiples (r, q, 9); the same above the rests, (r, 2 q, 9), for factors that are small.
+        With n functions, 9 or 11, the first array (n, n, 9) holds the multiples by r, q and entry. The second (n, 2
+        n, 9) has for each r the multiples above the rests, for factors that are small.
         """
         L, Q = resolution(extended(self.axis), third_row=self.inverse)
         exact = np.matmul(np.matmul(L[:, None], np.matmul(L, Q)), Q[:, None])
@@ -186,7 +190,7 @@ class DoubleRotation:
         return combinations(self.phases, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), j = 1, 2, 3: the body's axis j in the laboratory, shape (..., 3).
+        """Return the column R_j(t), ``j`` = 1, 2, 3: the body's axis j in the laboratory, shape t.shape + (3,).
 
         ``out``, if given, is filled and returned.
         """
@@ -215,7 +219,7 @@ class DoubleRotation:
         return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
     def vector(self, name: str) -> Any:
-        """Return the components of the constant vector ``name`` in `vectors`."""
+        """Return the components (3,) of the constant vector ``name`` in `vectors`. Raises KeyError for another name."""
         return self.vectors[name]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -253,9 +257,11 @@ class DoubleRotation:
 def combinations(
     phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None
 ) -> FloatArray:
-    """Return weighted sums of the functions of `Basis`, shape t.shape + ``shape``.
+    """Return weighted sums of the functions of `Basis` at times t, shape t.shape + ``shape``.
 
-    ``weights`` (3, 9 or 11, prod(shape)) hold one row for each function over SCALE. ``out``, if given, is filled.
+    ``weights`` (3, 9 or 11, prod(shape)) hold one row for each function over SCALE, so that 3 rows need one phase
+    and 9 or 11 two. ``out``, if given, is filled. Raises AtlasError for a time that is no number or a phase that is
+    too long.
     """
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
     if 0 < times.size <= FEW_TIMES:
@@ -270,7 +276,7 @@ def combinations(
         return out
 
     def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
-        """Return the function that fills a block of times."""
+        """Return the function (times, rows) that fills ``rows`` for a block of at most ``size`` times."""
         basis = Basis(phases, size, len(weights))
         return lambda times, rows: combined(basis.at(times), weights, rows)
 

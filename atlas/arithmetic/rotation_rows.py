@@ -37,9 +37,10 @@ MAX_LOST_PHASE = 2.0**-55
 
 @dataclass(frozen=True)
 class Frequencies:
-    """Frequencies in half turns per unit of time: `words` (2, n, m) are P0 and P1, `lack` (n, m) bounds their error.
+    """Frequencies in half turns per unit of time of m motions, n each.
 
-    `exact(i)` returns the n frequencies of the i-th motion in radians.
+    `words` (2, n, m) are P0 and P1, whose sum is the frequency; `lack` (n, m) bounds its error. `exact(i)` returns
+    the n frequencies of the i-th motion in rad/time, exact numbers.
     """
 
     words: FloatArray
@@ -47,9 +48,10 @@ class Frequencies:
     exact: Callable[[Any], Sequence[Number]]
 
     def at(self, index: Any, t: FloatArray) -> FloatArray:
-        """Return the words (2, n, m) of the frequencies of m motions, accurate enough for their times t (m,).
+        """Return the words (2, n, m) of the frequencies of motions ``index``, accurate enough for their times t (m,).
 
-        Raises AtlasError if a phase is too long.
+        They are computed anew from `exact` where `lack` times |t| exceeds MAX_LOST_PHASE. Raises AtlasError if a
+        phase is beyond MAX_PHASE.
         """
         words = self.words[..., index].copy()
         with np.errstate(over="ignore", invalid="ignore"):
@@ -82,7 +84,8 @@ def _words(frequency: Number) -> list[float]:
 def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:
     """Return (`words`, `lack`) of `Frequencies`, (2, 2, m) and (2, m), for inputs that broadcast to m motions.
 
-    ``formula`` returns two frequencies in rad/time. Where inputs are out of range, `lack` is NaN.
+    ``formula`` returns two frequencies in rad/time; the inputs ``unit`` are themselves frequencies. Where inputs
+    are out of range, `lack` is NaN.
     """
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
     words, errors = list[Any](), list[Any]()
@@ -113,9 +116,9 @@ Group = tuple[Constants, Any, Sequence[Any]]
 class DoubleRotationRows:
     """Rotations `DoubleRotation` of ``count`` motions, each evaluated at one time.
 
-    ``groups`` are triples (formula, indices of motions, inputs); the inputs ``unit`` of each formula are frequencies.
-    ``vectors()`` returns constant vectors by name, three components (count,) each. ``inverse`` transposes the matrices,
-    (28).
+    ``groups`` are triples (formula, indices of motions, inputs); a formula returns (vector along n, k, phi), its
+    inputs ``unit`` are frequencies in rad/time. ``vectors()`` returns constant vectors by name, three components
+    (count,) each. ``inverse`` transposes the matrices, (28). Methods that evaluate write into the array ``out``.
     """
 
     def __init__(
@@ -146,7 +149,7 @@ class DoubleRotationRows:
         self.frequencies = Frequencies(words, errors, partial(_exact, groups, self.groups))
 
     def at(self, index: Any, t: FloatArray) -> "DoubleRotationRows":
-        """Return the motions of these indices, paired with times t (m,).
+        """Return a copy that holds the motions at ``index`` alone, paired with times t (m,).
 
         Raises AtlasError if a phase is beyond MAX_PHASE.
         """
@@ -156,7 +159,10 @@ class DoubleRotationRows:
         return selection
 
     def vector(self, name: str) -> Sequence[Any]:
-        """Return the three components, (m,) each, of the constant vector ``name`` of the selected motions."""
+        """Return the three components, (m,) each, of the constant vector ``name`` of the selected motions.
+
+        ``name`` is a key of `vectors`, such as "Omega".
+        """
         return [x[self.indices] for x in self.vectors()[name]]
 
     @property
@@ -169,18 +175,18 @@ class DoubleRotationRows:
         return np.flatnonzero(~((size == 0) | ((size > 1 / MAX_FREQUENCY) & (size < MAX_FREQUENCY))).all(axis=0))
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
-        """Write R(t), (84), at one time each, (m,), into (m, 3, 3)."""
+        """Write R(t), (84), of the selected motions at one time each, t (m,), into ``out`` (m, 3, 3)."""
         for j, column in enumerate(self._columns(t)):
             for i, entry in enumerate(column):
                 out[:, i, j] = entry
 
     def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
-        """Write the columns R_j(t), j = 1, 2, 3, into (m, 3)."""
+        """Write the column R_j, ``j`` = 1, 2, 3, of each motion at its time t (m,) into ``out`` (m, 3)."""
         for i, entry in enumerate(self._columns(t)[j - 1]):
             out[:, i] = entry
 
     def quaternion(self, t: FloatArray, out: FloatArray) -> None:
-        """Write the quaternions q_n(k t) q_z(phi t), (x, y, z, w), or their inverses, into (m, 4)."""
+        """Write the quaternions q_n(k t) q_z(phi t), (x, y, z, w), or their inverses, at t (m,) into ``out`` (m, 4)."""
         (c, s), (cos, sin) = (self._circle(i, t / 2)[:2] for i in range(2))
         x, y, z = self.axis * s
         q = np.array([x * cos + y * sin, y * cos - x * sin, z * cos + c * sin, c * cos - z * sin])
@@ -190,11 +196,14 @@ class DoubleRotationRows:
         out[:] = q.T
 
     def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
-        """Write Omega(t) in the body into (m, 3)."""
+        """Write Omega(t) along the body's axes, in rad/time, at t (m,) into ``out`` (m, 3)."""
         (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
     def turned(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write R_n(k t) v for constant vectors v (3, m) into (m, 3). Raises AtlasError if a result is not finite."""
+        """Write R_n(k t) v for constant vectors v (3, m), in their unit, into ``out`` (m, 3).
+
+        Raises AtlasError if a result is not finite.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             for i, row in enumerate(self._precession(*self._circle(0, t)[1:])):
                 out[:, i] = row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2]
@@ -202,7 +211,7 @@ class DoubleRotationRows:
             raise AtlasError("A vector that is to be turned is too large for a float: choose larger units.")
 
     def swung(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write R_z(-phi t) v for constant v (3, m) into (m, 3)."""
+        """Write R_z(-phi t) v for constant vectors v (3, m), in their unit, into ``out`` (m, 3)."""
         (x, y, z), (cos, sin, _) = vector, self._circle(1, t)
         out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
 
@@ -227,7 +236,7 @@ class DoubleRotationRows:
         return [(d1, v12 - s3, v13 + s2), (v12 + s3, d2, v23 - s1), (v13 - s2, v23 + s1, d3)]
 
     def _circle(self, i: int, t: FloatArray) -> FloatArray:
-        """Return cos, sin and 1 - cos of the first or second phase, (3, m)."""
+        """Return cos, sin and 1 - cos of the phase k t (``i`` = 0) or phi t (``i`` = 1), (3, m)."""
         halves = np.empty((3, 1, t.size))
         Phases.of_words(self.words[:, i : i + 1]).circle(t, room(1, t.size), halves[0], halves[1], halves[2, 0])
         halves *= 2
@@ -235,13 +244,17 @@ class DoubleRotationRows:
 
 
 def _unit(x: FloatArray, y: FloatArray, z: FloatArray) -> tuple[Any, Any, Any]:
-    """Return a vector, of length 1 up to rounding, normalised by a step of Newton's iteration: three components."""
+    """Return the three components of a vector, of length 1 up to rounding, normalised by one step of Newton."""
     factor = 1.5 - 0.5 * (x * x + y * y + z * z)
     return x * factor, y * factor, z * factor
 
 
 def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
-    """Return n, n_i n_j for i < j and 1 - n_i^2; where n is in the plane (e2, e3), n2, n3, n2 n3, n2^2 and n3^2."""
+    """Return the nine numbers n, n_i n_j for i < j and 1 - n_i^2 of the unit vector n along the formula's vector.
+
+    ``constants`` is the formula, ``inputs`` its inputs. Where n is in the plane (e2, e3) the numbers are five: n2, n3,
+    n2 n3, n2^2 and n3^2.
+    """
     n = direction(constants(*inputs)[0])
     squares = [x * x for x in n]
     if len(n) == 2:
@@ -251,12 +264,15 @@ def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
 
 
 def _frequencies(constants: Constants, *inputs: Any) -> Sequence[Any]:
-    """Return the frequencies (k, phi), numbers of the kind of `inputs`, by the formula of the constants."""
+    """Return the frequencies (k, phi) in rad/time, numbers of the kind of ``inputs``, by the formula ``constants``."""
     return constants(*inputs)[1:]
 
 
 def _exact(groups: Sequence[Group], places: NDArray[np.int8], i: int) -> Sequence[Number]:
-    """Return (k, phi) of motion number i in rad/time, as exact as the formula of its group gives them."""
+    """Return (k, phi) of motion number ``i`` in rad/time, as exact as the formula of its group gives them.
+
+    ``groups`` are those of `DoubleRotationRows`, ``places`` has the number of each motion's group.
+    """
     constants, index, inputs = groups[places[i]]
     place = i if isinstance(index, slice) else np.searchsorted(index, i)
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))

@@ -43,7 +43,7 @@ Steps = Sequence[float]
 
 @dataclass(frozen=True)
 class Spread:
-    """Numbers with their standard deviations.
+    """Numbers with their standard deviations, by place: the tuple of keys and indices of a number in an answer.
 
     Attributes
     ----------
@@ -69,11 +69,12 @@ def spread(
 ) -> Spread:
     """Return the `Spread` of the numbers in ``middle``, the answer at the nominal inputs.
 
-    ``answer`` takes a step for each of ``count`` independent inputs, in standard deviations. Deviations are of first
-    order, by central differences, or one-sided where a number has no value a standard deviation off on one side. They
-    are sampled where terms of second and third order would change them by more than `MAX_CURVATURE`, and where a number
-    has no value on either side; a number that too many draws lack has an infinite deviation. ``progress`` gets (draw,
-    draws, "").
+    ``answer`` takes a step for each of ``count`` independent inputs, in standard deviations, and returns a nested
+    answer as `numbers_of` takes; it may raise DomainError where there is no value. Deviations are of first order,
+    by central differences, or one-sided where a number has no value a standard deviation off on one side. They are
+    sampled where terms of second and third order would change them by more than `MAX_CURVATURE`, and where a number
+    has no value on either side; a number that too many draws lack has an infinite deviation. ``progress`` gets
+    (draw, draws, "").
     """
     numbers = numbers_of(middle)
     sizes = _sizes(numbers)
@@ -112,9 +113,11 @@ def spread(
 
 
 class Terms(NamedTuple):
-    """Terms of a Taylor series in one direction, by number, and the numbers that have a value on one side only.
+    """Terms of a Taylor series in one direction, for a step of one standard deviation, dictionaries by place.
 
-    `line` is the term of first order, `second` that of second, `third` the sum of those of first and third order.
+    `line` is the first-order term; `second` is sqrt(2) times the second-order term, its standard deviation; `third`
+    is the first-order term corrected by the third-order one. `ended` are the places of numbers that have a value on
+    one side only.
     """
 
     line: Numbers
@@ -126,7 +129,7 @@ class Terms(NamedTuple):
 def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) -> Terms:
     """Return the `Terms` of the numbers in ``middle`` for a step of one standard deviation along ``direction``.
 
-    A number without a value on both sides has no entry.
+    A number with a value on one side only has terms of that side's parabola, without one on both sides no entry.
     """
 
     def off(step: float) -> Numbers:
@@ -155,10 +158,7 @@ def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) ->
 
 
 def _sizes(numbers: Numbers) -> Numbers:
-    """Return the magnitude of each number by place.
-
-    An entry of a sampled vector or matrix has that of its largest one.
-    """
+    """Return the magnitude of each number by place; for an entry of a sampled vector or matrix the largest one's."""
     largest = dict[Place, float]()
     for key, x in numbers.items():
         group = key[:3] if key[0] == "samples" else key
@@ -173,9 +173,9 @@ def _draws(
     size: int,
     progress: Callable[[int, int, str], None] | None,
 ) -> dict[Place, list[float]]:
-    """Return by place the values of numbers for ``size`` normal draws of the inputs.
+    """Return by place the values of numbers, those in ``places``, for ``size`` normal draws of the ``count`` inputs.
 
-    A draw without a value is left out.
+    A draw without a value is left out. The draws are the same in every run. ``progress`` gets (draw, draws, "").
     """
     import random
 
@@ -194,14 +194,15 @@ def _draws(
 
 
 def _is_lost(values: list[float], size: int) -> bool:
-    """Whether so many of ``size`` draws lack a value that the scatter of the others would be biased."""
+    """Whether so many of ``size`` draws lack a value that the scatter of the others, ``values``, would be biased."""
     return len(values) < max(size - MAX_LOST * size, MIN_DRAWS)
 
 
 def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, set[Place]]:
     """Return sets of places by sentence: of sampled deviations, and of numbers that too many draws lack.
 
-    A sentence names the number of draws, and the largest number of draws without a value.
+    ``draws`` are the values by place, of ``size`` draws. A sentence names the number of draws, and the largest
+    number of draws without a value.
     """
     lost = {key for key, values in draws.items() if _is_lost(values, size)}
     sentences = {}
@@ -212,10 +213,7 @@ def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, se
 
 
 def _deviation(values: list[float], size: int) -> tuple[float, float]:
-    """Return (standard deviation of draws, its own standard error).
-
-    Both inf where too many of ``size`` draws are missing.
-    """
+    """Return (standard deviation of draws, its own standard error); inf if too many of ``size`` draws lack a value."""
     if _is_lost(values, size):
         return math.inf, math.inf
     mean, freedom = math.fsum(values) / len(values), len(values) - 1
@@ -224,7 +222,10 @@ def _deviation(values: list[float], size: int) -> tuple[float, float]:
 
 
 def numbers_of(answer: Any) -> Numbers:
-    """Return the finite floats of a nested answer by place, a tuple of keys and indices; entries "t" are left out."""
+    """Return the finite floats of a nested answer by place, a tuple of keys and indices; entries "t" are left out.
+
+    An answer is a float, or mappings and sequences of answers, integers and texts.
+    """
     numbers = Numbers()
     mapped(answer, lambda x, place: numbers.update({place: x}))
     return {place: x for place, x in numbers.items() if math.isfinite(x)}
@@ -267,7 +268,10 @@ def _uncertain(value: Any) -> Iterator[Any]:
 
 
 def _replaced(value: Any, function: Callable[[Any], float]) -> Any:
-    """Return a value with function(x) in the place of each number x that has a standard deviation."""
+    """Return a value with function(x) in the place of each number x that has a standard deviation.
+
+    Such numbers stand alone, in lists and tuples, or in an `UncertainObject`, which is made anew.
+    """
     value = _listed(value)
     if isinstance(value, UncertainObject):
         return value.made_of(function)
@@ -291,14 +295,20 @@ def in_independent_inputs(values: Mapping[str, Any]) -> tuple[dict[str, Any], di
 
 
 def _with_derivatives(x: Any) -> Any:
-    """Return a number with a standard deviation as an object of the package `uncertainties`, unchanged if it is one."""
+    """Return a number with a standard deviation as an object of the package `uncertainties`; unchanged if it is one.
+
+    Other numbers become independent variables.
+    """
     from uncertainties import ufloat
 
     return x if hasattr(x, "derivatives") else ufloat(x.nominal_value, x.std_dev)
 
 
 def _variables(numbers: Iterable[Any]) -> list[Any]:
-    """Return the distinct independent variables with a nonzero deviation behind numbers of `uncertainties`."""
+    """Return a list of the distinct independent variables with a nonzero deviation behind ``numbers``.
+
+    These are numbers of the package `uncertainties`.
+    """
     return list(dict.fromkeys(v for x in numbers for v in x.derivatives if v.std_dev))
 
 
@@ -357,16 +367,19 @@ class UncertainObject:
 
     @cached_property
     def _units(self) -> list[Any]:
-        """Independent inputs less their nominal values, in standard deviations."""
+        """List of the independent inputs less their nominal values, in standard deviations."""
         return [(v - v.nominal_value) / v.std_dev for v in self._variables]
 
     def made_of(self, value_of: Callable[[Any], float]) -> Any:
-        """Return the object of inputs whose uncertain numbers are replaced by a function of them."""
+        """Return the object of inputs whose uncertain numbers x are replaced by value_of(x), floats."""
         arguments, named = (_replaced(tuple(x), value_of) for x in (self._arguments, self._named.values()))
         return self._make(*arguments, **dict(zip(self._named, named, strict=True)))
 
     def _moved_object(self, steps: Steps) -> Any:
-        """Return the object for steps of the independent inputs; those of derivatives are kept."""
+        """Return the object for ``steps`` of the independent inputs, in standard deviations.
+
+        The first objects, as many as derivatives need, are kept.
+        """
         key = tuple(steps)
         if key not in self._moved:
             by_variable = dict(zip(self._variables, steps, strict=True))
@@ -383,9 +396,11 @@ class UncertainObject:
         return self._moved[key]
 
     def _uncertain_quantity(self, name: str, get: Callable[[Any], Any]) -> Any:
-        """Return a quantity of the object with its standard deviations; integers and booleans unchanged.
+        """Return a quantity of the object with its standard deviations, a `ufloat` or an object array of them.
 
-        Raises AtlasError for a quantity that is no number. Warns (AtlasWarning) where a deviation is sampled.
+        ``get`` takes the object and returns the quantity called ``name``; text, integers and booleans are returned
+        unchanged. Raises AtlasError for a quantity that is no number. Warns (AtlasWarning) where a deviation is
+        sampled.
         """
         import numpy as np
 
@@ -409,7 +424,10 @@ class UncertainObject:
         return entries.reshape(array.shape) if array.ndim else entries[0]
 
     def _number(self, found: Spread, value: float, place: Place) -> Any:
-        """Return a number as the sum of its first-order terms, or as independent of the inputs where it is sampled."""
+        """Return a number as a `ufloat`: the sum of its first-order terms, or independent where it is sampled.
+
+        ``place`` is its place in ``found``. An unknown or infinite deviation becomes NaN.
+        """
         from uncertainties import ufloat
 
         sigma = found.sigma.get(place, math.nan)
@@ -420,16 +438,19 @@ class UncertainObject:
 
 
 class CarriesUncertainty:
-    """Class whose inputs may have standard deviations, those of its class methods too: see `UncertainObject`."""
+    """Base of classes whose inputs, those of their class methods too, may have standard deviations.
+
+    Such inputs give an `UncertainObject` in the place of an instance.
+    """
 
     def __new__(cls, *inputs: Any, **named: Any) -> Self:
-        """Return an object of the class, or the uncertain object of its inputs."""
+        """Return a new instance, or the `UncertainObject` of the inputs if one of them is uncertain."""
         if is_uncertain(*inputs, *named.values()):
             return UncertainObject(cls, inputs, named)  # type: ignore[return-value]  # its numbers vary
         return super().__new__(cls)
 
     def __init_subclass__(cls, **how: Any) -> None:
-        """Let the public class methods take such inputs too."""
+        """Let the public class methods of the subclass take uncertain inputs too, by `_carrying`."""
         super().__init_subclass__(**how)
         for name, method in [*vars(cls).items()]:
             if isinstance(method, classmethod) and not name.startswith("_"):
@@ -437,7 +458,7 @@ class CarriesUncertainty:
 
 
 def _carrying(constructor: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function of a class method that makes an uncertain object of uncertain inputs."""
+    """Return a class method's function changed to return an `UncertainObject` where an input is uncertain."""
 
     @wraps(constructor)
     def made(cls: type, *inputs: Any, **named: Any) -> Any:
@@ -451,7 +472,8 @@ def _carrying(constructor: Callable[..., Any]) -> Callable[..., Any]:
 def concise(value: float, sigma: float, error: float = 0.0) -> str:
     """Return a number as text with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
 
-    In one digit, 12.6(3), where the second is less than the error of the deviation.
+    The deviation has one digit, 12.6(3), where its second is less than its ``error``. A deviation 0 gives ten digits
+    alone, an infinite or unknown one "(?)" behind them.
     """
     if not 0 < sigma < math.inf or not math.isfinite(value):
         return f"{value:.10g}" if sigma == 0 else f"{value:.10g}(?)"

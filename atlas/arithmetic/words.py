@@ -12,7 +12,7 @@ from atlas.arithmetic.numbers import BITS, Number, nearest, rational, workprec
 
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return doubles and single `Given` as exact rationals, rationals unchanged, in a tuple."""
+    """Return doubles and single `Given` as exact rationals, rationals unchanged, in a tuple of the same length."""
     singles = (x.at(()) if isinstance(x, Given) else x for x in numbers)
     return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in singles)
 
@@ -49,7 +49,10 @@ def magnitude(x: arb) -> int:
 
 
 def words(x: Number, count: int) -> list[float]:
-    """Return ``count`` doubles whose sum is the number to that many words; each is the nearest to what remains."""
+    """Return ``count`` doubles, each the nearest to what remains of the number, so that their sum is the number.
+
+    The sum is right to ``count`` words of 53 binary digits.
+    """
     doubles, remainder = [], middle(x)
     with workprec(2 * BITS):
         for _ in range(count):
@@ -59,7 +62,7 @@ def words(x: Number, count: int) -> list[float]:
 
 
 def turn_of(x: Number) -> arb:
-    """Return the midpoint of a number minus the nearest integer, exactly."""
+    """Return a number in turns minus the nearest integer, in [-1/2, 1/2), exactly, as a ball of radius 0."""
     m, e = (int(number) for number in middle(x).man_exp())
     if e >= 0:
         return arb(0)
