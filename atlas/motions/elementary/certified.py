@@ -15,7 +15,10 @@ from atlas.motions.elementary import formula as elementary
 
 
 class DoubleTurn:
-    """A motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with the angular velocity `omega`."""
+    """A motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with the angular velocity `omega`, in rad/time.
+
+    `omega` are the three components along the body's axes. Classes derived from this one give `_turning`.
+    """
 
     omega: tuple[fmpq, ...]
 
@@ -26,9 +29,9 @@ class DoubleTurn:
 
     @property
     def _direction(self) -> Sequence[fmpq]:
-        """A vector along the axis of precession, (77): B', the angular momentum, or e3 if these are zero.
+        """A vector along the axis of precession, (77), three rationals, of any length but 0.
 
-        Of any length.
+        It is B', the angular momentum, or e3 if these are zero.
         """
         axis_vector = self._turning[0]
         return axis_vector if any(axis_vector) else AXES[2]
@@ -48,7 +51,7 @@ class DoubleTurn:
 
     @property
     def precession_rate(self) -> Real:
-        """Rate of precession k in rad/time, (79)."""
+        """Rate of precession k in rad/time, (79), a ball or a rational."""
         return self.k
 
     @property
@@ -74,9 +77,11 @@ class DoubleTurn:
 class ElementaryMotion(DoubleTurn):
     """The motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with Omega(0) = (0, omega2, omega3).
 
-    ``omega3`` is given where (71) leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole
-    omega2 = -B2 with B3 = 0 or I = 1. The axis is that of B, or of the angular momentum where there is no field.
-    Every value is computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`.
+    Made from the ratio I3/I2, the field (B2, B3) in 1/time, omega2 and omega3 in rad/time, all exact. ``omega3`` is
+    given where (71) leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole omega2 = -B2 with B3 = 0
+    or I = 1. The axis is that of B, or of the angular momentum where there is no field. Every value is computed
+    anew at the precision of the moment, see `atlas.arithmetic.certified_digits`. DomainError as for the class in
+    doubles.
     """
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
@@ -98,7 +103,7 @@ class ElementaryMotion(DoubleTurn):
 
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
-        """Tuple (vector along the axis, k, phi); the vector, of any length, is (0, x, y)."""
+        """Tuple (vector along the axis, k, phi), rates in rad/time; the vector, of any length, is (0, x, y)."""
         axis_vector, k, phi = elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
         return (fmpq(0), *axis_vector), k, phi
 
@@ -115,7 +120,7 @@ class ElementaryMotion(DoubleTurn):
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), (84), three balls."""
+        """Return the third column of R(t), (84), three balls: the body's axis in the laboratory."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
@@ -141,17 +146,23 @@ class ElementaryMotion(DoubleTurn):
 
     @property
     def invariants(self) -> dict[str, fmpq]:
-        """The constants E' of (36), K^2 of (37), c3 of (40), c5 of (41) and (m, B')/I2 of (88), exact, by name."""
+        """The constants E', (36), K^2, (37), c3, (40), c5, (41), and (m, B')/I2, (88), exact rationals by name.
+
+        The keys are those of `NAMES`: "E'", "K^2", "c3", "c5", "(m,B')".
+        """
         state = self.I, (fmpq(0), self.omega2, self.omega3), (fmpq(0), self.B2, self.B3)
         return dict(zip(NAMES, (*integrals(*state), along_field(*state)), strict=True))
 
 
 class FreeMotion(DoubleTurn):
-    """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above (87)."""
+    """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above (87).
+
+    Made from the ratio I3/I2 and the three components of ``omega`` along the body's axes, in rad/time, exact.
+    """
 
     @property
     def period(self) -> arb:
-        """Period 2 pi/|phi| of Omega; infinite where that is constant."""
+        """Period 2 pi/|phi| of Omega, a ball; infinite where Omega is constant."""
         return 2 * arb.pi() / abs(self.phi) if self.phi != 0 else arb("inf")
 
     @property
@@ -167,5 +178,5 @@ class FreeMotion(DoubleTurn):
 
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
-        """Tuple (angular momentum, k, phi)."""
+        """Tuple (angular momentum over I2, three components, k, phi), rates in rad/time."""
         return elementary.free(fmpq(1), self.I, *self.omega)

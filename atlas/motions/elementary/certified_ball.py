@@ -12,7 +12,10 @@ from atlas.motions.elementary import formula_ball as ball
 
 
 class BallMotion:
-    """The ball with inertia I0, Larmor frequency alpha (27) and m(0) = (0, m2, m3), the field along e3."""
+    """The ball with inertia I0, Larmor frequency alpha (27) and m(0) = (0, m2, m3), the field along e3.
+
+    The inputs, exact, are I0 > 0, alpha in rad/time and (m2, m3) in inertia/time. DomainError for another inertia.
+    """
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
         self.inertia = rational(inertia, "the inertia")
@@ -28,7 +31,7 @@ class BallMotion:
 
     @property
     def k_hat(self) -> tuple[Real, Real]:
-        """The axis (k2, k3), (29); (0, -1) where gamma = 0 and the paper's form is 0/0."""
+        """The unit axis (k2, k3), (29), balls or rationals; (0, -1) where gamma = 0 and the paper's form is 0/0."""
         axis_vector, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
         if gamma == 0:
             return fmpq(0), fmpq(-1)

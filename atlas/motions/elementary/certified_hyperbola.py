@@ -12,7 +12,10 @@ from atlas.motions.elementary import formula_hyperbola as hyperbola
 
 
 class Hyperbola(BodyInField):
-    """The curve (67) in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3)."""
+    """The curve (67) in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3), by exact numbers and balls.
+
+    Made from the ratio and the field, see `BodyInField`.
+    """
 
     @property
     def pole(self) -> fmpq:
@@ -31,7 +34,7 @@ class Hyperbola(BodyInField):
 
     @property
     def special(self) -> dict[str, tuple[fmpq, fmpq]]:
-        """Points (omega2, omega3) by name: rest, -2 B' (phi = 0 at both), and the other zero of omega3."""
+        """Points (omega2, omega3) by name, in rad/time: rest, -2 B' (phi = 0 at both), and the other zero of omega3."""
         zero = fmpq(0)
         return {
             "omega2 = 0": (zero, zero),
@@ -40,19 +43,28 @@ class Hyperbola(BodyInField):
         }
 
     def omega3(self, omega2: Any) -> fmpq:
-        """Return the ordinate omega3 of (71): B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
+        """Return the ordinate omega3 of (71), a rational in rad/time: B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)).
+
+        w2 is omega2. Raises DomainError at the pole, and for B2 = 0.
+        """
         w2 = self._off_the_pole(omega2)
         omega3: fmpq = hyperbola.ordinate(*self._constants, w2)
         return omega3
 
     def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
-        """Return (k = omega2/B2hat of (84), phi of (72)) in rad/time at omega2. Raises DomainError at the pole."""
+        """Return (k = omega2/B2hat of (79), phi of (72)) in rad/time at omega2.
+
+        Raises DomainError at the pole, and for B2 = 0.
+        """
         w2 = self._off_the_pole(omega2)
         k, phi = hyperbola.frequencies(*self._constants, w2)
         return k, phi
 
     def stability(self, omega2: Any) -> fmpq:
-        """Return the nutation frequency squared -p'(omega3), with p the cubic of (47); see `stable`."""
+        """Return the nutation frequency squared -p'(omega3), p the cubic of (47), a rational in 1/time^2; see `stable`.
+
+        Raises DomainError at the pole, and for B2 = 0.
+        """
         square: fmpq = hyperbola.stability(*self._constants, self._off_the_pole(omega2))
         return square
 
@@ -67,7 +79,7 @@ class Hyperbola(BodyInField):
 
     @property
     def least_stability(self) -> Real:
-        """Infimum of `stability` on the curve (67), for B2 != 0."""
+        """Infimum of `stability` on the curve (67), in 1/time^2; raises DomainError for B2 = 0 or B3 = 0."""
         check_asymptotes(self.B2, self.B3)
         return hyperbola.least_stability(*self._constants)
 

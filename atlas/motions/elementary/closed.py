@@ -22,7 +22,10 @@ BITS = 300
 
 
 class Closed(DoubleRotation):
-    """One closed motion: k by theorem-closed, phi = r k, the axis and the frequencies in 300 bits."""
+    """Evaluator of one closed motion: k by theorem-closed, phi = r k, the axis and the frequencies in 300 bits.
+
+    Made from exact moments, field components (1/time) and r. `omega2`, `omega3` (rad/time) and `period` are doubles.
+    """
 
     case = "precession"
 
@@ -54,10 +57,12 @@ def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:
 class ClosedMotion(ElementaryMotion):
     """The elementary motion with phi/k = p/q, theorem-closed: R(t + period) = R(t).
 
+    ``ratio`` and ``field`` are those of `ElementaryMotion`, numbers and no arrays; p and q are integers, q not 0.
     Its omega2 is an algebraic number, as a rule no double. The frequencies are made from it in 300 bits, and phi is
-    p/q times k there, so the motion closes as exactly as any motion is evaluated, see `rotation`, after any number of
-    turns. `omega2`, `omega3`, `k` and `phi` are the nearest doubles: an ElementaryMotion made from that omega2 differs
-    in its frequencies by an ulp or so, and does not close.
+    p/q times k there, so the motion closes as exactly as any motion is evaluated, see `rotation`, after any number
+    of turns. `omega2`, `omega3`, `k` and `phi` are the nearest doubles: an ElementaryMotion made from that omega2
+    differs in its frequencies by an ulp or so, and does not close. Raises DomainError where no motion, or more than
+    one, has this quotient.
     """
 
     made_by = "ClosedMotion"  # not from the parameters of its family
@@ -81,7 +86,7 @@ class ClosedMotion(ElementaryMotion):
 
     @property
     def omega2(self) -> float:
-        """Initial Omega2, the nearest double."""
+        """Second component of the initial angular velocity, the nearest double, in rad/time."""
         return self._closed.omega2
 
     @property
@@ -93,7 +98,10 @@ class ClosedMotion(ElementaryMotion):
         return float(finite(self._closed.period, "The period"))
 
     def _dynamics(self) -> Any:
-        """Return (moments, coupling, linear, quadratic) of the elementary motion at the nearest double omega2."""
+        """Return (moments, coupling, linear, quadratic) of the elementary motion at the nearest double omega2.
+
+        They are those of `Inputs.dynamics`.
+        """
         return super()._inputs_of(0).dynamics
 
     def _inputs_of(self, _: int) -> Any:
@@ -105,7 +113,10 @@ class ClosedMotion(ElementaryMotion):
 
 
 def _check(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
-    """Raise DomainError unless exactly one motion has phi/k = r, see theorem-closed."""
+    """Raise DomainError unless exactly one motion has phi/k = r, see theorem-closed.
+
+    I2, I3 are the moments, B2, B3 the components of B', all exact.
+    """
     if B2 == 0:
         raise DomainError("With B2 = 0 the elementary motions do not precess: k = 0, and phi/k has no value.")
     if I2 == I3 or B3 == 0:

@@ -24,7 +24,10 @@ from atlas.motions.nutation.derivatives_inputs import NUTATION, Inputs, of_gener
 
 @dataclass(frozen=True)
 class AxisAndRates:
-    """A motion R_n(k t) R_z(phi t) of exact numbers; n is along the vector `along`, of two or three components."""
+    """A motion R_n(k t) R_z(phi t) of exact numbers; n is along the vector `along`, of two or three components.
+
+    Two components are those along e2 and e3; a zero vector stands for e3. `k` and `phi` are in rad/time.
+    """
 
     along: Any
     k: Any
@@ -33,13 +36,13 @@ class AxisAndRates:
     """Axes of the body, that of the tilt last."""
 
     def tilt(self) -> tuple[Any, ...]:
-        """Return (cos, sin of half the tilt of n, cos, sin of its azimuth), see `tilt_of`."""
+        """Return (cos, sin of half the tilt of n against e3, cos, sin of its azimuth), see `tilt_of`."""
         axis = self._axes[0]
         return tilt_of(axis, length(*axis))
 
     @property
     def solution(self) -> Any:
-        """Constants of the Cayley-Klein parameters (alpha, beta), a `Solution`."""
+        """Constants of the Cayley-Klein parameters (alpha, beta) of R, a `Solution`."""
         return steady(self.tilt(), self.k, self.phi, arb("inf"))
 
     def rotation(self, t: fmpq) -> Matrix:
@@ -90,9 +93,10 @@ BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
 def among_all(
     motion: Any, i: int, scalars: Mapping[str, Callable[[Any], Any]], axes: FloatArray | None = None
 ) -> Inputs:
-    """Return the `Inputs` of a placed motion as a general motion of its body, with the scalars of its own family.
+    """Return the `Inputs` of motion number ``i`` of a placed ``motion`` as a general motion of its body.
 
-    Vectors are along `axes`, given in the body; without `axes`, along the axes of the class.
+    ``scalars`` are those of its own family: functions by name. Vectors are along ``axes`` (..., 3, 3), rows given
+    in the body; without ``axes``, along the axes of the class.
     """
     row, shape = motion._row(i), (*motion.shape, 3)  # noqa: SLF001  of the same folder
     _, B, R, w = motion.given
@@ -106,7 +110,7 @@ def among_all(
 def of_elementary(motion: Any, i: int) -> Inputs:
     """Return the `Inputs` of the i-th elementary motion: ratio, B2, B3, omega2, and omega3 where it is free.
 
-    A placed motion has those of a general motion.
+    A placed motion has the inputs of a general motion, see `among_all`.
     """
     if motion.is_placed:
         return among_all(motion, i, TURNS_AMONG_ALL)
@@ -124,7 +128,7 @@ def of_elementary(motion: Any, i: int) -> Inputs:
 
 
 def of_free(motion: Any, i: int) -> Inputs:
-    """Return the `Inputs` of the i-th free body: ratio and omega. A placed motion has those of a general motion."""
+    """Return the `Inputs` of the i-th free body: ratio and omega; of a placed motion those of a general motion."""
     if motion.is_placed:
         spin = TURNS_AMONG_ALL["spin_rate"]
         return among_all(motion, i, TURNS_AMONG_ALL | {"period": lambda x: 2 * arb.pi() / abs(spin(x))})
@@ -138,7 +142,10 @@ def of_free(motion: Any, i: int) -> Inputs:
 
 
 def of_ball(motion: Any, i: int) -> Inputs:
-    """Return the `Inputs` of the i-th ball: field along e3 or, for a placed motion, vectors along the body's axes."""
+    """Return the `Inputs` of the i-th ball: inertia, larmor, m2 and m3, the field along e3.
+
+    A placed motion has those of a general motion, with vectors along the body's axes.
+    """
     if motion.is_placed:
         return replace(among_all(motion, i, BALL_AMONG_ALL, np.eye(3)), along_body=True)
     inertia, larmor, *m = map(rational, motion._row(i))  # noqa: SLF001  of the same folder

@@ -13,27 +13,30 @@ FREE_SPIN = ("spin along the field", "transverse field, free spin", "ball, free 
 
 
 def _stability(motion: Any) -> Any:
-    """Return the squared frequency of small nutations at the motion's omega2, in 1/time^2, a float or an array."""
+    """Return the squared frequency of small nutations at the motion's omega2, in 1/time^2, a float or an array.
+
+    ``motion`` is one or more elementary motions in doubles.
+    """
     from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 
     return Hyperbola(*_ratio_and_field(motion)).stability(motion.omega2)
 
 
 def _curve(motion: Any) -> Any:
-    """Return the certified `Hyperbola` of a motion in doubles or of a certified one."""
+    """Return the certified `Hyperbola` of a single elementary motion, in doubles or certified."""
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
     return Hyperbola(*((motion.I, (motion.B2, motion.B3)) if hasattr(motion, "I") else _ratio_and_field(motion)))
 
 
 def _ratio_and_field(motion: Any) -> tuple[Any, Any]:
-    """Return (ratio, (B2, B3)) of a motion in doubles, along the axes of its class, as given."""
+    """Return (ratio, (B2, B3)) of an elementary motion in doubles, along the axes of its class, as given."""
     arguments = motion.own.arguments
     return arguments["ratio"], arguments["field"]
 
 
 def _verdict(motion: Any) -> str:
-    """Return "stable" or "unstable" of a single motion, decided exactly."""
+    """Return "stable" or "unstable", against small nutations, of a single elementary motion, decided exactly."""
     return "stable" if _curve(motion).stable(motion.omega2) else "unstable"
 
 

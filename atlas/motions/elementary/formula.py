@@ -14,7 +14,9 @@ def constants(
 ) -> tuple[Number, tuple[Number, Number], Number, Number]:
     """Return (omega3, (x, y) along the precession's axis, k, phi): rates in rad/time, x and y along e2 and e3.
 
-    ``case`` is one of `CASES`. In the first FREE_CASES of them omega3 is the input, in others it is that of (71).
+    I2, I3 are the moments in one unit, B2, B3 the components of B' in 1/time, the start is (0, omega2, omega3).
+    ``case`` is one of `CASES`. In the first FREE_CASES of them omega3 is the input, in the others (71) gives it,
+    and the input ``omega3`` is ignored.
     """
     if case == "free body":
         axis_vector = omega2, I3 * omega3 / I2
@@ -29,18 +31,27 @@ def constants(
 
 
 def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
-    """Return (omega3, k, phi, I omega3), I = I3/I2; ``inputs`` are I2, I3, B2, B3, omega2, omega3."""
+    """Return (omega3, k, phi, I omega3) in rad/time, I = I3/I2, of the motion in one of `CASES`.
+
+    ``inputs`` are I2, I3, B2, B3, omega2, omega3.
+    """
     omega3, _, k, phi = constants(case, *inputs)
     return omega3, k, phi, inputs[1] * omega3 / inputs[0]
 
 
 def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, Number]:
-    """Return ((x, y) along the axis, k, phi); ``inputs`` are I2, I3, B2, B3, omega2, omega3."""
+    """Return ((x, y) along the axis, k, phi), rates in rad/time, see `constants`; ``case`` is one of `CASES`.
+
+    ``inputs`` are I2, I3, B2, B3, omega2, omega3.
+    """
     return constants(case, *inputs)[1:]
 
 
 def conserved(case: str, *inputs: Number) -> tuple[Number, ...]:
-    """Return E', (36), K^2, (37), c3, (40), c5, (41), and (m, B')/I2, (88), of the motion from (0, omega2, omega3)."""
+    """Return E', (36), K^2, (37), c3, (40), c5, (41), and (m, B')/I2, (88), of the motion from (0, omega2, omega3).
+
+    ``inputs`` are I2, I3, B2, B3, omega2, omega3; ``case`` is one of `CASES`.
+    """
     I2, I3, B2, B3, omega2, _ = inputs
     zero, omega3 = B2 - B2, constants(case, *inputs)[0]
     state, factors = (I3 / I2, (zero, omega2, omega3), (zero, B2, B3)), ((I2 - I3) / I2, (I2 + I2 - I3) / I2)
@@ -48,12 +59,18 @@ def conserved(case: str, *inputs: Number) -> tuple[Number, ...]:
 
 
 def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return omega3 = I2 omega2 B3/(I3 B2) of the free body that precesses with the charged one, above (87)."""
+    """Return omega3 = I2 omega2 B3/(I3 B2), in rad/time, of the free body beside the charged one, above (87).
+
+    Both precess with the same k about the same axis; B2 is not zero.
+    """
     return I2 * omega2 * B3 / (I3 * B2)
 
 
 def free(I2: Number, I3: Number, *omega: Number) -> tuple[Vector, Number, Number]:
-    """Return (m/I2, three components, k, phi) of a free body."""
+    """Return (m/I2, three components, k, phi) of a free body, all in rad/time, k = |m|/I2.
+
+    ``omega`` are the three components of Omega(0).
+    """
     w1, w2, w3 = omega
     momentum = w1, w2, I3 * w3 / I2
     return momentum, length(*momentum), (I2 - I3) * w3 / I2

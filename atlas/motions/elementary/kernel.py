@@ -40,7 +40,12 @@ from atlas.motions.start import Start, across
 
 
 class Elementary(DoubleRotation):
-    """Evaluator of one elementary motion; it has `case`, `omega3`, and the exact axis and frequencies."""
+    """Evaluator of one elementary motion; it has `case`, `omega3`, and the exact axis and frequencies.
+
+    The inputs are numbers taken as exact, rates and field in 1/time; omega3 is None or given, where (71) leaves it
+    free. `vectors` has "Omega", "K" and "m" over I2 at t = 0, as floats. Raises DomainError where no such motion
+    starts.
+    """
 
     def __init__(self, I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any, omega3: Any) -> None:
         inputs = exact(I2, I3, B2, B3, omega2, 0.0 if omega3 is None else omega3)
@@ -131,7 +136,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
                 self._refuse((self._codes >= FREE_CASES) & (np.asarray(given_omega3) != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
-        """Raise the DomainError of the first motion that ``rows``, a mask, marks."""
+        """Raise the DomainError of the first motion that ``rows``, a mask over motions, marks; nothing if none is."""
         for i in np.flatnonzero(rows)[:1]:
             self._single(i)
 
@@ -201,9 +206,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return self._table(scalars, (1,) * 4)
 
     def _table(self, formula: Callable[..., Any], degree: tuple[int, ...]) -> FloatArray:
-        """Return the n results of formula(case, *inputs) for every motion, each rounded once, shape (n, ...).
+        """Return the n results of formula(case, *inputs) for every motion, each rounded once, shape (n, *shape).
 
-        `degree` has for each result its power of the unit of frequency.
+        ``inputs`` are I2, I3, B2, B3, omega2, omega3. ``degree`` has for each result its power of the unit of
+        frequency.
         """
         table = np.empty((len(degree), prod(self.shape)))
         for case, index, inputs in self._cases():
@@ -214,7 +220,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @cached_property
     def _codes(self) -> NDArray[np.intp]:
-        """Indices into CASES, one for each motion; len(CASES) where no elementary motion starts, as at the pole."""
+        """Indices into CASES, one for each motion, of the shape of the motions.
+
+        len(CASES) stands where no elementary motion starts, as at the pole.
+        """
         B2, B3, w2, *_ = np.broadcast_arrays(*self._inputs[2:], *self._inputs[:2])
         flat, steady = B3 == 0, B2 == 0
         pole = (w2 == -B2) & (low_word(self._inputs[4]) == -low_word(self._inputs[2]))
@@ -223,7 +232,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return np.select([*conditions, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
 
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
-        """Return (case, rows, inputs) for each case that occurs; "at rest" is treated as "precession"."""
+        """Return (case, rows, inputs) for each case that occurs; "at rest" is treated as "precession".
+
+        ``rows`` are the flat indices of its motions, slice(None) for a single case; ``inputs`` the six inputs of these.
+        """
         codes = np.where(self._codes == CASES.index("at rest"), CASES.index("precession"), self._codes).ravel()
         *inputs, omega3 = self._inputs
         inputs.append(0.0 if np.asarray(omega3).dtype == object else omega3)
@@ -243,8 +255,9 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     ) -> tuple[Any, FloatArray] | None:
         """Return (motion, axes), the axes turned about e3 so that B1 = 0; None where no elementary motion starts.
 
-        `omega2` and `omega3` replace the components of the start. Without them, None also for arrays, without a field
-        and for a start with nutation.
+        The axes (3, 3) have the axes of the class as rows. ``omega2`` and ``omega3`` replace the components of the
+        start. Without them, None also for arrays, without a field, for a start with nutation and for a body that is
+        not symmetric.
         """
         from atlas.motions.nutation.kernel_general import standing
 

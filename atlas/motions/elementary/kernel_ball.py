@@ -30,7 +30,10 @@ from atlas.motions.start import Start
 
 
 class Ball(DoubleRotation):
-    """Evaluator of one ball: R = R_z(-alpha t) R_k(-gamma t), the transpose of R_k(gamma t) R_z(alpha t), (28)."""
+    """Evaluator of one ball: R = R_z(-alpha t) R_k(-gamma t), the transpose of R_k(gamma t) R_z(alpha t), (28).
+
+    The inputs are numbers taken as exact: inertia, alpha (rad/time), m2 and m3. `vectors` has "m" and "Omega" at t = 0.
+    """
 
     def __init__(self, inertia: Any, larmor: Any, m2: Any, m3: Any) -> None:
         with workprec():
@@ -176,9 +179,9 @@ class BallMotion(DoubleTurn[Ball]):
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
-        """Return (motion, axes as rows) with the third axis along the field and m(0) across the first.
+        """Return (motion, axes) of a start, with the third axis along the field and m(0) across the first.
 
-        None for an array, without a field, and for moments that are not all equal.
+        The axes (3, 3) are rows. None for an array, without a field, and for moments that are not all equal.
         """
         if start.shape or not start.has_field or len({exact(x) for x in start.moments}) > 1:
             return None

@@ -119,7 +119,7 @@ class Hyperbola(Shown):
 
     @cached_property
     def _exact(self) -> tuple[Number, ...]:
-        """Exact (I2, I3, B2, B3) of one curve. Raises AtlasError for arrays."""
+        """Exact (I2, I3, B2, B3) of one curve, rationals. Raises AtlasError for arrays."""
         if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
             raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
         return exact(*self._inputs)
@@ -412,7 +412,7 @@ class Hyperbola(Shown):
         return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)
 
     def _parameters(self, points: Any, extent: float) -> tuple[FloatArray, FloatArray]:
-        """Return the values of s on the branch X > 0 and on that X < 0, two arrays.
+        """Return the values of s on the branch X > 0 and on the branch X < 0, two arrays.
 
         ``points`` is their total number, spread evenly, or s itself for both; ``extent`` bounds |X| and |Y|, in
         rad/time. Raises DomainError where B2 and B3 are too far apart for floats.
