@@ -14,7 +14,11 @@ Vector: TypeAlias = tuple[Real, ...]
 
 
 class ParticleMotion:
-    """The solution of dv/dt = a - [w, v] with a = mu E and w = mu B/c, from position and velocity at t = 0."""
+    """The solution of dv/dt = a - [w, v] with a = mu E and w = mu B/c, from position and velocity at t = 0.
+
+    The inputs are exact: the charge-to-mass ratio mu, the fields E and B, position and velocity (three components
+    each), and c, 1 in SI. Raises DomainError for c <= 0.
+    """
 
     def __init__(self, mu: Any, E: Any, B: Any, position: Any, velocity: Any, c: Any = 1) -> None:
         self.mu, self.c = rational(mu, "mu"), rational(c, "c")
@@ -45,7 +49,7 @@ class ParticleMotion:
 
     @property
     def radius(self) -> Real:
-        """The radius a of (97), of the circle about the drifting centre.
+        """The radius a of (97), of the circle about the drifting centre, in the unit of length, a ball or a rational.
 
         Raises DomainError without a magnetic force.
         """
@@ -54,7 +58,7 @@ class ParticleMotion:
         return radius
 
     def guiding_centre(self, t: Any) -> list[fmpq]:
-        """Return the point O(t) of (99), the moving centre of the circle, three rationals.
+        """Return the point O(t) of (99), the moving centre of the circle, three rationals in the unit of length.
 
         Raises DomainError without a magnetic force.
         """
@@ -64,10 +68,11 @@ class ParticleMotion:
         return [y - r + d * t + p * t**2 / 2 for y, d, p, r, _ in terms]
 
     def position(self, t: Any) -> list[Real]:
-        """Return y(t), (98) with the constants of the given start: y0 + d t + p t^2/2 + (c - 1) r + s q.
+        """Return y(t), (98) with the constants of the given start, three balls or rationals in the unit of length.
 
-        Here w = mu B/c, s = sin(|w| t)/|w| and c = cos(|w| t); the vectors are rational, so that what vanishes (a
-        drift at the right speed, say) does so exactly. Without a field it is the parabola that (90) gives.
+        y = y0 + d t + p t^2/2 + (c - 1) r + s q with w = mu B/c, s = sin(|w| t)/|w| and c = cos(|w| t), see
+        `_vectors`. The vectors are rational, so that a component that vanishes (a drift at the right speed, say) is
+        exactly zero. Without a magnetic force the path is the parabola that (90) gives.
         """
         t = rational(t, "the time")
         if not self._force:
@@ -77,9 +82,10 @@ class ParticleMotion:
         return [y + d * t + p * t**2 / 2 + (c - 1) * r + s * q for y, d, p, r, q in terms]
 
     def velocity(self, t: Any) -> list[Real]:
-        """Return v(t), the derivative of (98): v0 + p t - w^2 s r + (c - 1) q in the letters of `position`.
+        """Return v(t), the derivative of (98), three balls or rationals, in the unit of velocity.
 
-        Since d + q = v0, a component that is 0 at the start is exactly 0 there.
+        v = v0 + p t - w^2 s r + (c - 1) q, in the letters of `position`. Since d + q = v0, a component that is 0 at
+        the start is exactly 0 there.
         """
         t = rational(t, "the time")
         if not self._force:
@@ -112,7 +118,11 @@ class ParticleMotion:
 
 
 class Flight:
-    """y_N(t) = y_0(t) + R(t) x_N(0) of the point ``point``, counted from the centre of mass."""
+    """Path y_N(t) = y_0(t) + R(t) x_N(0) of the point ``point``, counted from the centre of mass.
+
+    ``particle`` is the certified motion of the centre, ``motion`` the certified rotation with R(0) = 1, ``point``
+    x_N(0), three exact components in the unit of length.
+    """
 
     def __init__(self, particle: ParticleMotion, motion: Any, point: Any) -> None:
         self.particle, self.motion = particle, motion

@@ -64,7 +64,10 @@ class Flight(Shown):
 
     @kept
     def _arm(self) -> FloatArray:
-        """The point from the centre of mass, along the axes of the body in which R(0) is."""
+        """Vector from the centre of mass to the point, (..., 3), along the axes in which R(0) of `motion` is given.
+
+        It is R(0)^T x_N(0) in the frame of `motion`.
+        """
         return np.asarray(np.vecmat(self.point @ self._to_user, self.motion.rotation(0.0)))
 
     def rotation(self, t: RealArrayLike) -> FloatArray:
@@ -149,7 +152,10 @@ class Flight(Shown):
         return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))
 
     def _compare_fields(self) -> None:
-        """Raise AtlasError if the field of the body's rotation differs from the field of the flight."""
+        """Raise AtlasError if the fields of the body's rotation and of the flight differ by more than AGREEMENT.
+
+        A motion without a field to compare passes.
+        """
         turning = _field_of(self.motion)
         if turning is None:
             return

@@ -188,17 +188,35 @@ class ParticleMotion(Shown):
 
     @property
     def drift(self) -> FloatArray:
-        """Drift velocity c [E, B]/B^2 of the centre O(t) of (99) across B, for either sign of mu; shape (..., 3)."""
+        """Drift velocity c [E, B]/B^2 of the centre O(t) of (99) across B, for either sign of mu; shape (..., 3).
+
+        Raises
+        ------
+        DomainError
+            Without a magnetic force.
+        """
         return np.asarray(self._of_each_particle("drift"))
 
     @property
     def radius(self) -> FloatOrArray:
-        """Radius a of the circle around the drifting centre, (97)."""
+        """Radius a of the circle around the drifting centre, (97), in the unit of length of the inputs.
+
+        Raises
+        ------
+        DomainError
+            Without a magnetic force.
+        """
         return self._of_each_particle("radius")
 
     @property
     def axes(self) -> FloatArray:
-        """Frame of figure Magn, rows e1, e2, e3: e3 along B, e2 along E_perp, e1 along [E, B]; shape (..., 3, 3)."""
+        """Frame of figure Magn, rows e1, e2, e3: e3 along B, e2 along E_perp, e1 along [E, B]; shape (..., 3, 3).
+
+        Raises
+        ------
+        DomainError
+            Without a magnetic force, and for E along B or zero.
+        """
         return np.asarray(self._of_each_particle("axes"))
 
     def position(self, t: RealArrayLike) -> FloatArray:
@@ -262,14 +280,20 @@ class ParticleMotion(Shown):
         return self._spread(Charge.fill_centre, t)
 
     def _of_each_particle(self, name: str) -> NDArray[Any] | Any:
-        """Return an attribute of each particle, shape (*shape, ...); for one particle a number or a string."""
+        """Return the attribute ``name`` of `Charge` for each particle, shape (*shape, ...), read-only.
+
+        For one particle a number, a string, or the array of a vector.
+        """
         values = getattr(self._all, name)
         if self.shape:
             return frozen(values.reshape(self.shape + values.shape[1:]))
         return frozen(values) if np.ndim(values) else np.asarray(values).item()
 
     def _spread(self, fill: Callable[[Charge, FloatArray, FloatArray], None], t: Any) -> FloatArray:
-        """Return vectors (..., 3) that `fill` writes for times (m,) into an array (m, 3)."""
+        """Return vectors (..., 3) that ``fill`` writes for times (m,) into an array (m, 3).
+
+        ``fill`` is a method of `Charge`, ``t`` are times that broadcast with the particles.
+        """
         times = real(t, "t", TIME)
         full_shape = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full_shape), np.empty((*full_shape, 3))

@@ -33,7 +33,10 @@ MIN_ARGUMENT = 2.0**-500
 
 @dataclass(frozen=True)
 class Gyration:
-    """Functions of x, each to a few ulp of its own size, but cos x and sin x to an ulp of 1 where they are small."""
+    """Functions of the phase x = |w| t, arrays (m,), each to a few ulp of its own size.
+
+    cos x and sin x are right to an ulp of 1 where they are small.
+    """
 
     cos: FloatArray
     sin: FloatArray
@@ -48,7 +51,10 @@ class Gyration:
 
 
 def gyration(x: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> Gyration:
-    """Return the `Gyration` at phases x (m,), given cos x, sin x and 1 - cos x from phases reduced more precisely."""
+    """Return the `Gyration` at phases x (m,), given cos x, sin x and 1 - cos x from phases reduced more precisely.
+
+    All arrays are (m,); x is in rad, not reduced.
+    """
     tiny = np.abs(x) < MIN_ARGUMENT
     divisor = np.where(tiny, 1.0, x)
     s, g = sin / divisor, versine / divisor
@@ -78,7 +84,10 @@ TOO_LARGE = {
 
 
 class Charge:
-    """Particles: `inputs` are mu, c and the components of E, B, velocity and position, floats or arrays (m,)."""
+    """Particles: `inputs` are mu, c and the components of E, B, velocity and position, floats or arrays (m,).
+
+    `force` says where mu and B are not zero, `driven` where mu and E are not. Raises DomainError where mu E overflows.
+    """
 
     def __init__(self, inputs: Sequence[Any]) -> None:
         self.inputs, self.mu, self.y0 = inputs, inputs[0], np.array(inputs[11:])
@@ -90,9 +99,10 @@ class Charge:
             _check(self.mu * np.array(inputs[2:5]), "The acceleration mu E")
 
     def at(self, index: Any, t: FloatArray, *, centre: bool = False) -> Self:
-        """Return the particles of these indices, paired with times t; if ``centre``, only with the points O(t) of (99).
+        """Return a copy with the particles at ``index`` alone, paired with times t (m,).
 
-        Raises AtlasError for phases beyond 2^50.
+        If ``centre``, it has only the points O(t) of (99). Raises AtlasError for phases beyond 2^50, DomainError
+        for ``centre`` without a magnetic force.
         """
         selection = copy(self)
         if centre:
@@ -107,9 +117,9 @@ class Charge:
 
     @cached_property
     def rate(self) -> Any:
-        """Magnitude |omega| of the cyclotron frequency, in rad/time, a number or array (m,).
+        """Magnitude |omega| of the cyclotron frequency, in rad/time, a number or array (m,); 0 without a force.
 
-        0 without a magnetic force.
+        The force is the magnetic one.
         """
         return np.where(self.force, self._over("rate", 1)[0], 0.0)[()]
 
@@ -125,7 +135,7 @@ class Charge:
 
     @cached_property
     def drift(self) -> FloatArray:
-        """Velocity c [E, B]/B^2, (..., 3). Raises DomainError without a magnetic force."""
+        """Velocity c [E, B]/B^2, array (3,) or (m, 3). Raises DomainError without a magnetic force."""
         self.needs_field("drift")
         return self._over("drift", 3).T
 
@@ -140,7 +150,7 @@ class Charge:
 
     @cached_property
     def centre(self) -> FloatArray:
-        """Position, velocity and acceleration of the point O(t) of (99) at t = 0, (3, 3) or (3, 3, m).
+        """Position, velocity and acceleration of the point O(t) of (99) at t = 0, as rows, (3, 3) or (3, 3, m).
 
         Raises DomainError without a magnetic force.
         """
@@ -150,7 +160,10 @@ class Charge:
 
     @cached_property
     def axes(self) -> FloatArray:
-        """Frame of figure Magn, rows e1, e2, e3, (..., 3, 3). Raises DomainError without a magnetic force or [E, B]."""
+        """Frame of figure Magn, rows e1, e2, e3, array (3, 3) or (m, 3, 3).
+
+        Raises DomainError without a magnetic force or [E, B].
+        """
         self.needs_field("frame")
         if not _any(self._signs("crossed", 3)).all():
             raise DomainError("There is no axis along [E, B]: the electric field is along B or zero.")
@@ -159,14 +172,14 @@ class Charge:
 
     @cached_property
     def case(self) -> Any:
-        """Names of the cases, from which of mu E, mu B, (E, B) and [E, B] vanish."""
+        """Array of names in CASES, () or (m,), from which of mu E, mu B, (E, B) and [E, B] vanish."""
         parallel, oblique = ~_any(self._signs("crossed", 3)), self._signs("along", 1)[0] != 0
         chosen = [~self.force & self.driven, ~self.force, ~self.driven, parallel, oblique]
         return np.array(CASES)[np.select(chosen, range(5), 5)]
 
     @cached_property
     def kind(self) -> Any:
-        """Names of the paths perpendicular to B, see `ParticleMotion.kind`."""
+        """Array of names in KINDS, () or (m,), of the paths perpendicular to B, see `ParticleMotion.kind`."""
         moving, curved = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bent", 3))
         drifting, circling = (_any(self._signs(name, 3)) for name in ("crossed", "circling"))
         larger, straight = self._signs("looping", 1)[0], ~drifting | ~circling
@@ -187,7 +200,7 @@ class Charge:
     def velocity_parts(self) -> FloatArray:
         """Rows v_par, v_perp and [n, v_perp] in the unit of v, array (3, 3) or, for m particles, (3, 3, m).
 
-        Without a magnetic force v_par is v and the others are 0.
+        n is the unit vector along B with the sign of -mu. Without a magnetic force v_par is v and the others are 0.
         """
         return self._row_components("velocity_parts", np.array(self.inputs[8:11]))
 
@@ -206,7 +219,7 @@ class Charge:
             return Phases([self._exact_rate(*self.inputs) / TURN])
 
     def fill_position(self, t: FloatArray, out: FloatArray) -> None:
-        """Write y(t), (101) with (93) and (98), at times (m,) into (m, 3)."""
+        """Write y(t), (101) with (93) and (98), at times t (m,) into ``out`` (m, 3); DomainError where it overflows."""
 
         def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
             v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
@@ -215,7 +228,7 @@ class Charge:
         self._fill(component, t, out, "The position")
 
     def fill_velocity(self, t: FloatArray, out: FloatArray) -> None:
-        """Write y'(t), (90), at times (m,) into (m, 3)."""
+        """Write y'(t), (90), at times t (m,) into ``out`` (m, 3); DomainError where it overflows."""
 
         def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
             v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
@@ -224,7 +237,10 @@ class Charge:
         self._fill(component, t, out, "The velocity")
 
     def fill_centre(self, t: FloatArray, out: FloatArray) -> None:
-        """Write O(t) of (99), carried along B with the particle, at times (m,) into (m, 3)."""
+        """Write O(t) of (99), carried along B with the particle, at times t (m,) into ``out`` (m, 3).
+
+        Raises DomainError without a magnetic force, and where a number overflows.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             for i, (start, velocity, acceleration) in enumerate(zip(*self.centre, strict=True)):
                 out[:, i] = start + t * (velocity + t * (acceleration / 2))
@@ -233,9 +249,10 @@ class Charge:
     def _fill(
         self, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray, name: str
     ) -> None:
-        """Write component(i, times, functions), i = 0, 1, 2, at times t (m,) into `out` (m, 3), block by block.
+        """Write component(i, times, functions), i = 0, 1, 2, at times t (m,) into ``out`` (m, 3), block by block.
 
-        Raises DomainError, with `name` as its subject, if a number is too large for a float.
+        ``functions`` is a `Gyration`. Raises DomainError, with ``name`` as its subject, if a number is too large
+        for a float.
         """
         for start in range(0, t.size, BLOCK):
             piece = t[start : start + BLOCK]
@@ -267,14 +284,17 @@ class Charge:
         return _check(np.where(self.force, components, without), TOO_LARGE[name])
 
     def _over(self, name: str, count: int) -> FloatArray:
-        """Return ``count`` results of the formula ``name``, (count,) or (count, m), each rounded once.
+        """Return ``count`` results of the formula ``name`` of `formula`, (count,) or (count, m), each rounded once.
 
         Raises DomainError where a result is beyond all floats.
         """
         return _check(self._results(name, count, nearest), TOO_LARGE.get(name, name))
 
     def _signs(self, name: str, count: int) -> FloatArray:
-        """Return numbers with the signs of the results of a rational formula, (count,) or (count, m)."""
+        """Return numbers with the signs of the results of a rational formula ``name``, (count,) or (count, m).
+
+        For one particle they are -1, 0 and 1.
+        """
         return self._results(name, count, lambda x: float((x > 0) - (x < 0)))
 
     def _results(self, name: str, count: int, rounded: Callable[[Number], float]) -> FloatArray:
@@ -296,7 +316,7 @@ def _sequence(results: Any) -> tuple[Any, ...]:
 
 
 def _check(out: FloatArray, name: str) -> FloatArray:
-    """Return a finite array unchanged. Raises DomainError for one with a number too large for a float."""
+    """Return a finite array unchanged; DomainError, with ``name`` as its subject, for one with inf or NaN."""
     if not np.isfinite(out).all():
         raise DomainError(f"{name} is too large for a float: choose larger units.")
     return out
