@@ -44,8 +44,9 @@ NEARLY_EQUAL = 1e-9
 def exact_moments(ratio: Any) -> tuple[Any, Any]:
     """Return (I2, I3) of a body or of an array of bodies, or (1.0, I) for numbers I = I3/I2, (33), without rounding.
 
-    A number that no double holds is a `Given`. A body is never rounded to its quotient. Domain: 0 < I3 <= 2 I2.
-    Raises DomainError outside the domain, and for a thin rod (I3 = 0), whose turn about its own axis has no inertia.
+    Each is a float or an array, or a `Given` where no double holds the number. A body is never rounded to its quotient.
+    Domain: 0 < I3 <= 2 I2. Raises DomainError outside the domain, and for a thin rod (I3 = 0), whose turn about its own
+    axis has no inertia; AtlasError for an input that is no number.
     """
     if isinstance(ratio, SymmetricBody):
         if not np.all(ratio.I3):
@@ -57,18 +58,21 @@ def exact_moments(ratio: Any) -> tuple[Any, Any]:
 
 
 def moments(ratio: Any) -> tuple[Any, Any]:
-    """Return `exact_moments` with each moment rounded once: floats or arrays."""
+    """Return (I2, I3) of `exact_moments` with each moment rounded once: floats or arrays.
+
+    Raises as that function does.
+    """
     I2, I3 = (float(x) if not np.ndim(x) else plain(x) for x in exact_moments(ratio))
     return I2, I3
 
 
 def excess(I2: Any, I3: Any) -> Any:
-    """Return I3 - I2, exact inputs included, rounded once: zero only for equal moments."""
+    """Return I3 - I2 of floats, arrays or `Given`, rounded once, a float or an array: zero only for equal moments."""
     return over(lambda I2, I3: I3 - I2, I2, I3)
 
 
 def kept_ratio(ratio: Any, I3: Any) -> Any:
-    """Return what an object stores as its ratio: the body itself, or for a number I3/I2 the copy `I3` of the number."""
+    """Return what an object stores as its ratio: the `SymmetricBody` itself, or for a number I3/I2 its copy ``I3``."""
     return ratio if isinstance(ratio, SymmetricBody) else I3
 
 
@@ -134,7 +138,7 @@ class SymmetricBody(CarriesUncertainty):
         object.__setattr__(self, "axes", matrix(np.eye(3) if axes is None else axes, "The axes"))
 
     def __eq__(self, other: object) -> bool:
-        """Whether all moments, each rounded once, are the same."""
+        """Whether all moments, each rounded once, are the same; the axes may differ."""
         if not isinstance(other, SymmetricBody):
             return NotImplemented
         return np.array_equal(self.I2, other.I2) and np.array_equal(self.I3, other.I3)
@@ -153,7 +157,7 @@ class SymmetricBody(CarriesUncertainty):
         return (_shaped, (type(self), *self._shape)) if self._shape else (type(self), (*self.exact, self.axes))
 
     def _repr_html_(self) -> str:
-        """Return the moments of the body and a small picture, for a notebook."""
+        """Return the moments of the body and a small picture as HTML, for a notebook."""
         html: str = notebook("show").body(self)
         return html
 
@@ -170,7 +174,7 @@ class SymmetricBody(CarriesUncertainty):
 
     @property
     def inertia(self) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
-        """Diagonal (I2, I2, I3) of the inertia tensor, (33)."""
+        """Diagonal (I2, I2, I3) of the inertia tensor, (33), in the unit of `I2`."""
         return self.I2, self.I2, self.I3
 
     @property
@@ -483,7 +487,7 @@ class SymmetricBody(CarriesUncertainty):
 
     @classmethod
     def _of_masses(cls, mass_matrix: list[list[fmpq]], tolerance: float) -> Self:
-        """Return the body of a mass matrix of rational numbers, see `from_mass_matrix`."""
+        """Return the body of a mass matrix of rational numbers, three rows, see `from_mass_matrix`."""
         values, exact_axes = principal_values(mass_matrix)
         order = sorted(range(3), key=values.__getitem__)
         axes, exact = rounded([exact_axes[i] for i in order]), [max(values[i], fmpq(0)) for i in order]
@@ -522,7 +526,11 @@ SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
 
 
 def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
-    """Return the body of `SHAPES[name]` with these dimensions; of a solid shape the density may replace the mass."""
+    """Return the `SymmetricBody` of `SHAPES[name]` with these dimensions by name.
+
+    Of a solid shape ``density`` may replace ``mass``. Raises AtlasError for an unknown shape or other dimensions,
+    DomainError for one that is not positive.
+    """
     heavy = "density" if name in formulas.VOLUMES and "density" in dimensions else "mass"
     formulas.check_shape(name, ["mass" if key == heavy else key for key in dimensions])
     return SHAPES[name][0](**dimensions)
@@ -533,9 +541,10 @@ WORDS = {"equatorial": "equatorial radius", "polar": "polar radius"}
 
 
 def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density: Any = None) -> Made:
-    """Return the body of a shape from its sizes, numbers or arrays, and its mass or its density.
+    """Return the body of class ``kind`` of a shape from its sizes by name, numbers or arrays, or its density.
 
-    The moments are exact; with a density they have 256 digits, since the volume has the factor pi.
+    The density stands in the place of the mass. The moments are exact; with a density they have 256 binary digits,
+    since the volume has the factor pi.
 
     Raises DomainError for a size that is not positive (negative, for one in FLAT), AtlasError for a mass or size that
     is missing and for a mass beside a density.

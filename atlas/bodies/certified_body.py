@@ -18,7 +18,7 @@ class Moments(NamedTuple):
 
 
 def ratio_of(ratio: Any) -> fmpq:
-    """Return I = I3/I2, (33), exactly: of a number, or the quotient of a body's two moments.
+    """Return I = I3/I2, (33), as an exact rational: of a number, or the quotient of a body's two moments I2 and I3.
 
     Domain: 0 < I <= 2. Raises DomainError outside.
     """
@@ -34,7 +34,10 @@ def ratio_of(ratio: Any) -> fmpq:
 
 
 class BodyInField:
-    """A body with I = I3/I2 in the field (B2, B3)."""
+    """A body with I = I3/I2 in the field (B2, B3) of B' in 1/time, all exact rationals.
+
+    Made from a ratio, as `ratio_of` takes, and two components. Raises DomainError for a ratio that no body has.
+    """
 
     def __init__(self, ratio: Any, field: Any) -> None:
         self.I = ratio_of(ratio)
@@ -47,7 +50,11 @@ class BodyInField:
 
 
 def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
-    """Return (I2, I3) of a homogeneous shape, (8), exactly, from its ``mass`` and its dimensions."""
+    """Return (I2, I3) of a homogeneous shape, (8), exact rationals, from its ``mass`` and its dimensions by name.
+
+    Raises AtlasError for an unknown shape or other dimensions, DomainError for one that is not positive (negative, for
+    one in FLAT).
+    """
     check_shape(name, dimensions)
     names, formula = SHAPES[name]
     values = [rational(dimensions[key], key) for key in names]

@@ -83,10 +83,10 @@ def clebsch(inertia: BodyLike, Omega: RealArrayLike, K: RealArrayLike) -> Clebsc
 
 
 def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
-    """Return the integrals of states, each rounded once, as `Clebsch`.
+    """Return the integrals of states as `Clebsch`, floats or arrays, each rounded once.
 
-    `J` are the nine entries of the inertia tensor row by row, numbers or arrays that broadcast with `Omega` and `K`
-    (..., 3), both in the body and in 1/time.
+    ``J`` are the nine entries of the inertia tensor row by row, numbers or arrays that broadcast with ``Omega`` and
+    ``K`` (..., 3), both in the body and in 1/time.
     """
     unit = -int(np.frexp(max(np.abs(x).max(initial=0.0) for x in J))[1])
     inputs = (*(np.ldexp(x, unit) for x in J), *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
@@ -107,5 +107,5 @@ def body_tensor(inertia: Any) -> FloatArray:
 
 
 def cofactors(J: FloatArray) -> FloatArray:
-    """Matrix det J J^-1 of a symmetric tensor (3, 3), in any floating type."""
+    """Return the matrix det J J^-1 of a symmetric tensor (3, 3), in any floating type."""
     return np.array([np.cross(J[1], J[2]), np.cross(J[2], J[0]), np.cross(J[0], J[1])])

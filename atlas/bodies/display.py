@@ -23,10 +23,11 @@ MAX_SHOWN_NUMBERS, MAX_COUNTED_OBJECTS = 9, 4096
 
 
 class Shown(CarriesUncertainty):
-    """An object that says what it is, in a terminal and in a notebook.
+    """An object that prints as the call that makes it, in a terminal, and as a table and a picture in a notebook.
 
-    `family` is its name in the register, `arguments` what it was made of, by name and in their order; and `made_by`
-    the name of the constructor, where that is not the class.
+    `family` is its name in the register, "" without one; `arguments` maps the names of the constructor's arguments
+    to their values, in order; `made_by` names the constructor, where that is not the class. The arguments cannot be
+    changed.
     """
 
     family: ClassVar[str] = ""
@@ -34,7 +35,10 @@ class Shown(CarriesUncertainty):
     arguments: Mapping[str, Any]
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Refuse to change an argument of the constructor or a value computed from it, and unknown public names."""
+        """Set an attribute; AttributeError for an argument, a value computed from one, or an unknown public name.
+
+        While the object is made, before it has `arguments`, all names may be set.
+        """
         if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
         known = name[0] == "_" or name in self.__dict__ or hasattr(type(self), name)
@@ -43,7 +47,7 @@ class Shown(CarriesUncertainty):
         super().__setattr__(name, value)
 
     def __eq__(self, other: object) -> bool:
-        """Whether both are made by the same call of the same numbers."""
+        """Whether both are of one class and made by the same call of the same numbers."""
         if type(other) is not type(self):
             return NotImplemented
         return bool(_key(self) == _key(other))
@@ -53,22 +57,22 @@ class Shown(CarriesUncertainty):
         return hash(_key(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let it be copied, and sent to another process, as the call that makes it."""
+        """Return the call that makes the object again, for copy, pickle and other processes."""
         own = self.made_by.partition(".")[2] if "made_by" in self.__dict__ else ""
         return made, (getattr(type(self), own) if own else type(self), dict(self.arguments))
 
     def __repr__(self) -> str:
-        """Return the call that makes it and, behind a #, of which kind it is."""
+        """Return the call that makes the object and, behind a #, its kind, or the shape of an array."""
         kind = _kind(self)
         return called(self.made_by or type(self).__name__, self.arguments) + (f"  # {kind}" if kind else "")
 
     def _repr_html_(self) -> str | None:
-        """Return a table of its quantities in proven digits and a small picture, for a notebook."""
+        """Return as HTML a table of quantities in proven digits and a small picture, for a notebook; or None."""
         found: str | None = notebook("show").html(self)
         return found
 
     def _repr_latex_(self) -> str | None:
-        """Return the table as a formula."""
+        """Return the table of the quantities as TeX, for a notebook; None without one."""
         found: str | None = notebook("show").latex(self)
         return found
 
@@ -139,7 +143,10 @@ class Shown(CarriesUncertainty):
 
 
 def _key(value: Any) -> Any:
-    """Return a hashable value that is equal for equal arguments: numbers by value, in arrays and sequences alike."""
+    """Return a hashable value that is equal for equal arguments: numbers by value, in arrays and sequences alike.
+
+    Arrays, lists and tuples become tuples, objects tuples of their class and arguments.
+    """
     if isinstance(value, Shown):
         return type(value).__name__, value.made_by, *((name, _key(x)) for name, x in value.arguments.items())
     if isinstance(value, np.ndarray | np.generic):
@@ -152,7 +159,7 @@ def _key(value: Any) -> Any:
 
 
 def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
-    """Return the object that a call makes, for a copy or in another process."""
+    """Return the object that ``make`` returns for the named arguments; `Shown.__reduce__` refers to this function."""
     return make(**arguments)
 
 
@@ -177,7 +184,10 @@ def _typed_text(value: Any) -> str:
 
 
 def _kind(shown: Shown) -> str:
-    """Return the type of an object in words; of an array its shape, and how many objects there are of each type."""
+    """Return the kind of an object in words, "" if it has none; of an array its shape, and the count of each kind.
+
+    Of an array above `MAX_COUNTED_OBJECTS` objects only the shape.
+    """
     found = []
     for name in ("case", "kind"):
         with suppress(AtlasError):

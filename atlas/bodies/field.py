@@ -21,7 +21,10 @@ from atlas.errors import AtlasError, DomainError
 
 
 class Prime(np.ndarray[Any, np.dtype[np.float64]]):
-    """The vector B', an array (3,). Raises DomainError for the slice of B2 and B3 where B1 is not zero."""
+    """The vector B' of a `Field`, an array (3,), in 1/time.
+
+    Raises DomainError for the slice of B2 and B3, [1:], where B1 is not zero.
+    """
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, slice) and self.shape == (3,) and key.indices(3) == (1, 3, 1) and self[0] != 0:
@@ -271,7 +274,7 @@ class LaboratoryFrame(CarriesUncertainty):
     """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
 
     def __init__(self, axis: RealArrayLike, B: RealArrayLike) -> None:
-        """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
+        """Find the frame in rational numbers, where nearly parallel vectors lose no digits; see the class."""
         axis, B = vector(axis, "The axis"), vector(B, "B", RATE)
         n, b = exact(*axis), exact(*B)
         n2, b2, projection, normal = dot(n, n), dot(b, b), dot(n, b), cross(b, n)

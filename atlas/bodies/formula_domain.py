@@ -26,14 +26,14 @@ NO_SUCH_BODY = "since I2 - I3/2, the sum of m z^2 along the axis z, is not negat
 
 
 def holds(where: Any) -> bool:
-    """Return whether a condition is true; of an array, whether any of its elements is."""
+    """Return whether a condition is true; of an array of conditions, whether any of its elements is."""
     return bool(where.any() if hasattr(where, "any") else where)
 
 
 def refuse(where: Any, sentence: str, *values: Any) -> None:
-    """Raise DomainError with `sentence` where a condition holds, for a number or anywhere in an array.
+    """Raise DomainError with ``sentence`` where a condition holds, for a number or anywhere in an array.
 
-    Each {} in the sentence is replaced by one of `values`, of arrays the first element for which the condition holds.
+    Each {} in the sentence is replaced by one of ``values``, of arrays the first element for which the condition holds.
     """
     if not holds(where):
         return
@@ -51,32 +51,36 @@ def written(value: Number) -> str:
 
 
 def check_ratio(I: Number) -> None:
-    """Raise DomainError for I = I3/I2 that no body has, (33)."""
+    """Raise DomainError unless 0 < I <= 2, where I = I3/I2 is a number or an array: no other body exists, (33)."""
     refuse(I <= 0, "The ratio I = I3/I2 must lie in (0, 2], not {}: a moment of inertia is positive.", I)
     refuse(I > 2, f"No body has I = I3/I2 = {{}}: I is at most 2, {NO_SUCH_BODY}.", I)
 
 
 def check_moments(I2: Number, I3: Number) -> None:
-    """Raise DomainError for moments that no symmetric top has: not both positive, or I3 above 2 I2."""
+    """Raise DomainError for moments, numbers or arrays, that no symmetric top has.
+
+    They are not both positive, or I3 is above 2 I2.
+    """
     impossible = (I2 <= 0) | (I3 <= 0) | (I3 > 2 * I2)
     sentence = "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2 = {}."
     refuse(impossible, sentence, I2, I3, 2 * I2)
 
 
 def check_direction(n2: Number, n3: Number) -> None:
-    """Raise DomainError for a direction (n2, n3) that is zero."""
+    """Raise DomainError for a direction (n2, n3), numbers or arrays, that is zero."""
     refuse((n2 == 0) & (n3 == 0), "The direction (n2, n3) must not be the zero vector.")
 
 
 def check_ball(inertia: Number) -> None:
-    """Raise DomainError for an inertia that is not positive."""
+    """Raise DomainError for an inertia, a number or an array, that is not positive."""
     refuse(inertia <= 0, "The inertia of a ball must be positive, not {}.", inertia)
 
 
 def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> str:
-    """Return the name of the case of an elementary motion, one of `CASES`. Raises DomainError where (67) has no point.
+    """Return the name of the case of an elementary motion, one of `CASES`, decided by exact comparisons.
 
-    That is for B2 = 0 with omega2 not zero, and at the pole omega2 = -B2 unless B3 = 0 or I = 1.
+    I2, I3 are the moments in one unit, B2, B3 and omega2 single numbers in 1/time. Raises DomainError where (67) has no
+    point: for B2 = 0 with omega2 not zero, and at the pole omega2 = -B2 unless B3 = 0 or I = I3/I2 is 1.
     """
     if B2 == 0:
         if B3 == 0:
@@ -94,9 +98,9 @@ def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> s
 
 
 def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
-    """Raise DomainError if omega3 is free but None, or given but not, as a float, ``curve``, the omega3 by (71).
+    """Raise DomainError if omega3 is free but None, or given and, as a float, not the omega3 ``curve`` of (71).
 
-    ``case`` is one of `CASES`; in the first FREE_CASES omega3 is free.
+    ``case`` is one of `CASES`; in the first FREE_CASES omega3 is free. None passes where it is not free.
     """
     if case in CASES[:FREE_CASES]:
         general = "or omega = (0, omega2, omega3) to the general motion"
@@ -106,7 +110,7 @@ def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
 
 
 def check_curve(B2: Number, omega2: Number) -> None:
-    """Raise DomainError where (71) has no omega3: for B2 = 0, and at the pole."""
+    """Raise DomainError where (71) has no omega3: for B2 = 0, and at the pole omega2 = -B2; numbers or arrays."""
     refuse(B2 == 0, "With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
     refuse(omega2 == -B2, "omega2 = -B2 = {} is the pole of omega3(omega2), (71).", omega2)
 
@@ -117,7 +121,7 @@ def check_asymptotes(B2: Number, B3: Number) -> None:
 
 
 def check_beta(B2: Number, B3: Number) -> None:
-    """Raise DomainError where I^-1 B' has no direction: for B = 0."""
+    """Raise DomainError where I^-1 B' has no direction: for B2 = B3 = 0; numbers or arrays."""
     refuse((B2 == 0) & (B3 == 0), "With B = 0 there is no angle beta: I^-1 B' has no direction.")
 
 
@@ -140,5 +144,8 @@ def check_D(n3: Number, linear: Number) -> None:
 
 
 def check_force(force: Any, what: str) -> None:
-    """Raise DomainError for a quantity that needs a magnetic force on the particle."""
+    """Raise DomainError where ``force``, a boolean or an array of them, is false: ``what`` needs a magnetic force.
+
+    ``what`` names the quantity in the error.
+    """
     refuse(force == False, f"Without a magnetic force (mu B = 0) the motion has no {what}.")  # noqa: E712  of arrays too

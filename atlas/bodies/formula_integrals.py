@@ -13,9 +13,10 @@ NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 def integrals(
     I: Number, Omega: Vector, K: Vector, factors: tuple[Number, Number] | None = None
 ) -> tuple[Number, Number, Number, Number]:
-    """Return E', (36), K^2, (37), c3, (40), and c5, (41); `factors` are 1 - I and 2 - I where they have lost no digit.
+    """Return E', (36), K^2, (37), c3, (40), and c5, (41), of a state Omega, K in the body, in 1/time.
 
-    c5 is written as Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is gone and I = 1 exact.
+    ``I`` is I3/I2; ``factors`` are 1 - I and 2 - I where they have lost no digit. c5 is written as
+    Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is gone and I = 1 exact.
 
         >>> integrals(1, (0, 2, 3), (0, 5, 7))
         (13, 74, 10, 31)
@@ -26,13 +27,19 @@ def integrals(
 
 
 def along_field(I: Number, Omega: Vector, K: Vector) -> Number:
-    """Return (m, B')/I2, (88), in 1/time^2, of Omega and K in the body; with Omega + K for Omega it is (M, B')/I2."""
+    """Return (m, B')/I2, (88), in 1/time^2, of Omega and K in the body, three numbers each, and I = I3/I2.
+
+    With Omega + K for Omega it is (M, B')/I2, M the canonical momentum.
+    """
     w1, w2, w3 = Omega
     return dot((w1, w2, I * w3), K)
 
 
 def constants(I2: Number, I3: Number, *state: Number) -> tuple[Number, ...]:
-    """Return E', K^2, c3, c5 and (M, B')/I2 of a state of six numbers: Omega1 to Omega3, K1 to K3."""
+    """Return E', K^2, c3, c5 and (M, B')/I2 of a ``state`` of six numbers: Omega1 to Omega3, K1 to K3, in 1/time.
+
+    See `integrals`; M = II (Omega + K) is the canonical momentum.
+    """
     I, Omega, K = I3 / I2, state[:3], state[3:]
     factors = (I2 - I3) / I2, (I2 + I2 - I3) / I2
     return *integrals(I, Omega, K, factors), along_field(I, [w + k for w, k in zip(Omega, K, strict=True)], K)
@@ -54,8 +61,9 @@ def clebsch(*numbers: Number) -> tuple[Number, ...]:
 def cubic(
     I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: tuple[Number, Number] | None = None
 ) -> tuple[Number, ...]:
-    """Return a0..a3 of (47), by (48) with its slip set right; `factors` as for `integrals`.
+    """Return (a0, a1, a2, a3) of (47), by (48) with its slip set right, from I = I3/I2, E', K^2, c3 and c5.
 
+    The constants are those of `integrals`, and so are the ``factors``.
     a0 = [(2-I) c5 + E'] c3,  a1 = -2 c5 - (1-I)(4-I) c3^2 - E' - I K^2,  a2 = 6 (1-I) c3,  a3 = -2 (1-I).
     The printed a1 has [I - (2-1)^2] c3^2; true is [I - (2-I)^2] = -(1-I)(4-I), which does not cancel near I = 1.
     """
@@ -67,8 +75,9 @@ def cubic(
 def quartic(
     I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: tuple[Number, Number] | None = None
 ) -> tuple[Number, ...]:
-    """Return q0..q4 of Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, (dOmega3/dt)^2 at Omega3 = u.
+    """Return (q0, ..., q4) of the quartic Q(u) = (dOmega3/dt)^2 at Omega3 = u, the constant first.
 
+    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2; the arguments are those of `cubic`.
     Q' is twice the cubic of (47): so q4 = a3/2 = I - 1. Not in the paper: it follows from (36), (37), (40), (41) and
     (38), as (Omega1 K2 - Omega2 K1)^2 + (Omega1 K1 + Omega2 K2)^2 = (Omega1^2 + Omega2^2)(K1^2 + K2^2).
     """

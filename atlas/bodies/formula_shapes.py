@@ -7,7 +7,10 @@ from atlas.errors import AtlasError
 
 
 def _pi_like(length: Any) -> Any:
-    """Return pi as a number of the kind of a length; the names of shapes are listed without these numbers."""
+    """Return pi in the arithmetic of ``length``, see `numbers.pi_like`, which is imported only here.
+
+    So the names of shapes are listed without loading flint.
+    """
     from atlas.arithmetic.numbers import pi_like
 
     return pi_like(length)

@@ -28,7 +28,7 @@ LARGEST = float(np.finfo(float).max) / 8
 
 
 def mass_matrix(inertia: Any) -> FloatArray:
-    """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see (12)."""
+    """Return the mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see (12)."""
     inertia = np.asarray(inertia, dtype=np.float64)
     return np.asarray(np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2 * np.eye(3) - inertia)
 
@@ -60,9 +60,10 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
 
 def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
-    """Return the matrix of `mass_matrix_of_points` in exact rational sums; in doubles above MAX_EXACT_POINTS points.
+    """Return the matrix of `mass_matrix_of_points` as three rows of rationals, exact up to MAX_EXACT_POINTS points.
 
-    Raises AtlasError for wrong shapes, DomainError for a mass that is not positive.
+    Above that number the sums are made in doubles. Raises AtlasError for wrong shapes, DomainError for a mass that
+    is not positive and for a sum too large for a float.
     """
     m, x = real(masses, "The masses", MASS), real(positions, "The positions", LENGTH)
     if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
@@ -81,7 +82,10 @@ def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
 
 
 def sums_over_points(weights: FloatArray, positions: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
-    """Return the sums of a x, (3,), and of a x x^T, (3, 3), as rational numbers, of weights a (N,) at x (N, 3)."""
+    """Return (sum of a x, three rationals; sum of a x x^T, three rows of three), exact, of weights a (N,) at x (N, 3).
+
+    ``positions`` are x.
+    """
     a, *columns = [[fmpq(*value.as_integer_ratio()) for value in v] for v in (weights.tolist(), *positions.T.tolist())]
     weighted = [[p * q for p, q in zip(a, v, strict=True)] for v in columns]
     second = [[sum((p * q for p, q in zip(v, w, strict=True)), fmpq(0)) for w in columns] for v in weighted]
@@ -118,18 +122,22 @@ def inertia_tensor(inertia: Any) -> FloatArray:
 
 
 def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Principal values (3,) of a symmetric matrix (3, 3), and its principal axes as the rows of a rotation (3, 3).
+    """Return the principal values (3,) of a symmetric matrix (3, 3), and the principal axes as rows, (3, 3).
 
-    The elements are taken as exact: values and axes are those of the characteristic polynomial over the rationals, each
-    rounded once, so that small values are as accurate as large ones. Values of a diagonal stay in their order; others
-    ascend.
+    The rows are a rotation. The elements are taken as exact: values and axes are those of the characteristic
+    polynomial over the rationals, each rounded once, so that small values are as accurate as large ones. Values of
+    a diagonal stay in their order; others ascend.
     """
     values, axes = principal_values(rational_matrix(matrix))
     return np.array([*map(nearest, values)]), rounded(axes)
 
 
 def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], list[list[fmpq]]]:
-    """Return principal values and axes, as rows, to `PRECISION` bits; values that are equal are exactly equal."""
+    """Return (three principal values, three axes as rows), rationals, of a symmetric matrix of rationals.
+
+    They are right to `PRECISION` bits; values that are equal are exactly equal. Values of a diagonal stay in their
+    order; others ascend.
+    """
     if not any(matrix[i][j] for i in range(3) for j in range(3) if i != j):
         return [matrix[i][i] for i in range(3)], [[fmpq(i == j) for j in range(3)] for i in range(3)]
     with workprec(PRECISION):
@@ -138,19 +146,21 @@ def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], list[list[fm
 
 
 def rounded(matrix: list[list[fmpq]]) -> FloatArray:
-    """Return the floats nearest to the rational numbers of a matrix."""
+    """Return the floats nearest to the rational numbers of a matrix, an array of its rows."""
     return np.array([[nearest(x) for x in row] for row in matrix])
 
 
 def rational_matrix(matrix: FloatArray) -> list[list[fmpq]]:
-    """Return the floats of a matrix as exact rational numbers."""
+    """Return the floats of a matrix (N, M) as exact rational numbers, a list of N rows."""
     return [[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
 
 
 def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:
     """Return (diagonal (3,) or symmetric matrices (..., 3, 3), their trace shaped to broadcast with them).
 
-    Raises AtlasError for another shape and for matrices that are not symmetric, DomainError for entries too large.
+    ``name`` stands in errors. Raises AtlasError for another shape and for matrices that are not symmetric to single
+    precision, DomainError for entries too large. A matrix that is not symmetric to double precision is replaced by
+    its mean with the transpose, with a NearestInputWarning.
     """
     tensor = real(value, name)
     if tensor.shape != (3,) and tensor.shape[-2:] != (3, 3):

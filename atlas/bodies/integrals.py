@@ -14,7 +14,7 @@ from atlas.errors import DomainError
 
 @dataclass(frozen=True)
 class Integrals:
-    """Conserved quantities of a symmetric body; each a float, or an array for an array of motions."""
+    """Conserved quantities of a symmetric body, as `integrals` returns them; floats, or arrays for many states."""
 
     E: Any
     """E' = 2E/I2 = Omega1^2 + Omega2^2 + I Omega3^2, (36), in 1/time^2."""
@@ -27,10 +27,10 @@ class Integrals:
 
 
 def integrals(ratio: Any, Omega: Any, K: Any) -> Integrals:
-    """Return the integrals E', K^2, c3 and c5 of a state, (36), (37), (40), (41).
+    """Return the integrals E', K^2, c3 and c5 of a state, (36), (37), (40), (41), as `Integrals`.
 
-    `Omega`, `K` (..., 3), both in the body and in 1/time; at t = 0, K = (0, B2, B3).
-    Raises DomainError where a term is too large for a float.
+    ``ratio`` is I3/I2, or a body. ``Omega`` and ``K`` (..., 3) are in the body and in 1/time; at t = 0, K = (0, B2,
+    B3). Raises DomainError where a term is too large for a float.
     """
     I, one_less, two_less = shape_factors(ratio)
     Omega, K = vectors(Omega, "Omega"), vectors(K, "K")

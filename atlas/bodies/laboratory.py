@@ -40,7 +40,7 @@ TERMS = 16
 
 
 def greatest_charge(radius: Any, surface_field: float) -> float:
-    """Charge 4 pi eps0 r^2 E, in C, of a ball (radius in m) that makes the field E (V/m) at its surface."""
+    """Return the charge 4 pi eps0 r^2 E, in C, of a ball (radius in m) that makes the field E (V/m) at its surface."""
     r, E = positive(radius, "The radius"), positive(surface_field, "The surface field")
     return 4 * pi * ELECTRIC_CONSTANT * r * r * E
 
@@ -55,9 +55,9 @@ def greatest_ratio(radius: Any, density: Any, surface_field: float) -> float:
 
 
 def damping_of_flight(mu: Any, mass: Any, rate: Any) -> float:
-    """Rate, in 1/s, at which a charge mu m that circles with the frequency ``rate`` (rad/s) radiates its energy.
+    """Return the rate, in 1/s, at which a charge mu m circling with the frequency ``rate`` (rad/s) radiates its energy.
 
-    `mu` is in C/kg, `mass` m in kg. By Larmor's formula P = e^2 a^2/(6 pi eps0 c^3), over m v^2/2 with a = v omega:
+    ``mu`` is in C/kg, ``mass`` m in kg. By Larmor's formula P = e^2 a^2/(6 pi eps0 c^3), over m v^2/2 with a = v omega:
     mu^2 m omega^2/(3 pi eps0 c^3).
     """
     e_squared_over_m = number(mu, "mu") ** 2 * positive(mass, "The mass")
@@ -65,9 +65,10 @@ def damping_of_flight(mu: Any, mass: Any, rate: Any) -> float:
 
 
 def magnetic_power(mu: Any, across: Any, rate: Any) -> float:
-    """Power in W of the dipole mu L/2 of an angular momentum whose part ``across`` precesses at ``rate`` (rad/s).
+    """Return the power, in W, radiated by the dipole mu L/2 of an angular momentum L precessing at ``rate`` (rad/s).
 
-    ``across`` is its part across the axis of precession, in J s: P = (mu across rate^2/2)^2/(6 pi eps0 c^5).
+    ``mu`` is in C/kg; ``across`` is the part of L across the axis of precession, in J s: P = (mu across
+    rate^2/2)^2/(6 pi eps0 c^5).
     """
     moment = number(mu, "mu") * number(across, "The angular momentum") / 2
     return (moment * number(rate, "The rate") ** 2) ** 2 / (6 * pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**5)
@@ -101,10 +102,11 @@ def diamagnetic_energy(susceptibility: Any, volume: Any, B: Any, shape: str) -> 
 
 
 def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian: bool = False) -> float:
-    """Polarizability along the axis of an ellipsoid less that across it, the moments that a unit field induces.
+    """Return the polarizability along the axis of an ellipsoid less that across it: moments that a unit field induces.
 
-    V chi/(mu_0 (1 + chi N)) in each direction, chi strong or weak, N `demagnetization` along the axis and (1 - N)/2
-    across it; Gaussian V chi/(1 + 4 pi chi N). DomainError for N outside 0...1 or a chi that no body has there.
+    V chi/(mu_0 (1 + chi N)) in each direction, with ``volume`` V in m^3, ``susceptibility`` chi strong or weak,
+    ``demagnetization`` N along the axis and (1 - N)/2 across it; Gaussian V chi/(1 + 4 pi chi N), V in cm^3.
+    DomainError for N outside 0...1 or a chi that no body has there.
     """
     unit, chi = (4 * pi, 4 * pi) if gaussian else (MAGNETIC_CONSTANT, 1.0)
     chi *= number(susceptibility, "The susceptibility")
@@ -119,12 +121,18 @@ def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian:
 
 
 def demagnetization(aspect: float) -> float:
-    """Return the demagnetizing factor N3 along the axis of a spheroid, polar over equatorial semi-axis `aspect`."""
+    """Return the demagnetizing factor N3 along the axis of a spheroid; ``aspect`` is polar over equatorial semi-axis.
+
+    1/3 of a ball; N3 + 2 N2 = 1.
+    """
     return (1 - 2 * demagnetization_difference(aspect)) / 3
 
 
 def demagnetization_difference(aspect: float) -> float:
-    """Return N2 - N3 of a spheroid, across its axis less along it, with the sign of `aspect` - 1; 0 of a ball."""
+    """Return N2 - N3 of a spheroid, factors across and along its axis, with the sign of ``aspect`` - 1; 0 of a ball.
+
+    ``aspect`` is the polar over the equatorial semi-axis.
+    """
     x = (aspect - 1) * (aspect + 1) / aspect**2
     if abs(x) < NEARLY_ROUND:  # the closed forms cancel here
         return 3 * sum(x**k / ((2 * k + 1) * (2 * k + 3)) for k in range(1, TERMS))
@@ -148,9 +156,11 @@ def gas_drag(radius: float, moment: float) -> float:
 
 @dataclass(frozen=True)
 class Spinning:
-    """A body of a shape in a field, in SI: sizes by name, charge-to-mass ratio, moments (I2, I3), |B| and |Omega|.
+    """A charged body of a shape that spins in a field, in SI units.
 
-    `rate` is that of the effect of the charge which is shown, in rad/s.
+    `sizes` are the dimensions of the `shape` by name in m, `mass` is in kg, `mu` the charge-to-mass ratio in C/kg,
+    `moments` (I2, I3) in kg m^2, `B` is |B| in T, `spin` |Omega| in rad/s. `rate` is that of the effect of the
+    charge which is shown, in rad/s.
     """
 
     shape: str
@@ -171,7 +181,7 @@ class Spinning:
 
     @property
     def aspect(self) -> float:
-        """Height over width of the spheroid that stands for a body where fields inside matter; 1 without a height."""
+        """Height over width of the spheroid that stands for the body in its magnetisation; 1 without a height."""
         size = self.sizes
         if "polar" in size:
             return size["polar"] / size["equatorial"]
@@ -179,18 +189,18 @@ class Spinning:
 
     @property
     def potential(self) -> float:
-        """Factor |I3 - I2| b^2 of nu^2/2 in the energy of the charge in the field, in J."""
+        """Factor |I3 - I2| b^2 of nu^2/2 in the energy of the charge in the field, in J; b = |B'| = |mu B|/2."""
         I2, I3 = self.moments
         return abs(I3 - I2) * (self.mu * self.B / 2) ** 2
 
 
 @dataclass(frozen=True)
 class Disturbance:
-    """An effect that a motion leaves out: the number that decides, in a unit, and the formula as TeX.
+    """An effect that a motion leaves out, as a line of a table.
 
-    `value`, called `letter`, is the body's own number, or where `usual` names usual values the number from which on the
-    effect outweighs what is shown. `least` and `greatest` are the ratios of the effect to what is shown, at the ends of
-    the usual values.
+    `says` names the effect. `value`, called `letter` (TeX), in `unit`, by the `formula` (TeX), is the body's own
+    number, or where `usual` describes usual values in words the number from which on the effect outweighs what is
+    shown. `least` and `greatest` are the ratios of the effect to what is shown, at the ends of the usual values.
     """
 
     says: str
@@ -221,10 +231,12 @@ class Disturbance:
 
 
 def disturbances(body: Spinning) -> Iterator[Disturbance]:
-    """Yield the effects that the motion of a charged body in a field leaves out, each beside the one of its charge.
+    """Yield a `Disturbance` for each effect that the motion of a charged body in a field leaves out.
 
-    Magnetism compares energies, gas and eddy currents the rate at which they stop a turn with that of the shown effect,
-    radiation the times. Bodies that are no spheres have the drag and the eddy currents of the sphere around them.
+    Each is compared with the effect of the charge. Magnetism compares energies, gas and eddy currents the rate at
+    which they stop a turn with that of the shown effect, radiation the times. Bodies that are no spheres have the
+    drag and the eddy currents of the sphere around them. Effects are left out where their number has no value:
+    without a rate, a potential or a spin, and magnetism for a shape that is not solid.
     """
     r, (_, I3) = body.radius, body.moments
     aspect, potential, rate = body.aspect, body.potential, body.rate
@@ -274,9 +286,9 @@ def disturbances(body: Spinning) -> Iterator[Disturbance]:
 def _from(
     says: str, letter: str, value: float, unit: str, formula: str, ends: tuple[float, float], usual: str, power: int
 ) -> Disturbance:
-    """Return the disturbance that outweighs what is shown from `value` on, and grows as its power `power`.
+    """Return the `Disturbance` that outweighs what is shown from ``value`` on, and grows as its power ``power``.
 
-    `ends` are the least and greatest usual value; the other arguments are those of `Disturbance`.
+    ``ends`` are the least and greatest usual value; the other arguments are those of `Disturbance`.
     """
     low, high = ((x / value) ** power for x in ends)
     return Disturbance(says, letter, value, unit, formula, usual, low, high)

@@ -33,8 +33,8 @@ def speed_of_light(units: System) -> float:
 def check_drift(E: Any, B: Any, units: System) -> None:
     """Warn with RelativisticWarning if the drift c [E, B]/B^2 exceeds a tenth of the speed of light.
 
-    `E` and `B` (3,) are in `units`. Without one of them there is no drift. Raises DomainError for a drift at the speed
-    of light or above.
+    ``E`` and ``B`` (3,) are in ``units``. Without one of them there is no drift. Raises DomainError for a drift at the
+    speed of light or above.
     """
     e, n = (np.array(x, dtype=float) for x in (E, B))
     if not (n.any() and e.any()):
@@ -66,7 +66,8 @@ def warn_of(speed: str, part: float) -> None:
 def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
     """Return the largest speed |[Omega, x]| of the points x of a shape about e3, in the unit of length times rad/time.
 
-    `shape` is one of `SHAPES`, `sizes` are its dimensions by name, `omega` (3,) in rad/time.
+    ``shape`` is one of `SHAPES`, ``sizes`` are its dimensions by name, ``omega`` (3,) in rad/time is along the
+    body's axes.
     """
     w, r = np.array(omega, dtype=float), float(sizes.get("radius", 0.0))
     if shape in ELLIPSOIDS:
@@ -78,5 +79,8 @@ def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
 
 
 def fastest_of(points: FloatArray, omega: Any) -> float:
-    """Return the largest speed |[Omega, x]| of points x (..., 3) for omega (3,)."""
+    """Return the largest speed |[Omega, x]| of points x (..., 3), in length times rad/time.
+
+    ``omega`` (3,) is in rad/time, along the axes of the points.
+    """
     return float(np.linalg.norm(np.cross(np.array(omega, dtype=float), points), axis=-1).max())

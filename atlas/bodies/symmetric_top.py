@@ -18,10 +18,11 @@ PARALLEL_TOLERANCE = 1e-14
 
 
 def inputs_of_top(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> list[FloatArray]:
-    """Return I2, I3, k2, k3, n2, n3, a0, A0 of tops, a list of arrays that broadcast with each other.
+    """Return [I2, I3, k2, k3, n2, n3, a0, A0] of tops, a list of arrays (or `Given`) that broadcast with each other.
 
-    a0 and A0 are ``linear`` and ``quadratic``. Raises DomainError for moments that no body has and for a direction
-    that is zero, AtlasError for what is no finite number.
+    ``inertia`` is (I2, I3), ``coupling`` (k2, k3) in inertia/time, ``direction`` (n2, n3); a0 and A0 are ``linear`` and
+    ``quadratic``, in inertia/time^2. Raises DomainError for moments that no body has and for a direction
+    that is zero, AtlasError for an input that is no finite number.
     """
     columns = [
         *components(inertia, ("I2", "I3"), "The inertia", INERTIA),
@@ -37,7 +38,10 @@ def inputs_of_top(inertia: Any, coupling: Any, direction: Any, linear: Any, quad
 
 
 def arguments_of(top: Sequence[Any]) -> dict[str, Any]:
-    """Return the arguments of `inputs_of_top` by name, from its result."""
+    """Return by name the arguments of `inputs_of_top` from its result: inertia, coupling, direction, linear, quadratic.
+
+    The first three are pairs; values are floats or arrays.
+    """
     I2, I3, k2, k3, n2, n3, linear, quadratic = map(plain, top)
     return {
         "inertia": (I2, I3), "coupling": (k2, k3), "direction": (n2, n3), "linear": linear, "quadratic": quadratic,
@@ -53,7 +57,7 @@ def moments_of_one(body: Any) -> tuple[Any, Any]:
 
 
 def along(field: tuple[float, float], weight: Any) -> fmpq:
-    """Return the component of the weight (w2, w3) along the field (B2, B3), rounded to 256 digits.
+    """Return the component of the weight (w2, w3) along the field (B2, B3), a rational to 256 binary digits.
 
     Raises DomainError where the weight is not parallel to the field.
     """

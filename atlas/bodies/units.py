@@ -48,7 +48,10 @@ MAGNETIC_CONSTANT = 1.25663706127e-6
 
 @dataclass(frozen=True)
 class System:
-    """A system of units: the constant c of its formulas, and the names of its units."""
+    """A system of units: its name, the constant c of its formulas, and the names of its units.
+
+    `c` is 1 in SI, the speed of light in cm/s in Gaussian units.
+    """
 
     name: str
     c: float
@@ -63,7 +66,7 @@ GAUSSIAN = System("Gaussian", SPEED_OF_LIGHT * 100, "statC/g", "G", "statV/cm", 
 
 
 def system(name: str | System) -> System:
-    """Return the system of units called "SI" or "Gaussian", in any case of letters; a `System` is returned unchanged.
+    """Return the system of units called "SI" or "Gaussian", in any case of letters; a `System` unchanged.
 
     Raises AtlasError for any other name.
     """
@@ -77,12 +80,18 @@ def system(name: str | System) -> System:
 
 
 def charge_to_mass(charge: Any, mass: Any) -> float:
-    """Charge-to-mass ratio mu = e/m, (89), of either sign, in units of charge over mass."""
+    """Return the charge-to-mass ratio mu = e/m, (89), of either sign, in units of charge over mass.
+
+    ``mass`` is positive: DomainError otherwise.
+    """
     return number(charge, "The charge", CHARGE) / positive(mass, "The mass", MASS)
 
 
 def ratio_of(mu: Any, charge: Any, mass: Any) -> Any:
-    """Return mu, or charge over mass as a Fraction. Raises AtlasError unless exactly one of the two is given."""
+    """Return ``mu`` as given, or charge over mass as a Fraction.
+
+    Raises AtlasError unless either mu, or charge and mass, is given; DomainError for a mass that is not positive.
+    """
     if (mu is None) == (charge is None and mass is None) or (mu is None and None in (charge, mass)):
         raise AtlasError("A field takes mu, or charge and mass, for the charge-to-mass ratio.")
     if mu is not None:
@@ -91,10 +100,10 @@ def ratio_of(mu: Any, charge: Any, mass: Any) -> Any:
 
 
 def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
-    """Vector B' = mu B/(2c), (32), in rad/s; in SI without c.
+    """Return the vector B' = mu B/(2c), (32), in rad/s; in SI without c.
 
-    `mu` and `B` (any shape) in the units of that system. |B'| is Larmor's frequency (27); for mu < 0 the vector B' is
-    opposite to B.
+    ``mu`` and ``B`` (any shape) are in the units of that system; the result has the shape of B. |B'| is Larmor's
+    frequency (27); for mu < 0 the vector B' is opposite to B.
     """
     c = system(units).c
     unit = SI_FIELDS if c == 1 else NO_FIELDS
@@ -104,12 +113,15 @@ def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
 
 
 def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:
-    """Frequency omega = mu |B|/c of (97) in rad/s, with the sign of mu, for a field of strength B; twice Larmor's."""
+    """Return the frequency omega = mu |B|/c of (97) in rad/s, with the sign of mu; twice Larmor's.
+
+    ``B`` is the strength of the field, a number or an array; ``mu`` and ``B`` are in ``units``.
+    """
     return 2 * larmor_field(mu, B, units)
 
 
 def prime(mu: Any, B: FloatArray, c: float) -> list[Fraction]:
-    """Components of the vector B' = mu B/(2c), (32), of numbers already checked, exactly.
+    """Return the components of the vector B' = mu B/(2c), (32), as exact fractions, a flat list, of checked numbers.
 
     Raises DomainError for one that is too large or too small for a float.
     """
