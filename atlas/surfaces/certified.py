@@ -11,11 +11,14 @@ from atlas.surfaces import formula as quadric
 
 
 class Quadric(BodyInField):
-    """The surface (51) for I = I3/I2 and the field (B2, B3) of B', with its canonical form (54), in exact numbers."""
+    """The surface (51) for I = I3/I2 and the field (B2, B3) of B', with its canonical form (54), in exact numbers.
+
+    Made from the ratio and the field, see `BodyInField`.
+    """
 
     @property
     def kind(self) -> str:
-        """Type of the surface (50), decided exactly."""
+        """Type of the surface (50), decided exactly: one of the kinds of `atlas.surfaces.kernel.Quadric`."""
         if self.B2 == 0:
             return "all space" if self.B3 == 0 else "line"
         if self.B3 == 0:
@@ -65,12 +68,15 @@ class Quadric(BodyInField):
 
     @property
     def centre(self) -> tuple[fmpq, fmpq, fmpq]:
-        """The centre -B' = (0, -B2, -B3)."""
+        """The centre -B' = (0, -B2, -B3), three rationals in 1/time."""
         return fmpq(0), -self.B2, -self.B3
 
     @property
     def axes(self) -> list[list[Real]]:
-        """The directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3)."""
+        """Unit vectors of omega'_1..3 as three rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3).
+
+        Raises DomainError for B = 0.
+        """
         s, c = self._angle()
         zero, unit = fmpq(0), fmpq(1)
         return [[unit, zero, zero], [zero, c, s], [zero, -s, c]]
@@ -82,7 +88,7 @@ class Quadric(BodyInField):
         return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
 
     def residual(self, omega: Any) -> fmpq:
-        """Return the left-hand side of (50), in 1/time^3, at a point omega of three numbers in 1/time.
+        """Return the left-hand side of (50), a rational in 1/time^3, at a point omega of three numbers in 1/time.
 
         Zero on the surface only.
         """
@@ -90,7 +96,10 @@ class Quadric(BodyInField):
         return residual
 
     def canonical(self, omega: Any) -> list[Real]:
-        """Return the coordinates omega'_1..3, (53), in a list, of a point omega of three numbers, both in 1/time."""
+        """Return the coordinates omega'_1..3, (53), a list of three, of a point omega of three numbers, both in 1/time.
+
+        Raises DomainError for B = 0.
+        """
         w1, w2, w3 = rationals(omega, "omega", 3)
         shifted = (w1, w2 + self.B2, w3 + self.B3)
         return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]

@@ -31,7 +31,10 @@ def inputs_of_top(
 def constants(
     inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any
 ) -> tuple[fmpq, fmpq, fmpq, Surd, Surd, fmpq, fmpq]:
-    """Return (I, k2, k3, n2, n3, a0, A0) in units of I2, n of length 1, for the functions of `formula_top`."""
+    """Return (I, k2, k3, n2, n3, a0, A0) in units of I2, n of length 1, for the functions of `formula_top`.
+
+    n2 and n3 are `Surd`s, the others rationals; the arguments are those of `inputs_of_top`.
+    """
     I, (k2, k3), (n2, n3), potential = inputs_of_top(inertia, coupling, direction, linear, quadratic)
     N = n2 * n2 + n3 * n3
     size = Surd.root(N)
@@ -41,7 +44,7 @@ def constants(
 class TopQuadric(Quadric):
     """The surface n3 (omega1^2 + w^2) - I n2 w v = -n2^2 n3 D of starts at which nu'' = 0, nu = cos theta.
 
-    w, v and D are those of `atlas.surfaces.kernel.TopQuadric`.
+    w, v and D are those of `atlas.surfaces.kernel.TopQuadric`, and so are the arguments, taken as exact.
     """
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0, quadratic: Any = 0) -> None:
@@ -50,12 +53,12 @@ class TopQuadric(Quadric):
 
     @property
     def _excess(self) -> Surd:
-        """Product n3 D, exactly; its sign with that of n3 tells the kind."""
+        """Product n3 D, a `Surd`; its sign with that of n3 tells the kind."""
         return self.top[3].of(top.excess(*self.top))
 
     @property
     def kind(self) -> str:
-        """Type of the surface: the sign of D, decided exactly."""
+        """Type of the surface by the sign of D, decided exactly; see `atlas.surfaces.kernel.TopQuadric.kind`."""
         if self.B2 == 0:
             return "line"
         sign = self._excess.sign
@@ -67,7 +70,10 @@ class TopQuadric(Quadric):
 
     @property
     def D(self) -> Real:
-        """D = A + kappa^2 + a0/n3, which is (I - 1) b^2 for the paper's body."""
+        """D = A + kappa^2 + a0/n3 over I2, in 1/time^2, which is (I - 1) b^2 for the paper's body.
+
+        Raises DomainError for n3 = 0 with a linear potential, where D is infinite.
+        """
         I, k2, k3, n2, n3, a0, A0 = self.top
         check_D(self.B3, a0)
         unit = n3.of(1)
@@ -75,7 +81,10 @@ class TopQuadric(Quadric):
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
-        """The roots of |D| n2^2 (1, |a2|, |a3|)."""
+        """Semi-axes C1, C2, C3 in rad/time, the roots of |D| n2^2 (1, |a2|, |a3|); zeros for n2 = 0.
+
+        Raises DomainError where D is infinite.
+        """
         if self.B2 == 0:
             return fmpq(0), fmpq(0), fmpq(0)
         square = abs(self.D) * (self.top[3] * self.top[3]).value
@@ -83,7 +92,7 @@ class TopQuadric(Quadric):
 
     @property
     def centre(self) -> tuple[Real, Real, Real]:
-        """Centre (omega1, omega2, omega3) of the quadric, where w = v = 0."""
+        """Centre (omega1, omega2, omega3) of the quadric, where w = v = 0, in rad/time."""
         second, third = top.centre(*self.top)
         return fmpq(0), second.value, third.value
 
@@ -104,7 +113,7 @@ class TopQuadric(Quadric):
 class TopHyperbola:
     """The curve omega1 = 0 of `TopQuadric`: its points are steady precessions, theorem-top-hyperbola.
 
-    Raises DomainError for n2 = 0; its methods raise DomainError at the pole.
+    The arguments are those of `TopQuadric`. Raises DomainError for n2 = 0; its methods raise DomainError at the pole.
     """
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0, quadratic: Any = 0) -> None:
@@ -114,12 +123,12 @@ class TopHyperbola:
 
     @property
     def pole(self) -> Real:
-        """Pole of the curve: the omega2 at which w = 0."""
+        """Pole of the curve: the omega2 at which w = 0, in rad/time."""
         second: Surd = top.centre(*self.top)[0]
         return second.value
 
     def omega3(self, omega2: Any) -> Real:
-        """Return omega3 on the curve at omega2, both in rad/time."""
+        """Return omega3 on the curve at omega2, both in rad/time; a rational or a ball. DomainError at the pole."""
         omega3: Surd = top.omega3(*self.top, self._off_the_pole(omega2))
         return omega3.value
 
@@ -134,7 +143,10 @@ class TopHyperbola:
         return square.value
 
     def stable(self, omega2: Any) -> bool:
-        """Return whether the motion at omega2 is stable against nutation; at zero frequency by `_holds`."""
+        """Return whether the motion at omega2 (rad/time) is stable against nutation, decided exactly.
+
+        At zero frequency `_holds` decides. Raises DomainError at the pole.
+        """
         w2 = self._off_the_pole(omega2)
         squared: Surd = top.stability(*self.top, w2)
         return squared.sign > 0 or (squared.is_zero and self._holds(w2))
@@ -146,13 +158,16 @@ class TopHyperbola:
 
     @property
     def _leading(self) -> fmpq:
-        """Leading coefficient A = A0 + k3^2/I - k2^2 of the top's quartic."""
+        """Leading coefficient A = A0 + k3^2/I - k2^2 of the top's quartic, over I2, in 1/time^2."""
         I, k2, k3, _, _, _, A0 = self.top
         return A0 + k3 * k3 / I - k2 * k2
 
     @property
     def _fourfold(self) -> Polynomial:
-        """The polynomial (a + 2 A n3) x in u, x = u - kappa."""
+        """The polynomial (a + 2 A n3) x in u, with x = u - kappa, u = omega2/n2 + k2 and a = M3 kappa + a0.
+
+        It vanishes where the quartic has a fourfold root.
+        """
         I, k2, k3, _, n3, a0, _ = self.top
         kappa, A = k2 - k3 / I, self._leading
         linear = n3 * (2 * A) + a0
@@ -160,9 +175,10 @@ class TopHyperbola:
 
     @property
     def unstable_bands(self) -> list[tuple[Real, Real]]:
-        """Intervals of omega2, ascending, in which the motions are unstable; the ends are roots of a quartic.
+        """Intervals of omega2 in rad/time, ascending, with unstable motions: a list of pairs of balls.
 
-        The intervals are closed, except at a fourfold root; one may be a single point. The pole may lie inside.
+        The ends are roots of a quartic. The intervals are closed, except at a fourfold root; one may be a single
+        point. The pole may lie inside. [] where all motions are stable.
         """
         I, k2, k3, n2, *_ = self.top
         quartic, x = self._quartic, (n2.of(k3 / I - k2), n2.of(1))
@@ -180,7 +196,10 @@ class TopHyperbola:
 
     @property
     def _quartic(self) -> Polynomial:
-        """The stability times x^2 as a polynomial in u = omega2/n2 + k2."""
+        """The `stability` times x^2 as a polynomial of degree four in u = omega2/n2 + k2, x = u - kappa.
+
+        A tuple of `Surd`, the constant first.
+        """
         I, k2, k3, _, n3, a0, _ = self.top
         kappa, A = k2 - k3 / I, self._leading
         force, unit = n3 * A + a0, n3.of(1)
@@ -199,5 +218,5 @@ class TopHyperbola:
 
 
 def _real_roots(p: Polynomial) -> list[arb]:
-    """Return the real roots, ascending, of a polynomial with simple roots."""
+    """Return the real roots, ascending balls, of a polynomial with simple roots; [] for a constant."""
     return [z.real for z in roots(p) if z.imag == 0] if len(p) > 1 else []

@@ -9,19 +9,25 @@ def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
 
 
 def a2(*inputs: Number) -> Number:
-    """Return a2 of (54): with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
+    """Return a2 = 2 sin(beta)/(1 - sin(beta)) of (54), as 2 y/(h - y) with (x, y) along I^-1 B' and h its length.
+
+    ``inputs`` are I2, I3, B2, B3.
+    """
     y, _, smaller, _ = _direction(*inputs)
     return (y + y) / smaller
 
 
 def a3(*inputs: Number) -> Number:
-    """Return a3 of (54): 2 y/(h + y)."""
+    """Return a3 = 2 sin(beta)/(1 + sin(beta)) of (54), as 2 y/(h + y); ``inputs`` and letters as for `a2`."""
     y, _, _, larger = _direction(*inputs)
     return (y + y) / larger
 
 
 def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
-    """Return C1, C2, C3 of (55), (57), for B2 != 0."""
+    """Return the semi-axes C1, C2, C3 of (55), (57), in the unit of B2 and B3, for B2 != 0.
+
+    I2 and I3 are the moments in one unit.
+    """
     square = abs(I2 - I3) / I2 * B2 * B2
     y, _, smaller, larger = _direction(I2, I3, B2, B3)
     twice = square * abs(y + y)
@@ -29,7 +35,7 @@ def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, N
 
 
 def half_angle(*inputs: Number) -> tuple[Number, Number]:
-    """Return the magnitudes of (cos, sin) of beta/2 + pi/4, (53).
+    """Return the magnitudes of (cos, sin) of beta/2 + pi/4, (53); ``inputs`` are I2, I3, B2, B3, not B = 0.
 
     Their squares are (1 - sin beta)/2 and (1 + sin beta)/2.
     """
@@ -38,7 +44,10 @@ def half_angle(*inputs: Number) -> tuple[Number, Number]:
 
 
 def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:
-    """Return the left-hand side of (50) at omega = (w1, w2, w3), in 1/time^3 for B and omega in 1/time."""
+    """Return the left-hand side of (50) at omega = (w1, w2, w3), in 1/time^3 for B2, B3 and omega in 1/time.
+
+    I2 and I3 are the moments in one unit.
+    """
     times_I2 = B3 * (w1 * w1 + w2 * w2) * I2 + ((I2 + I2 - I3) * B3 * w2 - I3 * w3 * (w2 + B2)) * B2
     return times_I2 / I2
 

@@ -256,13 +256,16 @@ class Quadric(Shown):
         return over(quadric.residual, *self._inputs, *points, unit=slice(2, None), degree=3)
 
     def _directed(self) -> tuple[Any, ...]:
-        """Return the inputs. Raises DomainError if I^-1 B' has no direction."""
+        """Return the inputs (I2, I3, B2, B3). Raises DomainError if I^-1 B' has no direction, for B = 0."""
         check_beta(*map(np.asarray, self._inputs[2:]))
         return self._inputs
 
 
 def _replaced(numbers: Any, places: Any) -> Any:
-    """Return numbers without rounding (an array or a `Given`), with 1 at the places where the mask is true."""
+    """Return a copy of numbers (an array or a `Given`) with 1 where the mask ``places`` is true.
+
+    Without such a place the numbers are returned unchanged.
+    """
     if not np.any(places):
         return numbers
     if not isinstance(numbers, Given):
@@ -272,7 +275,7 @@ def _replaced(numbers: Any, places: Any) -> Any:
 
 
 def _exactly(row: Any) -> "Exact":
-    """Return the certified `TopQuadric` of one row of eight inputs."""
+    """Return the certified `TopQuadric` of one row of inputs: I2, I3, k2, k3, n2, n3, a0, A0, floats taken as exact."""
     from atlas.surfaces.certified_top import TopQuadric as Exact
 
     I2, I3, k2, k3, n2, n3, a0, A0 = (float(x) for x in row)
@@ -325,14 +328,20 @@ class TopQuadric(Quadric):
 
     @kept
     def D(self) -> FloatOrArray:
-        """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once."""
+        """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once.
+
+        Raises DomainError for n3 = 0 with a linear potential.
+        """
         self._needs_finite()
         values: FloatOrArray = self._over(top.D, lambda exact: exact.D)
         return values
 
     @kept
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
-        """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
+        """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|), in rad/time; a tuple, or shape (..., 3).
+
+        Zeros for n2 = 0. Raises DomainError for n3 = 0 with a linear potential.
+        """
         self._needs_finite()
         semi_axes = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), upright=True)
         C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in semi_axes)
@@ -345,16 +354,20 @@ class TopQuadric(Quadric):
         return np.stack(np.broadcast_arrays(0.0, second, third), -1)
 
     def residual(self, omega: RealArrayLike) -> FloatOrArray:
-        """Left-hand side at points `omega` (..., 3), rounded once: -nu'' at the start, in 1/time^2.
+        """Left-hand side at points ``omega`` (..., 3) in rad/time, rounded once: -nu'' at the start, in 1/time^2.
 
-        Zero on the surface only. Raises AtlasError for what are no vectors.
+        Zero on the surface only. Raises AtlasError for an input that is no vector.
         """
         points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
         values: FloatOrArray = self._over(top.residual, lambda exact, *w: exact.residual(w), *points)
         return values
 
     def _over(self, formula: Any, exact: Any, *points: Any, degree: Any = 1, upright: bool = False) -> Any:
-        """Return a formula in double-double, or exactly where rounding is in doubt, each value rounded once."""
+        """Return results of a ``formula`` of `formula_top` for each top, each rounded once, as `over` does.
+
+        ``exact`` takes the certified quadric and the points, and replaces the formula where rounding is in doubt.
+        ``points`` are further arguments, ``degree`` is as for `over`; with ``upright`` n2 = 0 is replaced by 1.
+        """
         inputs = list(self._top)
         if upright:
             inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])
