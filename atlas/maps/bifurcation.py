@@ -70,10 +70,11 @@ def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
 
 
 def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
-    """Effective potential V = M3^2/I + b^2 + A nu^2 + (p - M3 nu)^2/(1 - nu^2) <= h of the nutation, theorem-top.
+    """Return the effective potential V = M3^2/I + b^2 + A nu^2 + (p - M3 nu)^2/(1 - nu^2) of the nutation, theorem-top.
 
-    Motions with the energy h are where V <= h; (dtheta/dt)^2 = h - V. V is infinite at nu = ±1 unless p = ±M3. Raises
-    DomainError where |nu| >= 1.
+    In units of I2, in 1/time^2, with A = (I-1) b^2; ``ratio`` is I, ``nu`` the cosine between axis and field.
+    Motions with the energy h are where V <= h; (dtheta/dt)^2 = h - V. V is infinite at nu = ±1 unless p = ±M3.
+    Raises DomainError where |nu| >= 1.
     """
     I, less, _ = shape_factors(ratio)
     b, M3 = real(b, "b"), real(M3, "M3")
@@ -103,7 +104,10 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Spin:
-    """A spin about principal axis 0, 1 or 2 along the field: its constants (F, H), and the kind of motions near it."""
+    """A spin about principal axis 0, 1 or 2 along the field: its constants `F`, `H`, and the `kind` of motions near it.
+
+    F and H are Clebsch's integral and the energy, see `atlas.clebsch`.
+    """
 
     axis: int
     F: float
@@ -112,11 +116,12 @@ class Spin:
 
 
 class Bifurcation:
-    """The critical values of (F, H) of a body `inertia` (I1, I2, I3), all different, at b > 0 and c.
+    """The critical values of (F, H) of a body ``inertia`` (I1, I2, I3), all different, at b > 0 and c.
 
-    b = |B'| is in 1/time, and c = (M, K) the canonical momentum along the field times b. For c = 0, Neumann's and
-    Weber's case, the curve is a piece of a parabola, of the bounded oval, and the `rays` of the plane pendulums. Raises
-    DomainError for moments that no body has or of which two are equal.
+    F is Clebsch's integral and H the energy, see `atlas.clebsch`. b = |B'| is in 1/time, and c = (M, K) the
+    canonical momentum along the field times b. For c = 0, Neumann's and Weber's case, the curve is a piece of a
+    parabola, of the bounded oval, and the `rays` of the plane pendulums. Raises DomainError for moments that no
+    body has or of which two are equal.
     """
 
     def __init__(self, inertia: Any, b: float, c: float) -> None:
@@ -130,7 +135,10 @@ class Bifurcation:
         self.e2 = float(self.a.sum())
 
     def values(self, z: FloatArray, branch: int) -> FloatArray:
-        """Return F and H as columns, shape (N, 2), of the elliptic motions at z (N,) with v = branch sqrt(P(z))."""
+        """Return F and H as columns, shape (N, 2), of the elliptic motions at z (N,) with v = branch sqrt(P(z)).
+
+        z, v and P are those of the module; ``branch`` is 1 or -1.
+        """
         P, slope, _ = self._cubic(z)
         v, square = branch * np.sqrt(P), self.b * self.b
         linear = -self.c * slope / v - 2 * square * z
@@ -140,7 +148,8 @@ class Bifurcation:
     def splitting(self, z: FloatArray, branch: int) -> FloatArray:
         """Return C/D^2 (N,), in 1/time^2, at places z (N,): positive where the motion is stable, theorem-splitting.
 
-        ``branch`` is 1 or -1, the sign of v.
+        C is the constant of that theorem, D = I1 I2 I3, and C/D^2 the square of a frequency. ``branch`` is 1 or -1,
+        the sign of v.
         """
         v = branch * np.sqrt(self._cubic(z)[0])
         return np.asarray(split(tuple(self.inertia), self.b * self.b, -self.c / v, z))
@@ -155,13 +164,13 @@ class Bifurcation:
         return (np.maximum(x1 * x2 * x3, 0.0), x1 * x2 + x2 * x3 + x3 * x1, x)
 
     def _roots(self, axis: int) -> NDArray[np.complex128]:
-        """Return the z (2,), perhaps complex, at which the curve meets the point (F, H) of a spin about an axis."""
+        """Return the z (2,), perhaps complex, where the curve meets the point (F, H) of a spin about axis 0, 1 or 2."""
         entry, (j, k), fourth = self.a[axis], (self.a[axis - 1], self.a[axis - 2]), self.b**4
         return np.asarray(np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * entry]), complex)
 
     @cached_property
     def spins(self) -> tuple[Spin, ...]:
-        """The spins about the three axes."""
+        """The spins along the field about the three principal axes, in their order, as `Spin`."""
         spins = []
         for axis, (I, entry) in enumerate(zip(self.inertia, self.a, strict=True)):
             roots, turn = self._roots(axis), self.c / self.b
@@ -172,7 +181,10 @@ class Bifurcation:
         return tuple(spins)
 
     def stretches(self) -> Iterator[Stretch]:
-        """Yield the parts of both ovals on which K is real, as `Stretch`."""
+        """Yield the parts of both ovals of v^2 = P(z) on which K is real, as `Stretch`, cut where stability changes.
+
+        For c = 0 the bounded oval alone.
+        """
         low, middle, high = np.sort(-self.a)
         if not self.c:
             yield Stretch("bounded", 1, float(low), float(middle), stable=True)
@@ -210,7 +222,7 @@ class Bifurcation:
             yield int(axis), max(start, border), float("inf"), after
 
     def _borders(self, start: float, stop: float, branch: int) -> list[float]:
-        """Return places z between start and stop, a list of floats, where stability changes: the cusps of the curve.
+        """Return a list of the places z between ``start`` and ``stop`` where stability changes: the cusps of the curve.
 
         ``branch`` is as for `splitting`. Two cusps between neighbouring trial places are missed.
         """
@@ -230,7 +242,10 @@ class Bifurcation:
 
     @property
     def rest(self) -> FloatArray | None:
-        """Values (F, H), shape (2,), at rest for c > 0, or of Omega = -2 K for c < 0; None where c is out of range."""
+        """Values (F, H), shape (2,), at rest for c > 0, or of Omega = -2 K for c < 0.
+
+        None where |c|/b^2 lies outside the range of the moments of inertia, since no body rests there.
+        """
         moment = abs(self.c) / self.b**2
         if not self.inertia.min() <= moment <= self.inertia.max():
             return None

@@ -149,10 +149,10 @@ def monodromy(
 
 
 def unstable_spin(*inputs: float) -> tuple[int, float]:
-    """Return (end, D/I2^2) of a spin about n: end is 1 along n and -1 against it, D < 0; both decided exactly.
+    """Return (end, D/I2^2) of an unstable spin about n: end is 1 along n and -1 against it, D < 0; decided exactly.
 
-    `inputs` are I2, I3, k2, k3, linear, quadratic, M3 and p, as in `monodromy`. Raises DomainError for a momentum p of
-    no spin, and for a stable one.
+    ``inputs`` are I2, I3, k2, k3, linear, quadratic, M3 and p, as in `monodromy`; D is that of theorem-focus. Raises
+    DomainError for a momentum p of no spin, and for a stable spin.
     """
     if abs(inputs[-2]) != abs(inputs[-1]):
         raise DomainError(
@@ -174,15 +174,14 @@ def unstable_spin(*inputs: float) -> tuple[int, float]:
 def on_loop(
     I: float, coupling: tuple[float, float], M3: float, loop: FloatArray, linear: float = 0.0, quadratic: float = 0.0
 ) -> Monodromy:
-    """Carry the periods of a top round a `loop` (N, 2) of values (p, g) at one M3, closed by its first point.
+    """Return the `Monodromy` of periods carried round a ``loop`` (N, 2) of (p, g) at one M3, closed by its first point.
 
-    `I` = I3/I2, `coupling` = (k2/I2, k3/I2), `linear` and `quadratic` over I2 as in `TopMotion`. Period and angles are
-    balls, formed at each point from the theta functions; between neighbours the angles, less T times their mean rates
-    at the first point, are continued to the nearest.
-    Where a value belongs to two tori, that of the deeper well is carried.
-    Raises DomainError for a value that no motion has, or that is critical, and for a loop so coarse that an angle
-    changes by more than a quarter of a turn in one step: give it more points, or keep it from critical values.
-    Raises NotCertifiedError where the balls are too wide.
+    ``I`` = I3/I2, ``coupling`` = (k2/I2, k3/I2), ``linear`` and ``quadratic`` over I2 as in `TopMotion`. Period and
+    angles are balls, formed at each point from the theta functions; between neighbours the angles, less T times
+    their mean rates at the first point, are continued to the nearest. Where a value belongs to two tori, that of
+    the deeper well is carried. Raises DomainError for a value that no motion has, or that is critical, and for a
+    loop so coarse that an angle changes by more than a quarter of a turn in one step: give it more points, or keep
+    it from critical values. Raises NotCertifiedError where the balls are too wide.
     """
     wells = Wells.at(M3, I, coupling, linear, quadratic)
     whole(len(loop), "The number of points", 3)
@@ -219,9 +218,9 @@ def on_loop(
 
 
 def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
-    """Return, at the distances `GRID` of nu from `end`, the energy of the spin at nu = `end` less the potential V.
+    """Return the energy of the spin at nu = ``end`` less the potential V, (N,), at the distances `GRID` of nu from it.
 
-    No digits cancel near that pole.
+    In 1/time^2, for the momentum ``p``; ``D`` is that of the spin, see `Wells.spin`. No digits cancel near that pole.
     """
     d, offset = GRID, p - end * wells.M3
     level = -D / 2 - d * (wells.A + wells.M3 * wells.M3 / (2 * (2 - d)))
@@ -229,7 +228,10 @@ def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
 
 
 def _room(depth: FloatArray) -> float:
-    """Return the depth of a well above its highest barrier; 0 without a well, and where there are two."""
+    """Return the depth of a well above its highest barrier, from ``depth`` (N,) of `_depth`.
+
+    0 without a well, and where there are two.
+    """
     ends = np.flatnonzero(np.diff(depth > 0, prepend=False, append=False))
     if len(ends) != 2:
         return 0.0
@@ -239,10 +241,10 @@ def _room(depth: FloatArray) -> float:
 
 
 def state(wells: Wells, p: float, g: float, I: float, coupling: tuple[float, float]) -> tuple[Any, Any]:
-    """Return (direction (n2, n3), angular velocity (3,)) of a state with momentum p and energy g, up to rounding.
+    """Return (direction (n2, n3), angular velocity (3,) in rad/time) of a state with momentum p and energy g.
 
-    The moments are those of the wells' top in units of I2, with I = I3/I2 and `coupling` (k2/I2, k3/I2). Raises
-    DomainError where no motion has these values.
+    Both are tuples, right up to rounding. The moments are those of the wells' top in units of I2, with I = I3/I2 and
+    ``coupling`` (k2/I2, k3/I2). Raises DomainError where no motion has these values.
     """
     (k2, k3), end = coupling, int(np.sign(p * wells.M3) or 1)
     _, spin, D = wells.spin(end)
@@ -259,10 +261,11 @@ def state(wells: Wells, p: float, g: float, I: float, coupling: tuple[float, flo
 def around(
     wells: Wells, p: float, points: int = 48, end: int = 0, D: float | None = None, slope: float = 0.0
 ) -> FloatArray:
-    """Return a loop (points, 2) of regular values (p, g), counter-clockwise, round that of the spin at nu = `end`.
+    """Return a loop (points, 2) of regular values (p, g), counter-clockwise, round that of the spin at nu = ``end``.
 
     The loop is an ellipse, sheared along the line dg = slope dp, half as wide and high as the critical energies of the
-    well allow, below and to both sides. `end` is 1 if p is M3, else -1; `D` may be given where floats lose its digits.
+    well allow, below and to both sides; smaller where that ellipse leaves the well. ``p`` is the momentum of the spin,
+    ``end`` is 1 if p is M3, else -1, and 0 to find it; ``D`` may be given where floats lose its digits.
     Raises DomainError where no loop fits: the value is not isolated, or floats do not tell it from its neighbours.
     """
     end = end or int(np.sign(p * wells.M3) or 1)
@@ -296,12 +299,12 @@ def around(
 
 
 def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
-    """Carry two periods of the tori of a body round a `loop` (N, 2) of values (F, H), closed by its first point.
+    """Carry two periods of the tori of a body round a ``loop`` (N, 2) of values (F, H), closed by its first point.
 
-    The tori are those next to the spin about an `axis`, 0 to 2. Their periods, pairs of times (T_H, T_F), are proved in
-    balls at each point and continued to the nearest basis. Returns the rows of the new basis in the old, and the
-    largest distance of a continued basis from the next in units of that, which must be below 1/4. Raises DomainError
-    for a coarser loop, NotCertifiedError where no periods are found.
+    The tori are those next to the spin about an ``axis``, 0 to 2. Their periods, pairs of times (T_H, T_F), are
+    proved in balls at each point and continued to the nearest basis. Returns (rows of the new basis in the old, two
+    tuples of integers; the largest distance of a continued basis from the next in units of that), the latter below
+    1/4. Raises DomainError for a coarser loop, NotCertifiedError where no periods are found.
     """
     state = np.zeros(6)
     state[[axis, axis + 3]] = bifurcation.c / bifurcation.b, bifurcation.b
@@ -325,9 +328,10 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
 
 
 def _with_values(bifurcation: Bifurcation, state: FloatArray, values_sought: FloatArray) -> FloatArray:
-    """Return (M, K), shape (6,), near a `state` (6,), with the values sought of (H, F, K^2, (M, K)).
+    """Return (M, K), shape (6,), near a ``state`` (6,), with the values sought of (H, F, K^2, (M, K)), shape (4,).
 
-    The result is that of `NEWTON_STEPS` steps of Newton's method, without a check of convergence.
+    ``bifurcation`` is that of the body. The result is that of `NEWTON_STEPS` steps of Newton's method, without a
+    check of convergence.
     """
     I, a = bifurcation.inertia, bifurcation.a
     for _ in range(NEWTON_STEPS):

@@ -15,11 +15,13 @@ TOLERANCE = 1e-7
 
 
 def trace_map(ratio: Any, field: Any, omega: Any, ends: tuple[Any, Any] | None = None) -> NDArray[np.int64]:
-    """Shape of the trace about the field from each initial angular velocity: steady, 0, waving, 1, or looping, 2.
+    """Return the shape of the trace about the field from each initial angular velocity: steady 0, waving 1, looping 2.
 
-    The rate of precession is dpsi = (p - M3 nu)/(1 - nu^2) - b, theorem-top, nu = (c3 - Omega3)/b; the axis makes loops
-    if it changes sign between the turning points. `field` = (B2, B3), not both 0; `omega` (..., 3) in the same unit
-    1/time; `ends` the least and the largest Omega3 (...), where they are known: those of `GeneralMotion`.
+    The result is an integer array (...). The rate of precession is dpsi = (p - M3 nu)/(1 - nu^2) - b, theorem-top,
+    nu = (c3 - Omega3)/b; the axis makes loops if it changes sign between the turning points. ``ratio`` is I3/I2 or
+    a body, ``field`` = (B2, B3), not both 0; ``omega`` (..., 3) is in the same unit 1/time; ``ends`` are the least
+    and the largest Omega3 (...), where they are known: those of `GeneralMotion`. Raises DomainError for the zero
+    field.
     """
     I, _, _ = shape_factors(ratio)
     B2, B3 = (number(x, "The field") for x in components(field, ("B2", "B3"), "The field"))

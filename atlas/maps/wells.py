@@ -28,7 +28,8 @@ END_TOLERANCE = 2.0**-48
 class Branch:
     """Critical values of steady precessions at one M3, in units of I2: arrays (N,).
 
-    `w` is the rate of precession plus k2 in 1/time, `p` the momentum along n in 1/time, `g` the energy in 1/time^2.
+    `w` is the rate of precession plus k2 in 1/time, `r` the cosine between axis and n, `p` the momentum along n in
+    1/time, `g` the energy in 1/time^2, `stable` the squared frequency of nutation in 1/time^2.
     """
 
     w: FloatArray
@@ -53,7 +54,7 @@ class Wells:
 
     @classmethod
     def of(cls, top: TopMotion) -> "Wells":
-        """Return the potentials of all motions of this top with the same M3."""
+        """Return the potentials of all motions of the top of this motion with the same M3."""
         (I2, I3), (k2, k3) = top.inertia, top.coupling
         M3 = float(top.invariants()["M3"])
         A = (k3 / I3 * k3 - k2 / I2 * k2 + top.quadratic) / I2
@@ -61,14 +62,18 @@ class Wells:
 
     @classmethod
     def at(cls, M3: float, I: float, coupling: tuple[float, float], linear: float, quadratic: float) -> "Wells":
-        """Return the potentials of a top at this M3 in units of I2, with I = I3/I2 and `coupling` (k2/I2, k3/I2)."""
+        """Return the potentials of a top at this M3 in units of I2, with I = I3/I2 and ``coupling`` (k2/I2, k3/I2).
+
+        ``linear`` and ``quadratic`` are the coefficients of the potential over I2, in 1/time^2.
+        """
         k2, k3 = coupling
         return cls(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
 
     def potential(self, p: Any, nu: Any) -> Any:
-        """Return V <= g, in 1/time^2, of motions with the momentum p along n at nu = cos theta, theorem-every-top.
+        """Return the potential V, in 1/time^2, of motions with the momentum p along n at nu = cos theta.
 
-        Raises DomainError unless |nu| < 1.
+        Motions of the energy g have V <= g, theorem-every-top. ``p`` (1/time) and ``nu`` may be arrays, which
+        broadcast. Raises DomainError unless |nu| < 1.
         """
         p, nu = real(p, "p"), real(nu, "nu")
         if (np.abs(nu) >= 1).any():
@@ -85,19 +90,20 @@ class Wells:
     def spin(self, end: int) -> tuple[float, float, float]:
         """Return p, g and D = M3^2 - 4 (end a + A) of the spin about n, nu = end = ±1, theorem-sleeping-top.
 
-        The value is of focus-focus type where D < 0, theorem-focus.
+        p is in 1/time, g and D are in 1/time^2. The value is of focus-focus type where D < 0, theorem-focus. Raises
+        DomainError for another ``end``.
         """
         if end not in {1, -1}:
             raise DomainError(f"The axis lies along the field, end = 1, or against it, end = -1, not {end!r}.")
         return end * self.M3, self.energy(end, 0.0), self.M3 * self.M3 - 4 * (self.A + end * self.a)
 
     def precessions(self, reach: float, points: int = 400) -> tuple[Branch, ...]:
-        """Return the curves p(w), g(w) of critical values, theorem-top-precession: the bifurcation diagram at one M3.
+        """Return the curves p(w), g(w) of critical values as `Branch`es of ``points`` points, theorem-top-precession.
 
-        The cosine r = (M3 w - a)/(w^2 + A) must lie within [-1, 1]; each branch is an interval of w where it does, up
-        to |w| = `reach`, and ends on the axis, r = ±1, or at `reach`. The curves have cusps where `stable` changes
-        sign. Where w^2 = -A and M3 w = a, as of a free body that spins about its axis, any cosine goes with this w:
-        such a branch comes last.
+        They are the bifurcation diagram at one M3. The cosine r = (M3 w - a)/(w^2 + A) must lie within [-1, 1];
+        each branch is an interval of w where it does, up to |w| = ``reach`` (1/time), and ends on the axis, r = ±1,
+        or at the reach. The curves have cusps where `stable` changes sign. Where w^2 = -A and M3 w = a, as of a
+        free body that spins about its axis, any cosine goes with this w: such a branch comes last.
         """
         A, a, M3 = self.A, self.a, self.M3
         ends = [-reach, reach, 0.0] if A <= 0 and not M3 and not a else [-reach, reach]
@@ -123,9 +129,10 @@ class Wells:
         return (*branches, *self._at_any_cosine(reach, points))
 
     def _at_any_cosine(self, reach: float, points: int) -> Iterator[Branch]:
-        """Yield the precessions that go with one rate at every cosine, w^2 = -A and M3 w = a.
+        """Yield the `Branch`es of precessions with one rate at every cosine, w^2 = -A and M3 w = a; at most two.
 
-        One is the free body, A = a = 0, that spins about its axis wherever that points: w = 0, p = M3 r, g = 0.
+        Each has ``points`` points, and |w| <= ``reach``. One is the free body, A = a = 0, that spins about its axis
+        wherever that points: w = 0, p = M3 r, g = 0.
         """
         A, a, M3 = self.A, self.a, self.M3
         r, size = -np.cos(np.pi * (np.arange(points) + 0.5) / points), float(np.sqrt(max(-A, 0.0)))
@@ -138,7 +145,8 @@ class Wells:
     def cusps(self, nu: Any, k2: float = 0.0) -> tuple[Any, Any]:
         """Return (p, g) of the motion whose axis stops at nu = cos theta, a cusp of its trace, theorem-cusp.
 
-        `k2` is the coupling across the axis over I2, in 1/time.
+        p is in 1/time, g in 1/time^2, of the shape of ``nu``. ``k2`` is the coupling across the axis over I2, in
+        1/time.
         """
         return self.M3 * nu + k2 * (1 - nu) * (1 + nu), self.energy(nu, k2)
 
@@ -154,9 +162,10 @@ def nutation_squared(A: Any, a: Any, w: Any, r: Any) -> Any:
 
 
 def rest(M3: float, p: float, nu: FloatArray) -> FloatArray:
-    """Return a + A nu, in 1/time^2, for which theta can be constant at nu = cos theta, theorem-top-precession.
+    """Return a + A nu (N,), in 1/time^2, for which theta can be constant at nu (N,), theorem-top-precession.
 
-    In the plane of (a, A) this is a line. `M3` and `p` are in 1/time.
+    nu is cos theta. In the plane of (a, A) this is a line. ``M3`` and ``p`` are the momenta along the axis and along n,
+    in 1/time.
     """
     w = (p - M3 * nu) / ((1 - nu) * (1 + nu))
     return M3 * w - nu * w * w
