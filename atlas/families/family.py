@@ -16,12 +16,17 @@ ROUNDING = 1e-12
 class Parameter:
     """A parameter of a family's two classes, double and certified, under its name in both.
 
-    name      as `--name` and, of a number, as a column; `columns` names the components of a vector
+    name      as `--name` and, of a number, as a column
+    says      its meaning, the help of the option `--name`
     unit      in which it is given, "" of a pure number
-    default   where a slider starts, one number a component; none without a slider; `range`, its ends
-    needed    whether it has to be given; `omitted`, otherwise, is the value of each component, or None
-    says      its meaning, the help of the option `--name`; `option` is false where the command has none
+    default   where its sliders start, one number a component; () without a slider
+    range     the ends of each slider
+    needed    whether it has to be given
+    omitted   the value of each component where it is not given, or None for the class's own default
+    columns   names of the components of a vector; () of a number
+    metavar   its values in the help of the command, None for the usual
     last      whether arrays of vectors have the components last, else they are a tuple of arrays
+    option    whether the command has the option `--name`
     """
 
     name: str
@@ -46,18 +51,17 @@ class Parameter:
 class Quantity:
     """A number of a family, several that belong together, or a name.
 
-    name       as an attribute of both classes, and in a table; `columns` names the components of several
-    says       its meaning, in a few words; `unit` "" of a pure number and of a name
-    equation   where it stands; `cases`, by the name of a case, where `equation` and `says` are other there
-    symbol     in a printout, the name if there is none; `lines`, symbol and words of each component on its own line
-    get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
-    drawn      how to get it at inputs moved for a standard deviation, from an object of kernels and the unmoved value
-    text       how the texts of its digits become one text
-    missing    why there may be none: an empty cell then, which this explains; "" where that is an error
-    checked     its name in a stress run, if it has a promise or is checked without one
-    certified  whether a sweep gives it in certified digits; `printed`, `tabled`, whether a command prints it and a
-               table has it
-    slow       whether it takes more than a few milliseconds, as a proof does: not while a slider moves
+    name       as an attribute of both classes, and in a table; `columns` names the components of several says
+    its meaning, in a few words unit       "" of a pure number and of a name equation   where it stands in the
+    paper; `cases` maps the name of a case to (says, equation) where these differ there symbol     in a printout,
+    the name if there is none lines      (symbol, words) of each component that is printed on its own line get
+    how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls drawn      how
+    to get it at inputs moved for a standard deviation, from an object of kernels and the unmoved value text
+    how the texts of its digits become one text missing    why there may be none: an empty cell then, which this
+    explains; "" where that is an error checked    its name in a stress run, if it has a promise or is checked
+    without one certified  whether a sweep gives it in certified digits printed    whether a command prints it
+    tabled     whether a table has it slow       whether it takes more than a few milliseconds, as a proof does: not
+    while a slider moves
     """
 
     name: str
@@ -80,7 +84,10 @@ class Quantity:
     slow: bool = False
 
     def value(self, thing: Any, *, exact: bool = False) -> Any:
-        """Return the value of the quantity of an object of kernels or, if `exact`, of balls."""
+        """Return the value of the quantity of an object ``thing`` of kernels or, if ``exact``, of balls.
+
+        A float, an array, a ball, a tuple of these or a name, as the class has it.
+        """
         return ((exact and self.exact) or self.get or attrgetter(self.name))(thing)
 
     @property
@@ -93,9 +100,10 @@ class Quantity:
 class Sampled:
     """A function of time of a family: a vector or, if `matrix`, a matrix.
 
-    `method` is the name of the method of both classes that computes the function, `name` its name in tables.
-    `components` are the endings of its columns, 1, 2, 3 if there are none. `uncertified` says that the class in balls
-    does not have it.
+    `method` is the name of the method of both classes that computes the function, `name` its name in tables, `says`
+    its meaning, `equation` where it stands, `symbol` its symbol in a printout, `checked` its name in a stress run,
+    `printed` whether a command prints it. `components` are the endings of its columns, 1, 2, 3 if there are none.
+    `uncertified` says that the class in balls does not have it.
     """
 
     name: str
@@ -111,13 +119,16 @@ class Sampled:
     uncertified: bool = False
 
     def method_of(self, motion: Any) -> Callable[[Any], Any]:
-        """Return the method of a motion that computes the function at times t."""
+        """Return the bound method of a motion that computes the function at times t."""
         method: Callable[[Any], Any] = getattr(motion, self.method)
         return method
 
     @property
     def heading(self) -> list[str]:
-        """Headings of the columns in which a command prints the function, three rows for each time."""
+        """Headings of the columns in which a command prints the function: three for a matrix, one for a vector.
+
+        A vector or a row of a matrix has its components in three rows for each time.
+        """
         if self.matrix:
             return [f"{self.name}_i{j}" for j in (1, 2, 3)]
         symbol = self.symbol or f"{self.name}_i"
@@ -125,7 +136,7 @@ class Sampled:
 
     @property
     def columns(self) -> dict[str, Callable[[Any, Any], Any]]:
-        """Return the components in a table, each as a function of an object and the time."""
+        """The components in a table by column name, each a function of an object and the time."""
         if self.matrix:
             return {f"{self.name}{i}{j}": partial(_entry, i, j) for i in (1, 2, 3) for j in (1, 2, 3)}
         return {f"{self.name}{x}": partial(_component, self.method, i) for i, x in enumerate(self.components or "123")}
@@ -143,8 +154,9 @@ def _component(method: str, i: int, motion: Any, t: Any) -> Any:
 class Command:
     """The command `atlas NAME` of a family.
 
-    `title` stands over the output, and is completed by the quantity `named`. With `undecided` a number may be zero
-    without a proof: its digits are sought up to a limit, beyond which it is called undecided.
+    `summary` is its line in a list, `help` and `examples` are its help. `title` stands over the output, and is
+    completed by the value of the quantity `named`, if that is not "". With `undecided` a number may be zero without
+    a proof: its digits are sought up to a limit, beyond which it is called undecided.
     """
 
     name: str
@@ -158,16 +170,22 @@ class Command:
 
 @dataclass(frozen=True)
 class Family:
-    """A family of motions or surfaces: parameters in the order of both classes, quantities, functions of time.
+    """A family of motions or surfaces, as one line of the register.
 
-    `source` is the class with its module, where "{}" stands for "kernel" or "certified". `promises` holds the largest
-    errors, in ulps, by the names of a stress run: of quantities and of other checked values. Tables compute `at_once`
-    motions in one array. `figures` are recipes that draw one, from parameters of the same names. `typed` are the words
-    that ask for one at the command line, before its parameters, where the family has no `command` of its own. Options
-    in `instead` may stand for a parameter. `last_axis` describes the last of the class's axes. With `is_sensitive`
-    derivatives in the inputs take milliseconds; with `in_given_axes` commands take any axes of the body and an
-    attitude. `axis_rate` names the rate at which the third axis precesses, where it does not nutate. `in_plane`
-    converts arguments to axes in which the field has two components, and returns the rotation to these axes, if any.
+    name          of the family; `says` describes it in words
+    source        the class with its module, where "{}" stands for "kernel" or "certified"
+    parameters    in the order of both classes' constructors
+    quantities    numbers of one object; `sampled`, functions of time
+    promises      largest errors, in ulps, by the names of a stress run: of quantities and of other checked values
+    command       the command of the family, or None; `typed` are then the words that ask for one at the command line,
+                  before its parameters, () if there are none
+    at_once       objects that a table computes in one array figures       recipes that draw one object, from
+    parameters of the same names instead       parameters for which other options may stand last_axis     words on
+    the last of the class's axes is_sensitive  whether derivatives in the inputs take milliseconds only
+    in_given_axes whether commands take any axes of the body and an attitude axis_rate     name of the rate at which
+    the third axis precesses, where it does not nutate in_plane      function that converts arguments to axes in
+    which the field has two components, and returns (arguments,
+                  the rotation to these axes, or None)
     """
 
     name: str
@@ -189,11 +207,11 @@ class Family:
     in_plane: Callable[[dict[str, Any]], tuple[dict[str, Any], Any]] | None = None
 
     def takes(self, name: str) -> bool:
-        """Return whether the family has a parameter of this name."""
+        """Return whether the family has a parameter called ``name``."""
         return any(p.name == name for p in self.parameters)
 
     def quantity(self, name: str) -> Quantity | None:
-        """Return the quantity of this name, None where the family has none."""
+        """Return the `Quantity` called ``name``, None where the family has none."""
         return next((q for q in self.quantities if q.name == name), None)
 
     @property
@@ -203,11 +221,11 @@ class Family:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Words typed after `atlas`, before the parameters."""
+        """Words typed after `atlas`, before the parameters; () for a family that no command computes."""
         return (self.command.name,) if self.command else self.typed
 
     def case(self, thing: Any) -> str:
-        """Return the name of the case that an object is, by which words differ; "" in a family without cases."""
+        """Return the name of the case of an object ``thing``, by which words differ; "" in a family without cases."""
         return str(getattr(thing, self.command.named)) if self.command and self.command.named else ""
 
     def kernels(self) -> Any:

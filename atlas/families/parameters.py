@@ -42,7 +42,10 @@ PRINCIPAL_FIELD = Parameter(
 
 
 def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
-    """Return the functions of time R, quaternion and angular velocity in the laboratory, as `Sampled`."""
+    """Return three functions of time as `Sampled`: R, its quaternion, and the angular velocity in the laboratory.
+
+    ``equation`` is that of R, ``checked`` its name in a stress run.
+    """
     return (
         Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, checked=checked),
         Sampled("q", "quaternion", "unit quaternion of R, continuous", components=tuple("xyzw"), uncertified=True),
@@ -54,7 +57,10 @@ def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
 
 
 def nutation(axis: str) -> tuple[Quantity, ...]:
-    """Return the quantities of nutation: its period, precession and spin per period, and their mean rates."""
+    """Return five quantities of nutation as `Quantity`: its period, precession and spin per period, their mean rates.
+
+    ``axis`` names the axis of precession in words, such as "B".
+    """
     turns = (("precession", axis), ("spin", "the body's axis"))
 
     def of(words: str) -> dict[str, Any]:
@@ -82,14 +88,15 @@ ELLIPTIC = tuple(
 
 
 def in_brackets(parts: Any) -> str:
-    """Return the components of a vector, texts, in brackets: "(B2, B3)"."""
+    """Return texts ``parts``, the components of a vector, joined in brackets: "(0.1, 0.2)"."""
     return f"({', '.join(parts)})"
 
 
 def integrals(letter: str) -> tuple[Quantity, ...]:
-    """Return the constants of a motion as `Quantity`s; `letter`, "m" or "M", is that of the momentum along the field.
+    """Return five constants of a motion as `Quantity`: E', K^2, c3, c5 and the momentum along the field.
 
-    M = II (Omega + K) is the canonical momentum, m = II Omega the mechanical one.
+    ``letter``, "m" or "M", says which momentum: M = II (Omega + K) is the canonical one, m = II Omega the
+    mechanical one.
     """
     momentum = "II (Omega + K) along the field, over I2" if letter == "M" else "momentum along the field, over I2"
     return tuple(

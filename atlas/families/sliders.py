@@ -12,7 +12,10 @@ SLIDER_STEPS = 300
 
 @dataclass(frozen=True)
 class Slider:
-    """A slider: its name, meaning, ends, step and start, in the unit of its parameter, and its symbol or ""."""
+    """A slider: its name, meaning, ends `low` and `high`, step and start, in the unit of its parameter.
+
+    `symbol` stands beside it, or "" where the name does.
+    """
 
     name: str
     says: str
@@ -27,7 +30,10 @@ TIME = Slider("t", "time", 0.0, 60.0, 0.05, 0.0)
 
 
 def sliders_of(family: Family) -> list[Slider]:
-    """Return the sliders of all parameters with a default in the register, and of the time if the family has R."""
+    """Return a list of the sliders of all parameters with a default, one a component, and of the time.
+
+    The time has one only if the family has R.
+    """
     sliders = [
         Slider(name, p.says, *p.range, step_of(*p.range), start, letters(name))
         for p in family.parameters
