@@ -85,7 +85,7 @@ def root_model(*, elliptic: bool = False) -> Model:
 
 
 def edge_model() -> list[Model]:
-    """Return two models of any M and K with I3 the largest moment, I1 <= I2 and I2 <= I1, for theorem-edge."""
+    """Return two models of any M and K with I3 the largest moment, for theorem-edge: I1 <= I2 <= I3, I2 <= I1 <= I3."""
     gap, rise = sympy.symbols("first second", nonnegative=True)
     (I1, I2, I3), cases = MOMENTS, []
     for order in ({I2: I1 + gap, I3: I1 + gap + rise}, {I1: I2 + gap, I3: I2 + gap + rise}):

@@ -375,8 +375,8 @@ class _Formula:
     def argument(self, before: ast.expr | None) -> None:
         """Raise UnreadableError if a bracket with one token, such as (x) or (-x), stands next: it may be an argument.
 
-        Nothing is done where no factor ``before`` (None) stands, or the token in the bracket is an already replaced
-        phrase.
+        ``before`` is the product read so far. Nothing is done where it is None, or the token in the bracket is an
+        already replaced phrase.
         """
         if before is None or self.peek() != "(":
             return
