@@ -78,9 +78,9 @@ class Progression:
         circle_of(half, head if self.refined else None, sign, remainder, cos, sin, versine)
 
     def parts(self, i: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return x/2 for x = f t less whole half turns, as head and rest in rad, the sign of the latter, a spare array.
+        """Return four arrays (n, m): x/2 for x = f t less whole half turns, as head and rest in rad, signs, a spare.
 
-        The sign is 1.0 for an even number of half turns, -1.0 for an odd one. The four are (n, m) and lie in ``work``
+        A sign is 1.0 for an even number of half turns left out, -1.0 for an odd one. The arrays lie in ``work``
         (8, n, m); ``i`` (2, m) has integers above ones.
         """
         (head, remainder), half_turns, spare = work[:2], work[2], work[3]
@@ -220,10 +220,10 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
 
 
 def product(functions: FloatArray, table: FloatArray, rows: FloatArray, start_row: int) -> None:
-    """Write matrices, functions (r, m) transposed times table (r, 9 FINE_TIMES), into ``rows`` (count, 9), one a row.
+    """Write m blocks of FINE_TIMES matrices into ``rows`` (count, 9), one matrix a row.
 
-    The first goes to row ``start_row``, which may be negative; results before row 0 and beyond the last row are
-    dropped.
+    The blocks are the product of ``functions`` (r, m), transposed, and ``table`` (r, 9 FINE_TIMES). The first goes
+    to row ``start_row``, which may be negative; results before row 0 and beyond the last row are dropped.
     """
     m = functions.shape[1]
     if start_row < 0:

@@ -200,7 +200,7 @@ class DoubleRotationRows:
         (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
     def turned(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write R_n(k t) v for constant vectors v (3, m), in their unit, into ``out`` (m, 3).
+        """Write R_n(k t) v for constant vectors v (3, m), in their unit, at t (m,) into ``out`` (m, 3).
 
         Raises AtlasError if a result is not finite.
         """
@@ -211,7 +211,7 @@ class DoubleRotationRows:
             raise AtlasError("A vector that is to be turned is too large for a float: choose larger units.")
 
     def swung(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write R_z(-phi t) v for constant vectors v (3, m), in their unit, into ``out`` (m, 3)."""
+        """Write R_z(-phi t) v for constant vectors v (3, m), in their unit, at t (m,) into ``out`` (m, 3)."""
         (x, y, z), (cos, sin, _) = vector, self._circle(1, t)
         out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
 

@@ -43,7 +43,7 @@ def refuse(where: Any, sentence: str, *values: Any) -> None:
 
 
 def written(value: Number) -> str:
-    """Return a number as the shortest text of the double nearest to it, or "beyond all floats"."""
+    """Return a number, exact or a float, as the shortest text of the double nearest to it, or "beyond all floats"."""
     try:
         return repr(int(value.p) / int(value.q) if hasattr(value, "p") else float(value))
     except OverflowError:

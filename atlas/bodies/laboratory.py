@@ -219,7 +219,10 @@ class Disturbance:
 
     @property
     def verdict(self) -> str:
-        """Text on the effect: negligible, a share of what is shown, or larger than that, always or from `value` on."""
+        """The effect in words: negligible, a share of the shown effect, or larger than that, always or from `value` on.
+
+        Negligible is a share below SMALL_SHARE for all usual values.
+        """
         of = f" for {self.usual}" if self.usual else ""
         if self.outweighs:
             return f"larger than the effect shown{of}"

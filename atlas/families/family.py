@@ -51,17 +51,23 @@ class Parameter:
 class Quantity:
     """A number of a family, several that belong together, or a name.
 
-    name       as an attribute of both classes, and in a table; `columns` names the components of several says
-    its meaning, in a few words unit       "" of a pure number and of a name equation   where it stands in the
-    paper; `cases` maps the name of a case to (says, equation) where these differ there symbol     in a printout,
-    the name if there is none lines      (symbol, words) of each component that is printed on its own line get
-    how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls drawn      how
-    to get it at inputs moved for a standard deviation, from an object of kernels and the unmoved value text
-    how the texts of its digits become one text missing    why there may be none: an empty cell then, which this
-    explains; "" where that is an error checked    its name in a stress run, if it has a promise or is checked
-    without one certified  whether a sweep gives it in certified digits printed    whether a command prints it
-    tabled     whether a table has it slow       whether it takes more than a few milliseconds, as a proof does: not
-    while a slider moves
+    name       as an attribute of both classes, and in a table; `columns` names the components of several
+    says       its meaning, in a few words
+    unit       "" of a pure number and of a name
+    equation   where it stands in the paper
+    cases      (says, equation) by the name of a case, where these differ there
+    symbol     in a printout, the name if there is none
+    lines      (symbol, words) of each component that is printed on its own line
+    get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
+    drawn      how to get it at inputs moved for a standard deviation, from an object of kernels and the unmoved
+               value
+    text       how the texts of its digits become one text
+    missing    why there may be none: an empty cell then, which this explains; "" where that is an error
+    checked    its name in a stress run, if it has a promise or is checked without one
+    certified  whether a sweep gives it in certified digits
+    printed    whether a command prints it
+    tabled     whether a table has it
+    slow       whether it takes more than a few milliseconds, as a proof does: not while a slider moves
     """
 
     name: str
@@ -177,15 +183,17 @@ class Family:
     parameters    in the order of both classes' constructors
     quantities    numbers of one object; `sampled`, functions of time
     promises      largest errors, in ulps, by the names of a stress run: of quantities and of other checked values
-    command       the command of the family, or None; `typed` are then the words that ask for one at the command line,
-                  before its parameters, () if there are none
-    at_once       objects that a table computes in one array figures       recipes that draw one object, from
-    parameters of the same names instead       parameters for which other options may stand last_axis     words on
-    the last of the class's axes is_sensitive  whether derivatives in the inputs take milliseconds only
-    in_given_axes whether commands take any axes of the body and an attitude axis_rate     name of the rate at which
-    the third axis precesses, where it does not nutate in_plane      function that converts arguments to axes in
-    which the field has two components, and returns (arguments,
-                  the rotation to these axes, or None)
+    command       the command of the family, or None
+    typed         without a command, words that ask for an object at the command line, before its parameters
+    at_once       objects that a table computes in one array
+    figures       recipes that draw one object, from parameters of the same names
+    instead       parameters for which other options may stand
+    last_axis     words on the last of the class's axes
+    is_sensitive  whether derivatives in the inputs take milliseconds only
+    in_given_axes whether commands take any axes of the body and an attitude
+    axis_rate     name of the rate at which the third axis precesses, where it does not nutate
+    in_plane      function that converts arguments to axes in which the field has two components, and returns
+                  (arguments, the rotation to these axes or None)
     """
 
     name: str

@@ -100,7 +100,7 @@ class ClosedMotion(ElementaryMotion):
     def _dynamics(self) -> Any:
         """Return (moments, coupling, linear, quadratic) of the elementary motion at the nearest double omega2.
 
-        They are those of `Inputs.dynamics`.
+        These are the arguments of the top that the motion is, as in `Inputs.dynamics` of `derivatives_inputs`.
         """
         return super()._inputs_of(0).dynamics
 

@@ -148,12 +148,12 @@ def verify(
 ) -> list[Verdict]:
     """Try entries of the ledger, all if none is named, and return their verdicts in the ledger's order.
 
-    names         words that `find` takes; None or empty for all entries progress      called with (name, how many
-    are done, how many there are) after each trial that is made, not for verdicts
-                  from the store
-    jobs          processes side by side store         cache with methods get(key) and put(key, bytes), in which
-    verdicts are kept by the fingerprint of their
-                  proof; None tries everything anew
+    names         words that `find` takes; None or empty for all entries
+    progress      called with (name, how many are done, how many there are) after each trial that is made, not
+                  for verdicts from the store
+    jobs          processes side by side
+    store         cache with methods get(key) and put(key, bytes), in which verdicts are kept by the fingerprint
+                  of their proof; None tries everything anew
 
     Raises AtlasError for a word that means no entry.
     """
