@@ -102,8 +102,10 @@ def test_the_least_stability_is_that_of_the_curve() -> None:
             stability = curve.stability(np.concatenate([x, -x]) * B2 - B2)
             assert 0 <= stability.min() - curve.least_stability <= 1e-5 * (B2**2 + B3**2)
     assert Hyperbola(1.0, (1.0, 0.2)).least_stability == 0
-    with pytest.raises(DomainError, match="B2 = 0"):
-        _ = Hyperbola(0.5, (0.0, 1.0)).least_stability
+    for kind in (Hyperbola, Certified):
+        assert 2 * kind(0.5, (1.0, 0.0)).least_stability == -1  # approached at the pole
+        with pytest.raises(DomainError, match="B2 = 0"):
+            _ = kind(0.5, (0.0, 1.0)).least_stability
 
 
 def test_the_least_stability_is_rounded_once() -> None:

@@ -79,8 +79,8 @@ class Hyperbola(BodyInField):
 
     @property
     def least_stability(self) -> Real:
-        """Infimum of `stability` on the curve (67), in 1/time^2; raises DomainError for B2 = 0 or B3 = 0."""
-        check_asymptotes(self.B2, self.B3)
+        """Infimum of `stability` on the curve (67), in 1/time^2; raises DomainError for B2 = 0."""
+        check_curve(self.B2, self.B2)  # B2 itself is no pole
         return hyperbola.least_stability(*self._constants)
 
     @property
