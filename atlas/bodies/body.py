@@ -72,7 +72,7 @@ def excess(I2: Any, I3: Any) -> Any:
 
 
 def kept_ratio(ratio: Any, I3: Any) -> Any:
-    """Return what an object stores as its ratio: the `SymmetricBody` itself, or for a number I3/I2 its copy ``I3``."""
+    """Return the ratio that an object stores: the `SymmetricBody` itself, or for a number I3/I2 its copy ``I3``."""
     return ratio if isinstance(ratio, SymmetricBody) else I3
 
 

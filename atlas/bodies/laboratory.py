@@ -159,8 +159,8 @@ class Spinning:
     """A charged body of a shape that spins in a field, in SI units.
 
     `sizes` are the dimensions of the `shape` by name in m, `mass` is in kg, `mu` the charge-to-mass ratio in C/kg,
-    `moments` (I2, I3) in kg m^2, `B` is |B| in T, `spin` |Omega| in rad/s. `rate` is that of the effect of the
-    charge which is shown, in rad/s.
+    `moments` (I2, I3) in kg m^2, `B` is |B| in T, `spin` |Omega| in rad/s. `rate` is the angular frequency of the
+    effect of the charge, with which other effects are compared, in rad/s.
     """
 
     shape: str
@@ -196,11 +196,11 @@ class Spinning:
 
 @dataclass(frozen=True)
 class Disturbance:
-    """An effect that a motion leaves out, as a line of a table.
+    """An effect that a motion leaves out, compared with the effect of the charge, which is shown.
 
     `says` names the effect. `value`, called `letter` (TeX), in `unit`, by the `formula` (TeX), is the body's own
-    number, or where `usual` describes usual values in words the number from which on the effect outweighs what is
-    shown. `least` and `greatest` are the ratios of the effect to what is shown, at the ends of the usual values.
+    number, or where `usual` describes usual values in words the number from which on the effect outweighs the
+    charge's. `least` and `greatest` are the ratios of the effect to the charge's, at the ends of the usual values.
     """
 
     says: str
@@ -214,12 +214,12 @@ class Disturbance:
 
     @property
     def outweighs(self) -> bool:
-        """Whether the effect is larger than what is shown for all usual values."""
+        """Whether the effect is larger than the effect of the charge for all usual values."""
         return self.least > 1
 
     @property
     def verdict(self) -> str:
-        """The effect in words: negligible, a share of the shown effect, or larger than that, always or from `value` on.
+        """The effect in words: negligible, a share of the charge's effect, or larger, always or from `value` on.
 
         Negligible is a share below SMALL_SHARE for all usual values.
         """
@@ -236,10 +236,10 @@ class Disturbance:
 def disturbances(body: Spinning) -> Iterator[Disturbance]:
     """Yield a `Disturbance` for each effect that the motion of a charged body in a field leaves out.
 
-    Each is compared with the effect of the charge. Magnetism compares energies, gas and eddy currents the rate at
-    which they stop a turn with that of the shown effect, radiation the times. Bodies that are no spheres have the
-    drag and the eddy currents of the sphere around them. Effects are left out where their number has no value:
-    without a rate, a potential or a spin, and magnetism for a shape that is not solid.
+    Each is compared with the effect of the charge: magnetism by energies, gas and eddy currents by the rate at which
+    they stop a turn, radiation by times. Bodies that are no spheres have the drag and the
+    eddy currents of the sphere around them. Effects are left out where their number has no value: without a rate, a
+    potential or a spin, and magnetism for a shape that is not solid.
     """
     r, (_, I3) = body.radius, body.moments
     aspect, potential, rate = body.aspect, body.potential, body.rate
@@ -289,9 +289,9 @@ def disturbances(body: Spinning) -> Iterator[Disturbance]:
 def _from(
     says: str, letter: str, value: float, unit: str, formula: str, ends: tuple[float, float], usual: str, power: int
 ) -> Disturbance:
-    """Return the `Disturbance` that outweighs what is shown from ``value`` on, and grows as its power ``power``.
+    """Return the `Disturbance` that outweighs the charge's effect from ``value`` on, and grows as its power ``power``.
 
-    ``ends`` are the least and greatest usual value; the other arguments are those of `Disturbance`.
+    ``ends`` are the least and greatest usual value; the other arguments are the fields of `Disturbance`.
     """
     low, high = ((x / value) ** power for x in ends)
     return Disturbance(says, letter, value, unit, formula, usual, low, high)

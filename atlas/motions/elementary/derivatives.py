@@ -95,8 +95,8 @@ def among_all(
 ) -> Inputs:
     """Return the `Inputs` of motion number ``i`` of a placed ``motion`` as a general motion of its body.
 
-    ``scalars`` are those of its own family: functions by name. Vectors are along ``axes`` (..., 3, 3), rows given
-    in the body; without ``axes``, along the axes of the class.
+    ``scalars``, functions by name, are those of the motion's own family. Vectors are along ``axes`` (..., 3, 3),
+    rows given in the body; without ``axes``, along the axes of the class.
     """
     row, shape = motion._row(i), (*motion.shape, 3)  # noqa: SLF001  of the same folder
     _, B, R, w = motion.given
