@@ -230,9 +230,9 @@ class Document:
         return [block for page in self.pages for name, block in page.placed if name == template]
 
     def flows_after(self, table: Any) -> bool:
-        """Return whether the table after the view `table` `flows`: it stands at its place in the text.
+        """Return whether the table that follows `table`, a `TableView`, stands in the text and does not float.
 
-        False after the last.
+        False after the last table.
         """
         return any(table_after.flows for table_after in self.listed("table")[table.number : table.number + 1])
 

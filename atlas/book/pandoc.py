@@ -59,10 +59,10 @@ def release() -> str:
 
 
 def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
-    """Return the trees of some texts (Markdown, inline): inlines of an inline text, else blocks.
+    """Return the trees of some texts (Markdown, inline): a list of inlines for an inline text, else of blocks.
 
-    Each is read as a string of a YAML header, so that none can reach into another; one that ends a line is read as
-    blocks. Raises AtlasError for what `run` refuses.
+    Each text is read as a string of a YAML header, so that none can reach into another; a text that ends a line is
+    read as blocks. Raises AtlasError where pandoc warns, fails, or needs too much time or memory.
     """
     sources = [" ".join(markdown.split()) if inline else f"{markdown.strip()}\n" for markdown, inline in texts]
     header = f"---\n{json.dumps({'texts': sources}, ensure_ascii=True)}\n---\n"
@@ -73,8 +73,8 @@ def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
 def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
     """Return trees (tree, inline) as HTML, Typst or LaTeX, a text for each.
 
-    Raises FormulaError for a formula that can't be read, AtlasError for what else `run` refuses. `target` is
-    "html", "typst" or "latex".
+    `target` is "html", "typst" or "latex". Raises FormulaError for a formula that can't be read, AtlasError where
+    pandoc fails otherwise, or needs too much time or memory.
     """
     mark = _MARK[target].format(hashlib.sha256(json.dumps(trees).encode()).hexdigest())
     blocks: list[Any] = []

@@ -143,5 +143,5 @@ def numbers_of(columns: Mapping[str, "Column"], name: str, table: Path) -> "NDAr
 
 
 def labelled(name: str, units: Mapping[str, str]) -> str:
-    """Return the label of an axis: a name, and its unit in brackets if it has one."""
+    """Return the label of an axis: a column's name, and its unit in brackets, "t [s]", where `units` has one for it."""
     return f"{name} [{units[name]}]" if units[name] else name

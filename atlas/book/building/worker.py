@@ -110,9 +110,10 @@ def _draw(task: Task) -> None:
 
 
 def _page_files(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
-    """Return the wanted kinds of files that are no pictures: scripts "scene" and "moves" for a page, "csv", "csv.gz".
+    """Return the files that are no pictures, bytes by kind, of those that the task asks for.
 
-    `figures` are the drawn Matplotlib figures of the scene, from which the scripts read places; [] if there are none.
+    The kinds are the scripts "scene" and "moves" for a page, "csv" and "csv.gz". `figures` are the drawn Matplotlib
+    figures of the scene, from which the scripts read places; [] if there are none.
     """
     contents = {}
     if "scene" in task.keys:

@@ -178,9 +178,10 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
 
 
 def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
-    """Return (title, body, coefficient in J of nu^2, nu = cos theta, in the energy of the body's induced moment).
+    """Return (title of the body, body, coefficient of nu^2 in the energy of its induced moment, in J).
 
-    Raises AtlasError for a body without shape or mass, and for a field without a charge-to-mass ratio.
+    nu is the cosine between axis and field, `setup` the material. Raises AtlasError for a body without shape or
+    mass, and for a field without a charge-to-mass ratio.
     """
     record, body = case.body_record, case.body
     if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
