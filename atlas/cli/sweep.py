@@ -314,7 +314,10 @@ def _once(names: Sequence[str], source: str) -> None:
 
 
 def _options(family: str) -> dict[str, tuple[str, str]]:
-    """Return (option, unit) by column name, for the parameters of all families; those of `family` come first."""
+    """Return (option without dashes, unit) by column name, for the parameters of all families and for "t".
+
+    Where several families have a name, that of `family` counts.
+    """
     parameters = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
     return {name: (p.name, p.unit) for p in parameters for name in p.names} | {"t": ("times", TIME)}
 

@@ -116,9 +116,10 @@ class FigureView:
 
 
 def view(block: Figure, composer: Composer) -> FigureView:
-    """Return the `FigureView` with the next number; the caption is the block's, the scene's, or says that it failed.
+    """Return the `FigureView` with the report's next number, and make it the target of citations of its id.
 
-    A width set by the block scales the height in proportion.
+    The caption is the block's, else the scene's, else says that the recipe failed. A width set by the block scales the
+    height in proportion.
     """
     composer.figures += 1
     pictures = tuple(composer.document.pictures_of(block))

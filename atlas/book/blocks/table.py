@@ -181,7 +181,7 @@ def view_recorded(block: Recorded, composer: Composer) -> TableView:
 
 
 def outline(block: Table | Recorded, composer: Composer) -> None:
-    """Count a table and make it the target of citations, without computing it."""
+    """Count a table and make it the target of citations of its id, without computing it."""
     composer.tables += 1
     composer.anchor("tab", block.id, "Table", composer.tables)
 

@@ -293,7 +293,10 @@ def body_and_field(request: Request) -> Data:
 
 
 def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
-    """Yield (words, symbol, value, unit) of each input of body and field, a row for each component."""
+    """Yield (words, symbol, value, unit) of each given dimension of the body, and of the components of B and E.
+
+    The field only where it is given as B; words stand at the first of three components.
+    """
     for key, (words, symbol, unit) in DIMENSIONS.items():
         value = getattr(case.body_record, key)
         if value is not None:
