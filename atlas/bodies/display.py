@@ -37,7 +37,7 @@ class Shown(CarriesUncertainty):
     def __setattr__(self, name: str, value: Any) -> None:
         """Set an attribute; AttributeError for an argument, a value computed from one, or an unknown public name.
 
-        While the object is made, before it has `arguments`, all names may be set.
+        While the object is made, before it has `arguments`, arguments and unknown names may be set.
         """
         if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")

@@ -256,8 +256,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """Return (motion, axes), the axes turned about e3 so that B1 = 0; None where no elementary motion starts.
 
         The axes (3, 3) have the axes of the class as rows. ``omega2`` and ``omega3`` replace the components of the
-        start. Without them, None also for arrays, without a field, for a start with nutation and for a body that is
-        not symmetric.
+        start. None for a body that is not symmetric; without ``omega2`` also for arrays, without a field, and for a
+        start with nutation.
         """
         from atlas.motions.nutation.kernel_general import standing
 

@@ -64,7 +64,7 @@ def multiplier_model() -> Model:
 def mirrored_model() -> Model:
     """Return `multiplier_model` with -R in the place of R, for the corrected text-affirmation.
 
-    -R is every orthogonal matrix of determinant -1 but few.
+    -R stands for the orthogonal matrices of determinant -1: all but those opposite to a half turn.
     """
     basis = multiplier_model()
     minus = {entry: -entry for entry in R}
