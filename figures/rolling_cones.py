@@ -21,7 +21,7 @@ from atlas.pictures.movement import riding, rotations_about
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 
 ROW = "its axis"
-SEEN = "A cone fixed in the body rolls on a cone fixed in space."
+SEEN = "The body cone rolls on a cone fixed in space."
 
 
 def scene(

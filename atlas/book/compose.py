@@ -127,6 +127,6 @@ def _explain_symbols(composer: Composer) -> None:
         anchors = composer.anchors(symbol.at)
         if not anchors:
             raise AtlasError(
-                f"{composer.place}: {symbol.tex} is explained nowhere in this report, only in one beside it."
+                f"{composer.place}: {symbol.tex} is explained in another report only: leave it out of the index."
             )
         document.symbols.append((composer.text(f"${symbol.tex}$", inline=True), anchors))

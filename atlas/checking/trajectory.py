@@ -104,7 +104,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
         place = f"{path.name}, line {number}"
         for name, values in _parameters(text, place).items():
             if not above:
-                raise AtlasError(f"{place}: a parameter stands above the line of names, not below it.")
+                raise AtlasError(f"{place}: a parameter stands below the line of names: move it above that line.")
             if parameters.setdefault(name, values) != values:
                 raise AtlasError(f"{place}: {name} is there twice, with other numbers.")
 
@@ -142,7 +142,7 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_
     """
     times = measured(t, "t", nan_policy)
     if times.ndim != 1 or not times.size:
-        raise AtlasError(f"The times are one array (N,) of one number or more, not {times.shape}.")
+        raise AtlasError(f"The times must be an array (N,) of at least one number, not of shape {times.shape}.")
     shapes = {"rotation": (3, 3), "quaternion": (4,), "angular_velocity": (3,)}
     order = QUATERNION if scalar_first else (*QUATERNION[1:], QUATERNION[0])
     columns = {"t": times}

@@ -96,7 +96,7 @@ class Parameters(Mapping[str, Parameter]):
                 parameters.add(name, None if p.expr else p.value, vary=p.vary, min=p.min, max=p.max, expr=p.expr)
             parameters.update_constraints()
         except (NameError, SyntaxError, TypeError, ValueError) as error:
-            raise AtlasError(f"An expression among the parameters has no value: {error}.") from error
+            raise AtlasError(f"The expression of a parameter cannot be evaluated: {error}.") from error
         ordered = lmfit.Parameters()
         ordered.add_many(*(parameters[name] for name in self))
         for name, p in self.items():

@@ -289,7 +289,9 @@ def around(
         widths.append(inner)
     wide = min(widths)
     if not (high > MIN_LOOP_SIZE * abs(g) and wide > MIN_LOOP_SIZE * abs(p)):
-        raise DomainError(f"The spin, D = {D:.3g}, is so nearly stable that floats hold no loop round its value.")
+        raise DomainError(
+            f"The spin, D = {D:.3g}, is too nearly stable for a loop round its value in doubles: choose another M3."
+        )
     t = 2 * np.pi * (np.arange(points) + 0.5) / points
     for size in 2.0 ** -np.arange(1, MAX_ELLIPSES):
         x, y = size * wide * np.cos(t), size * high * np.sin(t)

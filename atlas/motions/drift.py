@@ -111,7 +111,7 @@ def drift(
         return of_nutation(own, times, rates, friction)
     if any(rates[1:]):
         raise AtlasError(
-            "A body with three moments has no potential that grows: linear and quadratic are for a TopMotion."
+            "linear and quadratic are for the potential of a TopMotion: leave them out for a body with three moments."
         )
     if own.kind not in WITH_PHASES:
         raise DomainError(f"The motion has no phases to average over: it is {own.kind}; start beside it.")

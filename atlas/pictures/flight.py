@@ -33,7 +33,7 @@ def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit
     """
     particle = flight.particle
     if particle.shape or flight.point.ndim > 1 or flight.motion.rotation(0.0).ndim > 2:
-        raise AtlasError("A picture is of one Flight, not of several: make one with numbers in place of arrays.")
+        raise AtlasError("A picture shows one Flight, not an array of several: make one from numbers.")
     point, E = flight.point.tolist(), particle.E.tolist()
     setting = (
         rf"a body in $\mathbf{{B}}={tex_vector(particle.B.tolist())}$, $\mathbf{{E}}={tex_vector(E)}$",

@@ -59,7 +59,9 @@ def components(field: Any) -> tuple[float, float]:
     """Return (B2, B3) of B', in 1/time, from a `Field` or a pair. Raises DomainError if both vanish."""
     B2, B3 = map(number, parts(field, NAMES, "The field"), NAMES)
     if B2 == 0 and B3 == 0:
-        raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
+        raise DomainError(
+            "Without a field every omega starts a free motion, and there is no hyperbola: give a field other than 0."
+        )
     return B2, B3
 
 

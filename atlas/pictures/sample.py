@@ -116,8 +116,8 @@ def _cut(
             or not np.isfinite(sag[in_view]).all()
         ):
             raise DomainError(
-                f"A curve needs more than {MAX_POINTS} points to be drawn to {tolerance:g}: its sizes or its turns are "
-                "too far from the view; choose parameters nearer to one another."
+                f"A curve needs more than {MAX_POINTS} points to be drawn to {tolerance:g}: its extent or "
+                "its number of turns is too large for the view; choose less extreme parameters."
             )
         piece_counts = np.ones(len(open_), dtype=int)
         piece_counts[i[curved]] = np.maximum(np.where(plain, aims, np.minimum(aims, _FEW))[curved], 2)

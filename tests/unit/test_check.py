@@ -239,7 +239,7 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
         (HEAD + "t,R11\n0,1e999\n", "line 3, column R11: the cell is 1e999"),
         (HEAD + "# inertia = 2 3\nt,R11\n0,1\n", "by ratio and by inertia: leave one of them out"),
         (HEAD + "# omega2 = 0.8\nt,R11\n0,1\n", "line 2: omega2 is there twice, with other numbers"),
-        (HEAD + "t,R11\n0,1\n# omega2 = 0.8\n1,1\n", "line 4: a parameter stands above the line of names"),
+        (HEAD + "t,R11\n0,1\n# omega2 = 0.8\n1,1\n", "line 4: a parameter stands below the line of names"),
         ("# ratio: 1.5 roughly\nt,R11\n0,1\n", "line 1, parameter ratio: 'roughly' is not a number"),
     ],
 )

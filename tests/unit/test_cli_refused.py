@@ -414,7 +414,7 @@ def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -
         (OSError(28, "no space", "a.csv"), 1, "no space: a.csv"),
         (KeyboardInterrupt(), 130, "interrupted"),
         (KeyboardInterrupt(signal.SIGTERM), 143, "interrupted"),
-        (MemoryError(), 1, "there is not enough memory for it"),
+        (MemoryError(), 1, "there is not enough memory; ask for fewer numbers at once"),
         (AtlasError(f"{'a' * 400} {'b' * 401}"), 2, f"{'a' * 400} {'b' * 200}…{'b' * 100}"),  # long words are cut
     ],
     ids=["usage", "input", "disk", "interrupt", "end", "memory", "long"],

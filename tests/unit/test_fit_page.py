@@ -107,7 +107,7 @@ def test_the_pdf_and_the_file_have_the_pictures(folder: Path) -> None:
     assert ["residuals in standard errors" in caption for caption in captions] == [True, False]
     assert all(place.startswith("data:") for place in tree.xpath("//img/@src"))
     text = "".join(page_pdf.extract_text() for page_pdf in PdfReader(page.with_suffix(".pdf")).pages)
-    assert all(words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "How far ahead"))
+    assert all(words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "Range of predictions"))
 
 
 @pytest.mark.slow
@@ -189,7 +189,7 @@ def test_evidence_against_the_family_is_reported(tmp_path: Path, capsys: pytest.
     assert "What speaks against this motion:" in page
     assert "Neighbouring residuals are correlated" in page
     assert "Nothing in the residuals" not in page
-    assert "How far ahead" not in page
+    assert "Range of predictions" not in page
     assert "by params (--start)" in page
 
 

@@ -133,7 +133,7 @@ def off_the_field(b: float) -> float:
 def _check(setup: SizeParameters) -> None:
     """Raise AtlasError unless there are radii and all parameters are positive."""
     if not (setup.radii and min(*setup.radii, setup.density, setup.surface_field, setup.magnet) > 0):
-        raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
+        raise AtlasError("radii, density, surface_field and magnet of this table must be positive.")
 
 
 def two(value: float) -> Number:

@@ -63,7 +63,7 @@ class Differences:
             except DomainError:
                 continue
             return [(x, w / arb(2 * h), n / arb(h)) for x, w, n in zip(motions, weights, (1, -2, 1), strict=True)]
-        raise DomainError("No motions beside this one are known.")
+        raise DomainError("No derivative: inputs on either side of this one start no motion of the family.")
 
     def at(self, t: float) -> tuple[FloatArray, ...]:
         """Return (v, R dOmega/dp, R e3, its slope) at a time t: (inputs, 3) twice, then (3,) twice; dR/dp = [v]x R.

@@ -407,7 +407,7 @@ class AsymmetricMotion:
         """
         motion = self._nutating
         if not isinstance(motion, EulerTop):
-            raise DomainError("A mode, long axis or short axis, is that of a free body: this one is in a field.")
+            raise DomainError("The mode, long axis or short axis, is defined for a free body: this body is in a field.")
         return motion.mode
 
     @property
