@@ -107,7 +107,9 @@ def test_the_pdf_and_the_file_have_the_pictures(folder: Path) -> None:
     assert ["residuals in standard errors" in caption for caption in captions] == [True, False]
     assert all(place.startswith("data:") for place in tree.xpath("//img/@src"))
     text = "".join(page_pdf.extract_text() for page_pdf in PdfReader(page.with_suffix(".pdf")).pages)
-    assert all(words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "Range of predictions"))
+    assert all(
+        words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "Range of predictions")
+    )
 
 
 @pytest.mark.slow
