@@ -14,7 +14,7 @@ from atlas.motions.torus import certified as asymmetric
 @pytest.mark.skipif(not EXAMPLES, reason="a minute for each: in make stress")
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", ASYMMETRIC)
-def test_both_ways_meet(kind: str, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_values_by_periods_and_by_taylor_series_agree(kind: str, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """R at 60 units of 1/rate by the periods, and by Taylor series all the way, 20 digits of both; or not certified."""
     draw = ASYMMETRIC[kind](Random(f"{kind} {seed}"))  # noqa: S311  reproducible, not secret
     t = 60 / size_of(draw)

@@ -44,7 +44,7 @@ def finished_parts(parts: Path) -> set[str]:
     return {path.name for path in parts.glob("part-*")}
 
 
-def test_sweeps_that_are_killed_lose_nothing(tmp_path: Path, tables: dict[float, bytes]) -> None:
+def test_a_sweep_killed_at_any_moment_can_be_finished(tmp_path: Path, tables: dict[float, bytes]) -> None:
     """Killed at any moment from a new part on, with the recipe changed now and then, the last one ends whole."""
     chance, killed, folder = random.Random(os.getpid()), 0, tmp_path / "t.csv.parts"  # noqa: S311
     print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails

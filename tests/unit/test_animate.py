@@ -48,7 +48,9 @@ def test_the_bodies_of_the_film_strip_go_on_in_turn() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MOVING)
-def test_a_loop_closes_or_says_that_it_jumps(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_command_reports_an_animation_that_does_not_close(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Where the paths of a figure do not end as the identity, the command tells it beside the file's name."""
     monkeypatch.setattr(animation, "FRAMES", 2)
     scene = recipes.load(name).scene()
@@ -112,7 +114,7 @@ def test_an_animation_of_a_closed_motion_closes(p: int, q: int, periods: int, mo
     assert all(np.abs(a - b).max() < 1e-9 for a, b in zip(tips_first, second, strict=True))
 
 
-def test_an_animation_of_a_motion_that_does_not_close_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_animation_warns_if_the_motion_does_not_close(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without times; with times of the user's own nothing is said."""
     monkeypatch.setattr(animation, "FRAMES", 2)
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
@@ -275,7 +277,7 @@ def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 @pytest.mark.slow
-def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
+def test_animate_draws_the_body_at_its_position(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
     scene = animation.any_motion.scene_at(motion, 0.8, 0.0)

@@ -277,7 +277,7 @@ EXTREME = {
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (k > 0)) for k, name in enumerate(EXTREME)]
 )
-def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_values_by_periods_and_by_taylor_series_overlap(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """R(20) by the periods and R(20) by Taylor series all the way have numbers in common, to 20 digits."""
     with ctx.workprec(80):
         reduced = Balls(*EXTREME[name]).rotation(20)
@@ -472,7 +472,7 @@ def test_a_closed_form_is_held_against_the_twin(
     assert (single.closed is fake) == (not words.startswith("^cert"))
 
 
-def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:
+def test_a_grid_through_zero_is_the_identity_there() -> None:
     """Of a ball: the matrix at t = 0 is exactly one, wherever that stands; a grid that ends before it has none."""
     motion = atlas.AsymmetricMotion((1.0, 1.0, 1.0), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2))
     assert motion.accuracy == 2.0**-52

@@ -29,7 +29,7 @@ def layers(scene: Scene) -> Iterator[Curve | Points]:
             yield layer
 
 
-def test_everything_lies_in_view(scene: Scene) -> None:
+def test_all_points_lie_within_the_axes(scene: Scene) -> None:
     """All axes are logarithmic, and every point lies within their limits."""
     for panel in scene.panels:
         assert isinstance(panel, Plane)

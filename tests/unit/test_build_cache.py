@@ -112,7 +112,7 @@ def test_unused_cache_entries_are_removed(tmp_path: Path) -> None:
     assert path_of(cache, RECENT).exists()
 
 
-def test_a_digest_tells_values_apart() -> None:
+def test_different_values_have_different_digests() -> None:
     """Values that differ in type, order or last bit have different digests; equal dictionaries have the same."""
     values = [1, 1.5, "1.5", [1.5], [1.5, 2], [2, 1.5], 1.5000000000000002, None, True, {"a": 1}, {"b": 1}]
     assert len({digest(value) for value in values}) == len(values)

@@ -203,7 +203,7 @@ def test_a_folder_that_cannot_be_is_one_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_nothing_changed_means_nothing_built(copy: Path) -> None:
+def test_an_unchanged_report_is_not_built_again(copy: Path) -> None:
     """A second build takes the report as it is; a lost file is made again, an edited one stays, the new beside it."""
     words = command(copy)
     assert run(words).returncode == 0

@@ -215,7 +215,7 @@ def test_changes_that_cause_a_redraw_are_named(tmp_path: Path, monkeypatch: pyte
 
 
 @pytest.mark.slow
-def test_whatever_the_cache_has_lost_the_files_are_the_same(tmp_path: Path) -> None:
+def test_a_damaged_cache_entry_is_drawn_again_as_a_whole(tmp_path: Path) -> None:
     """Any one entry of a drawing removed, or all but one, it is drawn as a whole, with its moving parts."""
     kinds, cache = ("svg", "narrow", "scene", "moves"), Cache(tmp_path)
     (build,) = drawn_builds([figure("film_strip", *kinds)], cache)

@@ -122,7 +122,7 @@ def test_one_public_name_reaches_no_other(tmp_path: Path, memory: Cache) -> None
     assert "motions/elementary/kernel_hyperbola.py" not in reached
 
 
-def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path, memory: Cache) -> None:
+def test_sources_of_a_recipe_include_an_imported_recipe(tmp_path: Path, memory: Cache) -> None:
     """Code that a recipe borrows from another one is part of it."""
     recipe = write(tmp_path / "recipe.py", "from figures.hyperbola import caption\n")
     assert folder("figures") / "hyperbola.py" in Sources(memory).reached([recipe])

@@ -133,7 +133,7 @@ def test_stale_pages_are_removed_and_user_files_are_kept(tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
+def test_a_folder_with_the_users_files_is_kept(tmp_path: Path) -> None:
     """Where a folder of the report's name holds the user's own files, they stay."""
     file_mine = tmp_path / "out" / "plain" / "notes" / "thesis.tex"
     file_mine.parent.mkdir(parents=True)

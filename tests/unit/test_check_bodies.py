@@ -90,7 +90,7 @@ def test_errors_for_three_moments_are_measured_by_balls(tmp_path: Path, of_body:
 
 
 @pytest.mark.slow
-def test_its_quaternion_of_either_sign(tmp_path: Path, of_body: np.ndarray) -> None:
+def test_quaternions_of_either_sign_are_accepted(tmp_path: Path, of_body: np.ndarray) -> None:
     """Both signs are right, and in each row another component that is off by 2^-30 is found."""
     signs = np.array([1, -1, 1, -1])[:, None]
     q = signs * Rotation.from_matrix(of_body[:, :9].reshape(-1, 3, 3)).as_quat(scalar_first=True)

@@ -154,7 +154,7 @@ def test_kinetic_energy_is_the_hamiltonian_less_a_casimir() -> None:
     assert integrals.energy == pytest.approx(integrals.H - integrals.MK, abs=16 * EPS * abs(integrals.H))
 
 
-def test_no_turn_of_the_axes_changes_them() -> None:
+def test_integrals_do_not_depend_on_the_axes_of_the_body() -> None:
     """In other axes of the body, J, Omega and K turn and the integrals stay, within 64 eps of their terms."""
     axis = exact(0.36, 0.48, 0.8)
     Q = DoubleRotation(axis, *exact(1.0, 0.7)).rotation(0.9)
@@ -163,7 +163,7 @@ def test_no_turn_of_the_axes_changes_them() -> None:
         assert getattr(integrals_turned, name) == pytest.approx(getattr(here, name), abs=64 * EPS * 20)
 
 
-def test_a_symmetric_body_has_them_from_its_own_integrals() -> None:
+def test_integrals_of_clebsch_follow_from_those_of_a_symmetric_body() -> None:
     """H, F and (M, K) follow from E', c3, c5 and K^2, theorem-clebsch-symmetric, in units of I2."""
     rng = np.random.default_rng(11)
     Omega, K = rng.normal(size=(2, 40, 3))

@@ -84,7 +84,7 @@ def test_a_start_far_from_the_real_times_keeps_its_attitude(gap: float) -> None:
 
 
 @pytest.mark.slow
-def test_motions_whose_periods_are_too_long_are_held_against_the_twin_where_it_is() -> None:
+def test_periods_too_long_to_integrate_are_tried_once() -> None:
     """Each attempt at such a period takes seconds: it is made once."""
     motion = atlas.AsymmetricMotion((1.0, 1.000001, 1.5), (0.832, -0.546, 0.101), (-0.127, -0.716, -0.105))
     assert "agrees with the certified twin" in motion.agreement
@@ -108,7 +108,7 @@ def test_periods_too_long_to_integrate_are_refused_in_one_line() -> None:
 @pytest.mark.parametrize(
     ("field", "omega"), [((0.2, 1.0, 0.6), (1e308, 0.7, 1e308)), ((2e35, 1e36, 6e35), (1.0, 0.7, 2.0))]
 )
-def test_rates_that_are_too_far_apart_have_no_closed_form_and_say_so_at_once(
+def test_rates_of_very_different_size_have_no_closed_form_and_fail_fast(
     field: tuple[float, ...], omega: tuple[float, ...]
 ) -> None:
     """Isolating zeros that are 2^2000 apart would take hours; matrices are those of balls."""
@@ -127,7 +127,7 @@ def test_integrals_without_digits_are_an_error_in_one_line(monkeypatch: pytest.M
 
 
 @pytest.mark.slow
-def test_many_times_without_a_closed_form_take_one_way(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_arrays_without_a_closed_form_agree_with_single_times(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no period is used each value of an array is that of its time alone, and few steps are gone."""
     monkeypatch.setattr(clebsch_periods, "MAX_COEFFICIENT_BITS", 10**6)
     monkeypatch.setattr(OnTorus, "_without_periods", lambda *_: "a period of its torus is long")

@@ -213,7 +213,7 @@ def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
         assert np.abs(motion_back.rotation(t) - expected).max() < (16 + 2 * b * abs(t)) * EPS
 
 
-def test_it_tends_to_the_symmetric_body() -> None:
+def test_theta_functions_tend_to_the_symmetric_body() -> None:
     """R(30) for I2 = I1 (1 + d), d = 2^-20, is that of `GeneralMotion` but for some multiple of d."""
     field, omega, t = (0.25, 1.0, 0.5), (0.25, 0.75, 0.125), 30.0
     true = atlas.GeneralMotion.in_laboratory(1.25, field, np.eye(3), omega).rotation(t)

@@ -473,7 +473,7 @@ def test_a_separatrix_lacks_angles_per_period_with_a_reason() -> None:
     assert "nome" not in out
 
 
-def test_general_says_why_a_number_has_no_digits() -> None:
+def test_a_number_without_digits_is_printed_with_a_bound() -> None:
     """Quantities zero by symmetry are printed as 0; one that falls off as exp(-t) has a bound, as the table says."""
     motion = "--ratio 2 --field 1 0.5 --omega 1 -1 -0.5 --times 1e5"
     out = CliRunner().invoke(command, ["motion", *motion.split()], catch_exceptions=False).stdout

@@ -444,7 +444,7 @@ def test_a_tensor_is_the_same_body_for_every_command(tmp_path: Path, monkeypatch
     assert float(Path("f.csv").read_text().splitlines()[-1].split(",")[-2]) == pytest.approx(motion.frequencies[0])
 
 
-def test_columns_of_a_sweep_in_turned_axes_say_so(tmp_path: Path) -> None:
+def test_sweep_columns_along_principal_axes_have_a_suffix(tmp_path: Path) -> None:
     """R, Omega, the field and the start of a tensor are named for the principal axes that the head of the file has."""
     words = "--set t=0,0.7 --quantity R Omega energy --out".split()
     status, out = run("sweep", "motion", *TENSOR.split(), *words, str(tmp_path / "r.csv"))
@@ -465,9 +465,7 @@ def test_columns_of_a_sweep_in_turned_axes_say_so(tmp_path: Path) -> None:
     assert "_principal" not in (tmp_path / "s.csv").read_text()
 
 
-def test_an_unstable_start_in_any_field_is_that_of_every_command(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_all_commands_evaluate_an_unstable_start_as_typed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Page, sliders and sweep evaluate a symmetric body as typed: after t = 60 it still agrees."""
     monkeypatch.chdir(tmp_path)
     I, field, omega = 0.7157322617930502, (-0.765050795081338, 1.0200677267751173, 0.19211036905670717), (

@@ -383,7 +383,7 @@ def refusal(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
 
 
 @pytest.mark.slow
-def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -> None:
+def test_every_refusal_of_the_command_line_has_a_case(place: Path) -> None:
     """Of every statement that raises in atlas/cli, and each call of `fail`, a case stands above; nothing is written."""
     reached, unreached = set(), list[str]()
     for text, says in CASES:

@@ -23,7 +23,7 @@ def record(words: str) -> dict[str, Any]:
     return json.loads(outcome.stdout)  # type: ignore[no-any-return]
 
 
-def test_a_heavy_top_from_body_gravity_and_length_is_that_of_python() -> None:
+def test_a_heavy_top_of_the_command_line_agrees_with_python() -> None:
     """Kind, period and rates of the top of a disk on a peg, those of `TopMotion.heavy` to the bit."""
     body = atlas.SymmetricBody.disk(0.1, 0.03)
     top = atlas.TopMotion.heavy(body, 9.81, 0.04, (0.3, 1.0), (0, 0, 150), mass=0.1)

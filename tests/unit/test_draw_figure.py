@@ -175,7 +175,7 @@ def boxes(figure: Figure) -> list[tuple[str, Any]]:
     return [(text.get_text(), text.get_window_extent(renderer).extents) for text in names]
 
 
-def test_a_name_is_drawn_wherever_it_stands() -> None:
+def test_a_label_beside_the_panel_is_drawn() -> None:
     """Beside the panel, too."""
     curve = Curve(np.array([[0.0, 0.0], [1.0, 1.0]]), "main")
     label = Label(np.array([1.02, 0.5]), "beside")
@@ -343,7 +343,7 @@ def test_the_components_of_a_motion_are_in_a_legend() -> None:
     assert [text.get_text() for text in axes.legend().get_texts()] == [rf"$\Omega_{i}$" for i in (1, 2, 3)]
 
 
-def test_no_name_is_taken_for_that_of_a_guide() -> None:
+def test_an_unlabelled_line_displaces_no_label() -> None:
     """A line with no name does not drive another line's name away, where a line that may have one does."""
     line_own, line_other = (
         np.stack([np.linspace(0.0, 90.0, 91), np.full(91, height)], axis=1) for height in (50.0, 62.5)

@@ -140,7 +140,7 @@ def test_a_line_is_cut_where_a_surface_seen_along_its_cut_ends(height: float) ->
         assert np.sort(pieces[1][0][:, 2]) == pytest.approx([-1.0, height], abs=4 * np.finfo(float).eps)
 
 
-def test_nothing_hides_nothing() -> None:
+def test_without_surfaces_a_line_is_visible() -> None:
     """Without surfaces a line is one visible piece; a line of one point is none."""
     line = np.random.default_rng(0).normal(size=(5, 3))
     ((piece, visible),) = split(line, [], np.array([0.0, 0.0, 1.0]))

@@ -65,7 +65,7 @@ def test_the_light_falls_on_the_pages_as_in_the_pictures() -> None:
     assert json.loads(re.sub(r",\s*\]", "]", lamps)) == [[*place, strength] for place, strength in _LIGHTS]
 
 
-def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:
+def test_shaded_points_lie_where_labels_place_them(tmp_path: Path) -> None:
     """The centre of a marked point in the picture is where the parallel projection of the page puts it."""
     corners = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, 1.0]])
     spot = np.array([[0.3, 0.4, -0.25]])

@@ -139,7 +139,7 @@ def test_a_style_is_never_fetched(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         (b"lines.linewidth: fish", r"line 1 .*: Could not convert 'fish' to float$"),
     ],
 )
-def test_a_style_sheet_that_is_none_says_why(tmp_path: Path, content: bytes, words: str) -> None:
+def test_an_invalid_style_sheet_is_refused_with_its_line(tmp_path: Path, content: bytes, words: str) -> None:
     """The fault and its line, without advice about a file of Matplotlib's."""
     (tmp_path / "mine.mplstyle").write_bytes(content)
     with pytest.raises(AtlasError, match=words):

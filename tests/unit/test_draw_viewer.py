@@ -169,7 +169,7 @@ def test_a_page_stays_light() -> None:
 
 
 @pytest.mark.parametrize("name", ["scene.js", "explorer.js", "motion.js"])
-def test_the_scripts_ask_for_nothing(name: str) -> None:
+def test_scripts_of_pages_send_no_requests(name: str) -> None:
     """There is no address in them but the name of SVG, and nothing that could send or fetch one."""
     text = (HTML / name).read_text(encoding="utf-8")
     assert re.findall(r"\w+://[^\"']*", text) == ["http://www.w3.org/2000/svg"]

@@ -100,7 +100,7 @@ def test_equal_drag_slows_a_free_body(unit: float) -> None:
 
 
 @pytest.mark.slow
-def test_a_separatrix_is_said_with_its_time() -> None:
+def test_drift_reports_the_time_of_a_separatrix() -> None:
     """Dzhanibekov's top that loses energy faster than momentum: when 2 H I2 falls to m^2, as by an integrator."""
     motion_free, drag = atlas.AsymmetricMotion(I, (0, 0, 0), (1.2, 0.7, 0.3)), np.array([5e-4, 1e-4, 1e-4])
 

@@ -222,7 +222,7 @@ def test_a_body_is_not_rounded_to_its_ratio() -> None:
 
 @settings(max_examples=40)
 @given(st.floats(0.1, 2), st.floats(-3, 3), st.floats(-3, 3), st.floats(-50, 50))
-def test_reversing_the_field_and_the_motion_turns_it_about_e3(I: float, B3: float, omega2: float, t: float) -> None:
+def test_reversing_field_and_velocity_is_a_half_turn_about_e3(I: float, B3: float, omega2: float, t: float) -> None:
     """With B2 and omega2 reversed R becomes D R D, D = diag(-1, -1, 1): the half turn about e3."""
     if omega2 == -1.0:
         return

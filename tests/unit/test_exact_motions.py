@@ -318,7 +318,7 @@ def test_particle_contains_the_matrix_exponential(
         assert abs(middle - as_fraction(value)) <= size * Fraction(1, 10**60)
 
 
-def test_a_vanishing_field_bends_nothing() -> None:
+def test_without_a_field_the_path_is_a_parabola() -> None:
     """B = 0 gives the parabola exactly, and a field of 1e-200 hardly anything else."""
     p = ParticleMotion(-2.0, (0.5, 0.0, 1.0), (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), (0.25, 0.0, -1.0))
     assert p.position(2.0) == [fmpq(-1, 2), fmpq(2), fmpq(-3)]

@@ -222,7 +222,7 @@ def test_the_error_of_rounded_inputs_bounds_the_effect_of_an_ulp() -> None:
     assert json.loads(outputs[1])["input_error"] == bound
 
 
-def test_a_sweep_says_what_the_rounding_of_its_inputs_does(tmp_path: Path) -> None:
+def test_a_sweep_reports_the_effect_of_rounded_inputs(tmp_path: Path) -> None:
     """Of the first of the latest rows, where functions of time are asked for and the turn can be felt."""
     start = [*"sweep general --ratio 1.5 --field 1 2 --set omega1=0.3 omega2=0.7 omega3=0.2".split(), "--out"]
     clause = "Rounding the inputs to floats turns the body by up to 1e-10 rad at t = 1e+06, in the first row"
@@ -254,7 +254,7 @@ def test_a_symmetric_tensor_turned_in_floats_has_its_three_moments_at_any_time()
     assert 0 < difference < 1e-8
 
 
-def test_an_error_of_rounding_that_is_not_known_is_called_so() -> None:
+def test_an_unknown_rounding_error_is_reported_as_unknown() -> None:
     """No derivatives are at hand of a motion with three moments, and none exist of one about a principal axis."""
     for words in ("--field 0.4 0.1 1.2 --omega 0.5 0.3 1.1", "--field 0 0 1.2 --omega 0 0 1.1"):
         words_motion = ["motion", "--inertia", "0.8", "1", "1.2", *words.split(), "--times"]

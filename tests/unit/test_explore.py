@@ -73,13 +73,13 @@ def shell_as_another_user(script: str, *words: str) -> str:
     return done.stdout
 
 
-def test_it_answers_on_this_machine_only(server: Explorer) -> None:
+def test_the_explorer_answers_on_this_machine_only(server: Explorer) -> None:
     """The address is one of this machine, and holds 192 bits that nobody guesses."""
     assert server.server_address[0] == "127.0.0.1"
     assert re.fullmatch(r"http://127\.0\.0\.1:\d+/[\w-]{32}", server.ticket())
 
 
-def test_an_address_opens_it_once(server: Explorer) -> None:
+def test_an_address_of_the_explorer_works_once(server: Explorer) -> None:
     """The address sets a cookie for the folder that its page leads to; who comes second gets neither."""
     ticket = urlsplit(server.ticket()).path
     assert ask(server, ticket, Origin="http://evil.example")[0].status == 403
@@ -115,7 +115,7 @@ def test_foreign_hosts_and_origins_are_refused(server: Explorer, headers: dict[s
         assert server.folder.encode() not in content
 
 
-def test_without_folder_and_cookie_nothing_is_answered(server: Explorer) -> None:
+def test_the_explorer_answers_only_requests_with_folder_and_cookie(server: Explorer) -> None:
     """Neither the page nor a number, nor for another cookie; its own origin and the name localhost do with it."""
     port = server.server_address[1]
     for place in ("/", "/state?subject=general", f"/{server.folder[:-1]}/", f"/{server.folder}x/", "/scene.js", "//"):
@@ -164,7 +164,7 @@ def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*FAMILIES])
-def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
+def test_the_printed_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
     """The command that is shown, asked for as many digits, prints the page's proven digits."""
     answer = answer_of(server, "state", subject=name, proven=1)
     words = shlex.split(answer["command"])[1:]
@@ -331,7 +331,7 @@ def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
     assert not page.exists()
 
 
-def test_everything_has_sliders_that_start_within_their_ends() -> None:
+def test_sliders_of_all_families_and_figures_start_within_their_ranges() -> None:
     """All families but those without a start, with the ranges of the register; all figures, with theirs."""
     catalogue = everything()
     assert [name for name, _ in catalogue["families"]] == [*FAMILIES]
@@ -384,7 +384,7 @@ def test_unknown_names_are_refused_before_a_server_starts() -> None:
         subject("hyp_c")
 
 
-def test_a_body_that_cannot_be_is_said_before_a_server_starts() -> None:
+def test_an_impossible_body_is_refused_before_the_server_starts() -> None:
     """As by `atlas motion`."""
     with pytest.raises(AtlasError, match="the largest is at most the sum of the others"):
         started("--inertia 0.8 1 3 --field 0.2 1 0.6 --spin 2".split())
@@ -397,7 +397,7 @@ def test_a_port_in_use_is_reported(server: Explorer) -> None:
 
 
 @pytest.mark.usefixtures("interrupts")
-def test_ctrl_c_ends_it() -> None:
+def test_ctrl_c_ends_the_explorer() -> None:
     """It prints its address, and an interrupt ends it in peace."""
     words = [sys.executable, "-m", "atlas", "explore", "ball", "--no-browser"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:

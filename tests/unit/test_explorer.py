@@ -125,7 +125,7 @@ def test_courses_of_the_script_are_general_motions() -> None:
 
 
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_axis_through_the_pole_is_drawn_beside_it() -> None:
+def test_an_axis_through_the_pole_is_drawn_to_1e_4() -> None:
     """Started at rest in Larmor's frame the axis swings through the field's direction, which R shows to 1e-4."""
     program = "const {R} = globalThis.atlasMotion.course(...given)(t); return R.flat()"
     axis_script = run(
@@ -163,7 +163,7 @@ def test_fractions_of_the_script_are_closed_motions() -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_a_point_of_the_plane_settles_where_it_is_to_a_few_pixels() -> None:
+def test_a_dragged_point_snaps_to_the_nearest_point_of_the_curve() -> None:
     """The nearest point of the curve, along the pole and at -B' too; the distance is that of the curve as drawn."""
     random, inputs = np.random.default_rng(60), [(1.5, 1.0, 2.0, (-1.0, -2.0)), (0.999, 1.0, 2.0, (-1.0, -2.0))]
     for _ in range(60):

@@ -143,7 +143,7 @@ def test_sliders_end_inside_the_domain(family: Family, end: int) -> None:
 
 
 @EVERY
-def test_every_promise_is_of_something_that_is_checked(family: Family) -> None:
+def test_every_promised_error_is_checked(family: Family) -> None:
     """The checked quantity is promised, but of the particle; and the stress run takes each promise over."""
     checked = [x.checked for x in (*family.quantities, *family.sampled) if x.checked]
     assert family.name == "particle" or set(checked) <= set(family.promises)
@@ -151,7 +151,7 @@ def test_every_promise_is_of_something_that_is_checked(family: Family) -> None:
 
 
 @EVERY
-def test_a_quantity_that_may_be_missing_is_so_with_a_reason(family: Family) -> None:
+def test_a_missing_quantity_has_a_reason(family: Family) -> None:
     """The column beside it can hold the reason, and no other error is hidden by it."""
     for q in family.quantities:
         assert len(q.missing) <= 28

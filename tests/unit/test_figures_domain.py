@@ -199,7 +199,9 @@ def test_the_last_parameters_that_are_drawn(name: str, parameters: dict[str, Any
         (1.5, (1.0, 0.0), "With $B'_3=0$ the curve falls apart into the line $\\omega_3=0$"),
     ],
 )
-def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple[float, float], says: str) -> None:
+def test_the_caption_says_where_the_hyperbola_is_straight_lines(
+    ratio: float, field: tuple[float, float], says: str
+) -> None:
     """Along and across the field it is straight lines, and only there the caption says so."""
     caption = scene_of("hyperbola", ratio=ratio, field=field).caption
     assert says in caption

@@ -127,7 +127,7 @@ def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
     assert len(layers(panel, Surface, "seam")) == 8
 
 
-def test_a_precession_is_followed_where_nothing_else_is_seen() -> None:
+def test_a_tiny_nutation_is_left_out_for_the_precession() -> None:
     """Of a spin at 2 MHz the axis goes once round the field; the circle has its places after whole nutations."""
     inputs = (0.5, (0.0064, 0.011), (0.0, 0.0, 4 * np.pi * 1e6))
     names = dict(zip(("ratio", "field", "omega"), inputs, strict=True))

@@ -60,7 +60,7 @@ def test_a_recipe_describes_its_picture_in_one_sentence(name: str) -> None:
     assert recipe.seen not in scene_of(name).caption[len(recipe.seen) :]
 
 
-def test_a_recipe_of_the_user_may_say_it(tmp_path: Path) -> None:
+def test_recipes_of_users_may_have_a_sentence_and_a_row(tmp_path: Path) -> None:
     """Without the two constants there is no sentence and no row; a row that the gallery lacks is an error."""
     file = tmp_path / "mine.py"
     file.write_text('"""Mine."""\n1 / 0\ndef scene(): ...\n', encoding="utf-8")

@@ -84,7 +84,7 @@ def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
         assert (abs(later[0, 0]) < 0.1 * abs(later[0, 1])) == (name == "cusps")
 
 
-def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_does() -> None:
+def test_the_arrow_of_a_lattice_ends_at_points_of_the_lattice() -> None:
     """Its components are those in the title of the panel, within 1e-12, and its ends are points of the lattice.
 
     The arrows g1 and g2 lead from one such point by one turn about the field and one about the axis.

@@ -151,7 +151,7 @@ def test_the_axis_of_an_elementary_motion_tells_no_more_than_the_direction_of_th
 
 
 @pytest.mark.slow
-def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
+def test_noise_is_estimated_and_outliers_are_resisted() -> None:
     """Without sigma the scatter tells it; with a robust loss one attitude in fifteen may be anything."""
     t, R = measured("rotation")
     found = atlas.fit(t, rotation=R)
@@ -177,7 +177,7 @@ def test_one_outlier_of_few_attitudes_is_reported() -> None:
 
 
 @pytest.mark.slow
-def test_rounding_errors_determine_nothing() -> None:
+def test_rounding_errors_determine_no_parameter() -> None:
     """Exact data of a body at rest, and of a spin about its axis, say nothing of ratio and field."""
     t = np.arange(20.0)
     for turns in (0.0 * t, 0.3 * t):
@@ -292,7 +292,7 @@ def test_a_process_returns_a_fit(attitudes: Any) -> None:
     assert fits[0][1].conf_interval(p_names=["ratio"], sigmas=[1])
 
 
-def test_former_names_say_the_new_ones(attitudes: Any) -> None:
+def test_errors_for_former_names_name_the_new_names(attitudes: Any) -> None:
     """And a name that a fit never had is only said to be none."""
     for old, new in {"doubts": "warnings", "rivals": "alternatives"}.items():
         with pytest.raises(AttributeError, match=f"{old}.*{new}"):
@@ -804,7 +804,7 @@ def test_an_epoch_is_a_number(epoch: float) -> None:
         atlas.fit(t, rotation=R, epoch=epoch)
 
 
-def test_a_cell_is_named_as_its_file_has_it(tmp_path: Path) -> None:
+def test_a_faulty_cell_is_named_by_its_column(tmp_path: Path) -> None:
     """By the name of the column that is written."""
     (tmp_path / "q.csv").write_text("time,w,X,y,z\n0,1,0,0,0\n1,1,inf,0,0\n", encoding="utf-8")
     with pytest.raises(AtlasError, match="line 3, column X: the cell is inf"):

@@ -76,7 +76,7 @@ def rows(page: Path, table: str) -> list[list[str]]:
 
 
 @pytest.mark.slow
-def test_its_numbers_agree_with_the_fit(folder: Path) -> None:
+def test_numbers_of_a_fit_page_agree_with_the_fit(folder: Path) -> None:
     """Parameters and errors to the digits shown, correlations, horizons and a prediction, as `atlas fit` has them."""
     page = folder / "out" / "fit-mine-predict-20.html"
     text = CliRunner().invoke(
@@ -113,7 +113,7 @@ def test_the_pdf_and_the_file_have_the_pictures(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_its_commands_make_it_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_commands_on_a_fit_page_make_the_page_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The first one the same files; the one of the motion is a page of the motion that was measured."""
     out = folder / "out"
     before = {file.name: file.read_bytes() for file in out.glob("fit-mine*") if "costs" not in file.name}

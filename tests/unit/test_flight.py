@@ -45,7 +45,7 @@ class Tabulated:
 PARTICLE = ParticleMotion.in_field(FIELD, [1.0, 2.0, 3.0], [0.1, -0.4, 0.2])
 
 
-def test_a_point_starts_where_it_is_put() -> None:
+def test_a_point_of_a_flight_starts_at_its_given_position() -> None:
     """At t = 0 the point is at y_0 + x_N, in the user's frame, since R(0) = 1."""
     point = np.array([0.3, -0.1, 0.7])
     assert np.abs(Flight(PARTICLE, Tabulated(), point, FRAME).position(0.0) - (PARTICLE.y0 + point)).max() <= 4 * EPS

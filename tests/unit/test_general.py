@@ -92,7 +92,7 @@ def test_every_entry_is_true_up_to_a_million_periods(inputs: Any) -> None:
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
-def test_one_time_is_as_true_as_many(inputs: Any) -> None:
+def test_single_times_are_as_accurate_as_arrays(inputs: Any) -> None:
     """Entries of R at a time asked for by itself are within 6 ulp of 1, and Omega is that of an array to 16 ulp."""
     motion = GeneralMotion(*inputs)
     times = long_times(motion, 2)[:12].tolist()

@@ -127,7 +127,7 @@ def test_field_and_momentum_are_within_their_promise(power: int) -> None:
                 assert max(errors) <= bound * length
 
 
-def test_many_times_of_a_slender_body_are_as_true_as_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_times_of_a_slender_body_are_as_accurate_as_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where Omega3 is small beside its largest value it comes from two words or balls, for many times and for few."""
     motion, exact = GeneralMotion(1e-4, (1.0, 0.3), (2e-9, 1e-9, 3e-9)), Balls(1e-4, (1.0, 0.3), (2e-9, 1e-9, 3e-9))
     t = np.linspace(0.5, 400.0, 60)
@@ -149,7 +149,7 @@ def test_omega_in_the_laboratory_keeps_its_digits() -> None:
             assert off(motion.angular_velocity(time), true) <= WANTED
 
 
-def test_a_spin_about_the_axis_starts_as_the_field_turns_it() -> None:
+def test_velocity_of_a_spin_about_the_axis_starts_with_the_fields_torque() -> None:
     """With omega along the axis one of the pair is zero at t = 0: by its slope Omega is true, in arrays and alone."""
     I, spins = np.array([1.5, 0.4, 1.0, 0.4]), np.array([0.7, -1.3, 0.9, -1e-9])
     t = np.array([3.0, 11.0, 0.3, 40.0])

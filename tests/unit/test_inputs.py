@@ -74,7 +74,7 @@ def test_shapes_that_do_not_broadcast_are_one_sentence() -> None:
         (inputs.vectors, [[1, 2]], AtlasError),
     ],
 )
-def test_anything_else_is_one_sentence_with_its_name(
+def test_other_inputs_are_refused_by_their_name(
     check: Callable[[object, str], object], value: object, kind: type[AtlasError]
 ) -> None:
     """The sentence names the input."""

@@ -16,7 +16,7 @@ NAMES = ("E", "K2", "c3", "c5")
 
 @pytest.mark.slow
 @pytest.mark.parametrize("I", [0.25, 1.0, 1.5, 2.0])
-def test_they_stay_along_a_motion(I: float) -> None:
+def test_integrals_are_conserved_along_a_motion(I: float) -> None:
     """On the Taylor series' motion all four keep their value to rounding."""
     omega, field, times = (0.3, 0.7, -0.4), (0.0, 1.0, 0.5), [0, 0.5, 1.5, 4]
     states = taylor((1, 1, I), field, omega, times)

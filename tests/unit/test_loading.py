@@ -232,7 +232,7 @@ def test_a_figure_from_the_store_loads_nothing_that_draws(room: Room) -> None:
 
 
 @pytest.mark.slow
-def test_a_page_with_other_digits_loads_nothing_that_draws(room: Room) -> None:
+def test_a_page_with_other_digits_loads_no_drawing_library(room: Room) -> None:
     """Its figures are there, so the process that workers are forks of is not started."""
     room.run("page --ratio 1.5 --field 1 2 --omega2 0.7", 0)
     assert room.run("page --ratio 1.5 --field 1 2 --omega2 0.7 --digits 12", 0) == set(PAGES.split())

@@ -111,7 +111,7 @@ def test_a_loop_run_backwards_has_the_inverse_matrix() -> None:
         ([(1.0, 1.5), (0.9, 2.2)], "number of points"),
     ],
 )
-def test_loops_that_tell_nothing_are_refused(loop: list[tuple[float, float]], tells: str) -> None:
+def test_unsuitable_loops_of_monodromy_are_refused(loop: list[tuple[float, float]], tells: str) -> None:
     """A loop that is too coarse, meets a critical value, or leaves the motions."""
     with pytest.raises(atlas.AtlasError, match=tells):
         on_loop(0.5, (0.0, 0.0), 1.0, np.array(loop), 1.0)

@@ -78,7 +78,7 @@ def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
     assert np.linalg.norm(np.diff(m.quaternion(np.linspace(0, 10, 1000)), axis=0), axis=-1).max() < 0.1
 
 
-def test_all_ways_to_give_a_body_say_the_same() -> None:
+def test_all_forms_of_a_body_give_the_same_motion() -> None:
     """A ratio, a body, moments and a tensor; along another axis the same body is that with its axes renamed."""
     B, w, t = (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), np.linspace(-3, 3, 7)
     R_ratio = atlas.motion(1.5, B, w).rotation(t)
@@ -130,7 +130,7 @@ def test_a_disk_is_a_body_in_any_axes() -> None:
         assert abs(atlas.motion((tensor + tensor.T) / 2, *start).rotation(7.0) - disk.rotation(7.0)).max() < 4e-14
 
 
-def test_arrays_of_each_class_have_kinds() -> None:
+def test_arrays_of_motions_have_a_kind_for_each_motion() -> None:
     """One name for each motion, whichever class they are of."""
     two = np.array([0.3, 0.7])
     for motions in (

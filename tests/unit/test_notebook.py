@@ -83,7 +83,7 @@ def test_a_repr_is_one_line_that_makes_the_same_again(instance: Any) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("instance", [*ONE, ONE[2].closed(2, 3)], ids=name)
-def test_it_can_be_copied_and_sent_to_another_process(instance: Any) -> None:
+def test_objects_can_be_copied_and_pickled(instance: Any) -> None:
     """A copy and its pickle are the same object, with the same matrices to the last bit."""
     for again in (copy.deepcopy(instance), pickle.loads(pickle.dumps(instance))):  # noqa: S301  our own bytes
         assert type(again) is type(instance)
@@ -122,7 +122,7 @@ def test_computed_values_of_an_object_cannot_be_changed() -> None:
     ],
     ids=lambda value: str(value)[:30],
 )
-def test_a_repr_says_of_which_kind_it_is(instance: Any, kind: str) -> None:
+def test_a_repr_ends_with_the_kind_of_motion(instance: Any, kind: str) -> None:
     """Behind a #, in the words of its attribute; of an array how many there are of each; of a large one its shape."""
     assert repr(instance).endswith(f"  # {kind}")
 
@@ -173,7 +173,7 @@ def pixels(html: str) -> tuple[int, int]:
 
 
 @pytest.mark.slow
-def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
+def test_html_of_an_object_has_a_small_picture() -> None:
     """One panel, as a picture in the text, with twice the pixels of the width that it is shown in; none of an array."""
     assert picture(Quadric([1.5, 0.5], (1, 2))) == ""
     html = picture(Hyperbola(1.5, (1, 2)))
@@ -197,7 +197,7 @@ def test_a_figure_shows_itself() -> None:
 
 
 @pytest.mark.slow
-def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
+def test_a_plotter_shows_a_viewer_without_requests() -> None:
     """The frame is sandboxed, its policy lets nothing in, and it has still, scene and script in it."""
     scene = recipes.load("quadric").scene()
     bundle = mimebundle(scene)
@@ -226,7 +226,7 @@ def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_the_picture_of_a_motion_is_the_way_of_its_axis(motion: Any, figure: str, axis: tuple[float, ...]) -> None:
+def test_the_picture_of_a_motion_is_the_trace_of_its_axis(motion: Any, figure: str, axis: tuple[float, ...]) -> None:
     """On the unit sphere; heights along the upright vector are those of R_3(t), and Omega(t) is the motion's own."""
     parameters = {p.name: motion.arguments[p.name] for p in FAMILIES[motion.family].parameters}
     parameters |= {"turns": 2.0} if figure == "asymmetric_motion" else {"periods": 0.5}
@@ -262,7 +262,7 @@ def test_the_picture_of_a_particle_is_its_path() -> None:
 
 
 @pytest.mark.slow
-def test_the_picture_of_a_flight_is_the_way_of_its_point() -> None:
+def test_the_picture_of_a_flight_is_the_path_of_its_point() -> None:
     """Of any motion of the body, in the user's axes: both paths, and the arm at its end as it is there."""
     field = Field((0.0, 1.0, 2.0), mu=1.0, E=(-1.0, 0.3, 0.0))
     frame = field.frame((0.2, 0.1, 1.0))
@@ -284,7 +284,7 @@ def test_the_picture_of_a_flight_is_the_way_of_its_point() -> None:
 
 
 @pytest.mark.slow
-def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
+def test_plot_draws_into_given_axes() -> None:
     """The panel asked for, into one of two axes; the figure that comes back is theirs."""
     figure = Figure((8, 4))
     axes_left, second = figure.subplots(1, 2)
@@ -336,7 +336,7 @@ def test_objects_that_cannot_be_shown_give_a_reason(refused_call: Any, says: str
 
 
 @pytest.mark.parametrize("motion", [ONE[4], ONE[5], ONE[7]], ids=name)
-def test_a_trace_is_the_way_of_the_axis(motion: Any) -> None:
+def test_a_trace_is_the_path_of_the_axis(motion: Any) -> None:
     """From the start to the last period, its points those of R_3, each chord's middle within the tolerance."""
     t, axis = motion.trace(10, tolerance=1e-3)
     frame = motion.to_dataframe()

@@ -60,7 +60,7 @@ def test_objects_and_figures_show_themselves(ran: Any) -> None:
     assert text_last == "False\n"
 
 
-def test_the_guide_holds_it() -> None:
+def test_the_notebook_is_a_page_of_the_guide() -> None:
     """It is a page of the guide."""
     assert any(
         getattr(block, "file", "") == "notebook.md" for page in load(find("guide")).pages for block in page.blocks

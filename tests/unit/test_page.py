@@ -90,7 +90,7 @@ def number(text: str) -> mpmath.mpf:
     return mpmath.mpf(re.sub(r"[\s\u202f]", "", text).replace("\N{MINUS SIGN}", "-").replace("×10", "e"))
 
 
-def test_its_numbers_agree_with_the_formulas(page_file: Path) -> None:
+def test_numbers_of_a_page_agree_with_the_formulas(page_file: Path) -> None:
     """Eight numbers of the page agree with the formulas at 40 digits, to the last one shown."""
     cells = rows(page_file, "properties-elementary")
     with mpmath.workdps(40):
@@ -128,7 +128,7 @@ def test_the_nearest_closed_motions_are_convergents(page_file: Path) -> None:
             assert abs(number(cells[2]) - (w2 - mpmath.mpf(0.7))) < mpmath.mpf("1e-9")
 
 
-def test_it_stands_in_one_file(page_file: Path) -> None:
+def test_a_page_is_one_file_without_requests(page_file: Path) -> None:
     """Nothing is fetched: shown and saved parts are inside, links are anchors, and each script is allowed."""
     tree = reader.fromstring(page_file.read_bytes())
     addresses = [*tree.xpath("//@src"), *tree.xpath("//@srcset"), *tree.xpath("//link/@href")]
@@ -248,7 +248,7 @@ def test_several_reports_are_built_at_once(tmp_path: Path) -> None:
         ("--mu 1 --velocity 1 0 0", "particle"),
     ],
 )
-def test_the_family_is_that_of_the_options(words: str, name: str) -> None:
+def test_the_options_of_a_page_choose_the_family(words: str, name: str) -> None:
     """Options that only one family takes choose it, by their names and by how many numbers they have."""
     assert best(Words(words.split())) == name
 
@@ -387,7 +387,7 @@ def test_neighbours_agree_with_their_description(unbuilt: Callable[[str], dict[s
     assert (motions["at"].rotation(3.0) == np.eye(3)).all()
 
 
-def test_the_figures_of_a_family_draw_it() -> None:
+def test_figures_of_a_family_take_its_parameters() -> None:
     """Each recipe of the register is there, and takes parameters of its family."""
     for family in FAMILIES.values():
         for name in family.figures:

@@ -39,7 +39,7 @@ def test_every_labelled_equation_of_the_paper_is_in_the_ledger() -> None:
     assert all(name.startswith(("text-", "theorem-")) for name in unlabelled)
 
 
-def test_the_numbers_are_those_in_print() -> None:
+def test_equation_numbers_agree_with_the_printed_paper() -> None:
     r"""The numbered equations run from 1 to 104 in the paper's order; mf23 ends in \nonumber."""
     assert [name for name, entry in EQUATIONS.items() if entry.number is not None] == [f"({n})" for n in range(1, 105)]
     assert [EQUATIONS[f"({n})"].alias for n in range(1, 105)] == [TWICE.get(label, label) for label in NUMBERED]

@@ -166,7 +166,7 @@ def test_times_of_any_shape() -> None:
     assert np.array_equal(p.position(t)[1, 2], p.position(1.0))
 
 
-def test_many_times_are_each_met() -> None:
+def test_many_times_agree_with_single_times() -> None:
     """More times than are evaluated at once have, one by one, the values of each alone."""
     p = ParticleMotion(-1.3, [0.2, 0.3, 0.4], [1, -2, 0.5], ORIGIN, [0.1, 0.2, -0.3], 2.0)
     t = np.linspace(-50, 50, 10001)

@@ -73,7 +73,9 @@ def test_odd_quarter_turns_are_no_worse(f: float, digits: int, seed: int) -> Non
     st.integers(1, 2**32),
     st.sampled_from((0.0, 0.25, 0.5, 0.75, 1.0)),
 )
-def test_one_time_is_as_true_as_many(f: float, power: int, digits: int, seed: int, phase_shift: float) -> None:
+def test_single_times_are_as_accurate_as_arrays(
+    f: float, power: int, digits: int, seed: int, phase_shift: float
+) -> None:
     """At one time cos and sin are within 2 units, sin and the versine within 4 ulp of themselves; the array agrees."""
     rng, f = np.random.default_rng(seed), float(np.ldexp(f, power))
     with mp.workprec(3000):

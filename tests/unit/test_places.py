@@ -24,7 +24,7 @@ def test_cached_records_lie_in_the_users_cache(tmp_path: Path, monkeypatch: pyte
     assert places.own_folder() == tmp_path / "home" / ".cache" / "atlas"
 
 
-def test_without_a_home_it_lies_in_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_home_the_cache_lies_in_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where there is no home, or none that can be written, the environment's folder is taken, or none at all."""
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
     monkeypatch.setattr(sys, "prefix", str(tmp_path / "venv"))
@@ -53,7 +53,7 @@ def test_built_figures_are_cached_in_the_checkout_or_the_users_cache(
     assert places.cache_folder(tmp_path).parent == Path(tempfile.gettempdir())
 
 
-def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_figure_for_a_manuscript_leaves_no_other_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """`atlas figure --out .` leaves only the figure and the record of its files, and draws nothing twice."""
     from atlas.book.building.figures import build_figures
 

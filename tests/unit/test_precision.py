@@ -43,7 +43,7 @@ def doubles(make: Callable[[], Any]) -> dict[str, list[float]]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("make", MAKERS)
-def test_the_precision_of_flint_outside_changes_nothing(
+def test_results_do_not_depend_on_flints_precision_outside(
     make: Callable[[], Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """With 12 binary digits, with 53 and with 500 every double is the same to its last bit."""

@@ -350,7 +350,7 @@ def test_unrefuted_and_unproved_claims_are_undecided() -> None:
     assert decide("x^2 - x + 1 > 0", Model({"x": x})).decision == "undecided"
 
 
-def test_a_letter_without_meaning_is_a_letter_of_its_own() -> None:
+def test_an_undefined_letter_is_read_as_a_free_letter() -> None:
     """An unknown name isn't read as its neighbour."""
     x = sympy.Symbol("B1", real=True)
     assert decide("B1 = b1", Model({"B1": x})).decision == "refuted"

@@ -50,7 +50,7 @@ def test_a_script_runs_without_atlas() -> None:
 
 
 @pytest.mark.parametrize("name", ["(34)", "(48)", "(72)", "theorem-larmor"])
-def test_a_changed_sign_makes_it_say_otherwise(name: str) -> None:
+def test_a_script_with_a_changed_sign_fails(name: str) -> None:
     """Each sign in the formulas of the claim, turned round, is found out: the script says so and exits with 1."""
     script = SCRIPTS[name]
     start, end = script.rindex("\ncheck("), script.rindex("\nprint(")

@@ -253,7 +253,7 @@ def test_a_short_report_names_its_authors_and_counts_only_tables_with_a_caption(
     assert "Table 2" not in text
 
 
-def test_a_style_that_there_is_not_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+def test_an_unknown_style_is_refused_before_files_are_written(tmp_path: Path) -> None:
     """Typed or in the file: the report that is there stays."""
     report_style = SHORT.replace("[[", 'style = "nope.mplstyle"\n[[', 1)
     for style, text, message in (

@@ -104,7 +104,7 @@ def report_file(folder: Path, text: str, suffix: str = "md") -> Path:
     return file
 
 
-def test_both_ways_to_write_a_report_say_the_same(tmp_path: Path) -> None:
+def test_markdown_and_toml_reports_read_the_same(tmp_path: Path) -> None:
     """Head, abstract, pages with their titles, texts with code, blocks with a head."""
     report_markdown, report_toml = (
         load(report_file(tmp_path, text, suffix)) for text, suffix in ((MARKDOWN, "md"), (TOML, "toml"))

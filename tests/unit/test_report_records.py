@@ -97,7 +97,7 @@ def test_a_mistake_is_reported_with_file_place_and_nearest_key(tmp_path: Path, m
         assert words in sentence
 
 
-def test_all_mistakes_of_a_report_are_said_at_once(tmp_path: Path) -> None:
+def test_all_mistakes_of_a_report_are_reported_at_once(tmp_path: Path) -> None:
     """Keys, types, names and files are checked whole; each mistake is a sentence with its line, in their order."""
     file = tmp_path / "mine.toml"
     file.write_text(

@@ -221,7 +221,7 @@ def test_the_scripts_of_a_page_agree_with_its_templates() -> None:
         assert files[script["src"]] == (folder("templates") / "html" / script["src"]).read_text(encoding="utf-8")
 
 
-def test_every_page_has_a_policy_under_which_nothing_runs() -> None:
+def test_every_page_has_a_policy_that_forbids_scripts() -> None:
     """Each page forbids frames, forms, scripts written in it, and all that is not in its folder."""
     for name, content in html.pages(document(definition("x"))).items():
         if name.endswith(".html"):

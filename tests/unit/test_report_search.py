@@ -174,7 +174,7 @@ def test_related_reports_stand_beside(files: dict[str, str], tmp_path: Path) -> 
     "parameters",
     [{}, {"ratio": 0.5, "field": (1.0, 1e-7)}, {"ratios": (0.3,), "unit": "s", "words": "a b", "on": True}],
 )
-def test_the_command_under_a_figure_makes_it(parameters: dict[str, object]) -> None:
+def test_the_command_under_a_figure_makes_that_figure(parameters: dict[str, object]) -> None:
     """Typed words are read as the parameters that the figure has."""
     name, *arguments = shlex.split(Picture("", "quadric", "shaded", parameters).command)[1:]
     context = command_line.commands[name].make_context(name, arguments, click.Context(command_line, info_name="atlas"))

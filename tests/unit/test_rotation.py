@@ -107,7 +107,7 @@ def test_the_small_third_column_keeps_its_digits(regime: str) -> None:
                 assert abs(mpf(float(R[i, 2])) - true[i, 2]) <= 8 * float(np.spacing(abs(float(true[i, 2]))))
 
 
-def test_times_of_any_shape_and_kind() -> None:
+def test_times_may_have_any_shape_and_type() -> None:
     """Scalars, lists, integers, strided and empty arrays give the matrices of the same times."""
     motion = ElementaryMotion(*MOTION)
     t = np.linspace(-3, 9, 12)

@@ -76,7 +76,7 @@ def test_an_unsuitable_python_is_named(tmp_path: Path, programs: dict[str, str],
 
 
 @pytest.mark.slow
-def test_pip_tells_why_it_failed(tmp_path: Path) -> None:
+def test_the_error_of_pip_is_shown(tmp_path: Path) -> None:
     """The reason is pip's own, and no half-made environment counts as ready."""
     hidden = {"PYTHONPATH": str(tmp_path), "PYTHONHOME": str(tmp_path), "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": ""}
     python = f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'

@@ -53,7 +53,7 @@ def test_a_tighter_tolerance_gives_more_digits() -> None:
 
 
 @pytest.mark.parametrize(("I", "omega2"), [(1.5, 0.7), (0.5, -0.4), (2.0, 1.1)])
-def test_it_follows_the_elementary_motion(I: float, omega2: float) -> None:
+def test_a_simulation_follows_the_elementary_motion(I: float, omega2: float) -> None:
     """Started on the hyperbola (71), the simulated body moves as (73) and (84) say."""
     B2, B3, times = 1.0, 2.0, np.linspace(0, 5, 6)
     start = [float(w) for w in closed_form.elementary_angular_velocity(1, I, B2, B3, omega2, 0)]

@@ -53,7 +53,7 @@ def test_matrices_and_vectors_are_requested_by_one_name() -> None:
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".npz"])
-def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: str) -> None:
+def test_bytes_of_a_sweep_do_not_depend_on_its_processes(tmp_path: Path, suffix: str) -> None:
     """One process, two processes and threads of the user write the same file, and leave nothing beside it."""
     content = sweep(tmp_path / f"a{suffix}", jobs=1)
     assert sweep(tmp_path / f"b{suffix}", jobs=2) == content

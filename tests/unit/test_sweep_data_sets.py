@@ -86,7 +86,7 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
 
 
 @pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask reads so with pandas
-def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp_path: Path) -> None:
+def test_dask_workers_continue_a_stopped_data_set(tmp_path: Path) -> None:
     """No part that is there is made again, and Dask reads the folder as one table."""
     frames = pytest.importorskip("dask.dataframe")
     out, times_written = tmp_path / "t.parquet", dict[str, int]()
@@ -141,7 +141,7 @@ def scheduler_and_worker(folder: Path) -> Iterator[tuple[Any, str]]:
             worker.kill()
 
 
-def test_a_client_that_closes_without_a_result_is_told(tmp_path: Path) -> None:
+def test_a_client_closed_without_a_result_is_reported(tmp_path: Path) -> None:
     """As a Dask client does whose scheduler is lost while a result is on its way."""
 
     class Client:
@@ -162,7 +162,7 @@ def test_a_client_that_closes_without_a_result_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_lost_scheduler_is_told_and_another_client_goes_on(tmp_path: Path) -> None:
+def test_a_lost_scheduler_is_reported_and_another_client_continues(tmp_path: Path) -> None:
     """Lost in the midst of the table, and before it: one sentence each, and no part is made again."""
     distributed = pytest.importorskip("distributed")
     out, rows_done = tmp_path / "t.csv", list[int]()

@@ -295,7 +295,7 @@ def test_lost_workers_are_reported_and_a_second_call_resumes(
     assert (tmp_path / "t.csv").read_bytes() == table_bytes
 
 
-def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
+def test_a_second_sweep_names_the_process_of_the_first(tmp_path: Path) -> None:
     """While one sweep writes a table another one ends with status 2, names its process, and leaves all as it is."""
     out = tmp_path / "t.csv"
     words = f"sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out {out}"
@@ -351,7 +351,7 @@ def test_a_killed_sweep_resumes(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("digits", [None, 20])
 @pytest.mark.parametrize("pace", [1e-4, 1e3, *(pytest.param(x, marks=pytest.mark.slow) for x in (1e-9, 0.05, 1.0))])
-def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float, digits: int | None) -> None:
+def test_a_table_is_divided_into_hundreds_of_parts(pace: float, digits: int | None) -> None:
     """A row that seems to take up to a thousand seconds: every row is in one part, few are lost with it."""
     for count in (1, 4097, 10**6, 10**8):
         plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": np.zeros(count)}, ["k"], digits=digits)
@@ -388,7 +388,7 @@ def test_a_table_beyond_all_disks_is_refused() -> None:
     assert MAX_ROWS == 10**11
 
 
-def test_processes_are_as_many_as_the_remaining_work_is_worth() -> None:
+def test_the_number_of_processes_follows_the_remaining_work() -> None:
     """Each process of a sweep has a second of work or more, and no more are started than were asked for."""
     rows = 100_000
     plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": np.linspace(0.5, 0.7, rows)}, ["k"])

@@ -177,7 +177,7 @@ def test_a_poster_has_all_larger() -> None:
 
 
 @pytest.mark.parametrize(("name", "target"), [("hyperbola", "aps"), ("motion", "aps-double"), ("cone", "aps")])
-def test_a_figure_of_a_report_gets_the_place_that_suits_it(name: str, target: str) -> None:
+def test_a_figure_of_a_report_gets_one_or_two_columns_by_its_width(name: str, target: str) -> None:
     """A figure not much wider than a column by itself is given one, others both."""
     assert suited(recipes.load(name).scene(), [find("aps"), find("aps-double")]) is find(target)
 

@@ -26,7 +26,7 @@ BAND = (1.0, 0.5), (10.0, 5.0), (3.0, 0.25), 0.5, 1.0
 
 @settings(max_examples=20)
 @given(st.integers(1, 2048), st.integers(-9, 9), st.integers(-9, 9), st.floats(-50, 50))
-def test_at_the_values_of_the_papers_body_it_is_the_papers_quadric(ratio: int, m: int, n: int, w2: float) -> None:
+def test_the_quadric_of_the_papers_body_as_a_top_is_the_papers(ratio: int, m: int, n: int, w2: float) -> None:
     """All to the bit where |B'| is a float, B' = (m^2 - n^2, 2 m n), b = m^2 + n^2; and so is the hyperbola."""
     I, B, b = ratio / 1024, (float(m * m - n * n), float(2 * m * n)), float(m * m + n * n)
     assume(B[0] and B[1])

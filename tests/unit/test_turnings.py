@@ -86,7 +86,7 @@ def test_vectors_of_many_motions_agree_with_one_by_one() -> None:
             assert (abs(vector - true) <= 16 * np.spacing(2 * size)).all()
 
 
-def test_rotation_of_many_is_the_identity_at_zero() -> None:
+def test_rotations_of_an_array_are_the_identity_at_zero() -> None:
     """R(0) = 1 to the bit for every motion of an array, free and charged, and for balls."""
     draws = motions(4, seed=5)
     r = np.random.default_rng(0)

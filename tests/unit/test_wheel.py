@@ -68,7 +68,7 @@ def test_the_types_are_in_the_wheel(program: Path) -> None:
 
 
 @pytest.mark.slow
-def test_modules_of_the_users_own_break_nothing(run: Run, tmp_path: Path) -> None:
+def test_modules_of_the_user_are_not_loaded(run: Run, tmp_path: Path) -> None:
     """A folder may hold a signal.py and a struct.py: neither the workers nor the probe for GL load them."""
     for name in ("signal", "struct", "multiprocessing", "numpy", "vtkmodules"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")

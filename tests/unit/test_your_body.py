@@ -91,7 +91,7 @@ def test_a_field_along_the_axes_of_the_laboratory_is_turned_into_the_body() -> N
     assert card(request_of(words))["tilt"]["value"] == pytest.approx(np.arccos(R[:, 2] @ (1, 2, 3) / sqrt(14)))
 
 
-def test_a_turn_through_the_pole_is_said_to_be_a_mean() -> None:
+def test_a_turn_through_the_pole_is_marked_as_a_mean() -> None:
     """Its rate is the mean of the limits, of fields a little to one side and to the other."""
     turns = [card(request_of(f"--ratio 1.6 --field {x} 2 --omega 0.3 0.7 0.2"))["turn"] for x in ("1e-7", "0", "-1e-7")]
     before, turn_pole, after = (2 * pi / entry["value"] for entry in turns)
@@ -191,7 +191,7 @@ def test_every_branch_of_the_prose_is_a_report(name: str, tmp_path: Path) -> Non
         ("--inertia 0.8 1 1.3 --omega 0 1 0", "asymmetric_motion", True),
     ],
 )
-def test_a_figure_of_what_does_not_change_gives_way_to_its_reason(words: str, recipe: str, is_drawn: bool) -> None:
+def test_figures_without_change_are_replaced_by_a_reason(words: str, recipe: str, is_drawn: bool) -> None:
     """A body at rest has no trace, a free one no quadric; the axis of a steady motion still goes round."""
     request = request_of(words)
     values = template_values(request, card(request))
@@ -282,7 +282,7 @@ def test_a_body_without_a_report_is_refused_in_one_line(
         ("--tensor 1 2 9 0 0 0 --field 1 2 --spin 1", ["--field takes 3", "9 exceeds 2 + 1 by 6"]),
     ],
 )
-def test_all_faults_of_the_options_are_told_at_once(words: str, says: list[str], tmp_path: Path) -> None:
+def test_all_faults_of_the_options_are_reported_at_once(words: str, says: list[str], tmp_path: Path) -> None:
     """A sentence for each option at fault and no other, also for words from a file, which is named."""
     with pytest.raises(FaultsError) as refused:
         request_of(words)
