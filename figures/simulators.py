@@ -7,6 +7,7 @@ difference of each trajectory from the exact motion.
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from atlas.motions.any_body import motion
 from atlas.pictures import Curve, Plane, Scene
@@ -82,24 +83,7 @@ def errors() -> Iterator[tuple[str, FloatArray]]:
     for name in np.unique(table[:, 0]):
         t, rates, angles, longitude = np.split(table[table[:, 0] == name, 1:], [1, 4, 7], axis=1)
         rate = np.linalg.norm(rates - np.degrees(exact.angular_velocity(t[:, 0])), axis=1)
-        local = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]) @ attitude(np.radians(angles))
-        attitudes = rotations(2, (np.radians(longitude) + EARTH * t)[:, 0]) @ local
+        local = Rotation.from_matrix([[0, 0, -1], [0, 1, 0], [1, 0, 0]]) * Rotation.from_euler("ZYX", angles, True)
+        attitudes = (Rotation.from_euler("z", np.radians(longitude) + EARTH * t) * local).as_matrix()
         distance = np.linalg.norm(attitudes[:1] @ exact.rotation(t[:, 0]) - attitudes, axis=(1, 2)) / np.sqrt(8)
         yield f"{name:.0f}", np.column_stack([t[:, 0], rate, np.degrees(2 * np.arcsin(np.minimum(distance, 1.0)))])
-
-
-def attitude(angles: FloatArray) -> FloatArray:
-    """Return the matrices R_z(yaw) R_y(pitch) R_x(roll), (N, 3, 3), from angles yaw, pitch, roll (N, 3) in rad."""
-    yaw, pitch, roll = angles.T
-    return rotations(2, yaw) @ rotations(1, pitch) @ rotations(0, roll)
-
-
-def rotations(axis: int, angle: FloatArray) -> FloatArray:
-    """Return the matrices (N, 3, 3) of rotations by angles (N,) in rad about the coordinate axis 0, 1 or 2."""
-    matrix = np.zeros((len(angle), 3, 3))
-    row, column = (axis + 1) % 3, (axis + 2) % 3
-    matrix[:, axis, axis] = 1.0
-    matrix[:, row, row] = matrix[:, column, column] = np.cos(angle)
-    matrix[:, column, row] = np.sin(angle)
-    matrix[:, row, column] = -np.sin(angle)
-    return matrix
