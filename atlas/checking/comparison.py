@@ -1,6 +1,5 @@
 """Trajectories of several integrators, graded side by side: their tables, and their errors in one picture."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,9 +9,8 @@ from atlas.checking.check import Check
 from atlas.checking.grades import LINES, MAX_DIGITS
 from atlas.errors import AtlasError
 from atlas.pictures import Curve, Plane, Scene
-
-ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
-"""Roles of the curves, one for each trajectory."""
+from atlas.pictures.captions import listed
+from atlas.pictures.style import LINES as ROLES
 
 
 @dataclass(frozen=True)
@@ -43,12 +41,12 @@ class Comparison:
         if len(self.checks) > len(ROLES):
             raise AtlasError(f"A picture compares {len(ROLES)} files at most, not {len(self.checks)}: leave some out.")
         panels = tuple(self._panel(group) for group in groups)
-        files = _listed([check.file for check in self.checks])
+        files = listed([check.file for check in self.checks])
         worst_digits = (
             f"{min(c.worst for c in check.columns):.1f} of {check.file}" for check in self.checks if check.columns
         )
         digits = f"Correct digits in the worst column: {', '.join(worst_digits)}."
-        quantities = _listed([{"R": "matrices", "Omega": "angular velocity"}.get(x, "quaternions") for x in groups])
+        quantities = listed([{"R": "matrices", "Omega": "angular velocity"}.get(x, "quaternions") for x in groups])
         return Scene(
             title=f"Errors of {files}",
             caption=f"The largest errors in {quantities} of {files} against the certified motion. {digits}",
@@ -70,8 +68,3 @@ class Comparison:
             if group in check.errors
         )
         return Plane(curves, "$t$", f"error of {LINES[group][1]}", y_scale="log", legend=True)
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Return names, one or more, as a list in words: "a", "a and b", "a, b and c"."""
-    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
