@@ -7,6 +7,7 @@ import json
 from base64 import b64encode
 from html import escape
 from io import BytesIO
+from string import Template
 from typing import Any
 
 import numpy as np
@@ -100,28 +101,6 @@ def _add_names(plotter: pv.Plotter, view: View) -> None:
 
 
 _STILL, _SCREEN, _INCH = 192, 96, 25.4
-_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
-_STYLE = """
-html, body { margin: 0; background: #fff; overflow: hidden; }
-.turned { position: relative; }
-img { display: block; width: 100%; }
-.scene, .scene > :is(canvas, div) { position: absolute; inset: 0; width: 100%; height: 100%; }
-.scene canvas { cursor: move; touch-action: none; }
-.scene > div { pointer-events: none; overflow: hidden; }
-.scene svg { position: absolute; left: 0; top: 0; will-change: transform; }
-.scene :is(path, text) { stroke: #fff; stroke-width: 35px; stroke-linejoin: round; paint-order: stroke; }
-"""
-_START = """
-const box = document.createElement("div"), still = document.querySelector("img");
-box.className = "scene";
-still.parentElement.append(box);
-const start = () => {
-  try {
-    new atlasViewer.Viewer(box, JSON.parse(document.querySelector("#data").textContent), `${still.alt} Arrow keys turn it, plus and minus zoom, 0 goes back.`, false).hurry();
-  } catch (error) { box.remove(); console.warn(error.message); }  // without WebGL 2 the still picture stays
-};
-still.complete ? start() : still.addEventListener("load", start);
-"""  # noqa: E501  lines of a script
 
 
 def mimebundle(scene: Scene) -> dict[str, str]:
@@ -141,15 +120,16 @@ def document(scene: Scene) -> str:
     """
     file = BytesIO()
     to_figure(scene).savefig(file, format="png", dpi=_STILL)
-    picture = b64encode(file.getvalue()).decode()
-    viewer = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
     content = json.dumps(data(scene), ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
-    return "\n".join(
-        (
-            f'<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
-            f"<title>{escape(scene.title)}</title><style>{_STYLE}</style>",
-            f'<div class="turned"><img alt="{escape(scene.alt)}" src="data:image/png;base64,{picture}"></div>',
-            f'<script type="application/json" id="data">{content}</script>',
-            f"<script>{viewer}</script><script>{_START}</script>",
-        )
+    return Template(_template("notebook.html")).substitute(
+        title=escape(scene.title),
+        alt=escape(scene.alt),
+        picture=b64encode(file.getvalue()).decode(),
+        content=content,
+        viewer=_template("scene.js"),
+        start=_template("notebook.js"),
     )
+
+
+def _template(name: str) -> str:
+    return (folder("templates") / "html" / name).read_text(encoding="utf-8")
