@@ -14,6 +14,7 @@ import numpy as np
 from atlas.book.digits import MINUS
 from atlas.book.markdown import fenced
 from atlas.book.parts import Asked, figures_of, headed, records_of, templated
+from atlas.places import folder
 
 MAX_NAME_LENGTH = 48
 """Largest length of the name of a page; longer names end with a digest."""
@@ -172,16 +173,9 @@ class Fitted:
 
     def _recipe(self) -> str:
         """Return the Python source of a recipe that fits the data again and draws data, curve and residuals."""
-        return "\n".join(
-            [
-                f'"""Data, fitted motion and residuals, of data with the digest {self.digest}."""', "",
-                "from pathlib import Path", "", "from atlas.fitting import fit_file", "",
-                f"FILE = Path(__file__).parent / {self.file!r}",
-                f"OPTIONS = {pformat(dict(self.given), sort_dicts=False)}", "", "",
-                "def scene():", '    """Fit again, from what was found, and draw."""',
-                "    return fit_file(FILE, **OPTIONS).scene()", "",
-            ]
-        )  # fmt: skip
+        options = pformat(dict(self.given), sort_dicts=False)
+        source = (folder("templates") / "report" / "fit.py.txt").read_text(encoding="utf-8")
+        return source.format(digest=self.digest, file=self.file, options=options)
 
 
 def _marked(sentence: str) -> str:
