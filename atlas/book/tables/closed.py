@@ -6,7 +6,7 @@ from typing import Any
 from atlas.book.digits import Number, plain
 from atlas.book.schema import StrictStruct
 from atlas.book.tables.properties import Thing
-from atlas.book.tables.table import RATE, Data, Request, certified, column, heads, quantity
+from atlas.book.tables.table import RATE, Data, Request, certified, column, columns_of, heads, quantity
 from atlas.errors import AtlasError, DomainError
 
 MAX_FRACTIONS, MAX_DENOMINATOR = 6, 10_000
@@ -127,8 +127,7 @@ def companions(request: Request, setup: CompanionParameters) -> Data:
     theta_+ and theta_- at which the companions turn: rates in 1/s, angles in degrees. Raises AtlasError where there
     is no companion.
     """
-    angles_of_each = certified(lambda: [angles(setup.ratio, *motion) for motion in setup.motions], request.digits)
-    columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
+    columns = columns_of(lambda: [angles(setup.ratio, *motion) for motion in setup.motions], request.digits)
     motions = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in setup.motions]
     return Data(
         heads(

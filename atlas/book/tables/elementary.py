@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from atlas.book.body_and_field import BodyAndField
 from atlas.book.digits import Number, plain
 from atlas.book.schema import StrictStruct
-from atlas.book.tables.table import RATE, Column, Data, Request, certified, column, heads
+from atlas.book.tables.table import RATE, Column, Data, Request, certified, column, columns_of, heads
 from atlas.errors import AtlasError
 
 NONE = "–"
@@ -253,10 +253,9 @@ def samples(request: Request, setup: Samples) -> Data:
     from atlas.motions.elementary.certified import ElementaryMotion
 
     motion = ElementaryMotion(request.case.exact, request.case.components, setup.omega2, setup.omega3)
-    values = certified(
+    columns = columns_of(
         lambda: [(*motion.angular_velocity(t), *motion.third_axis(t)) for t in setup.times], request.digits
     )
-    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads(
             ("$t$", "s"), *((rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)), *((rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3))

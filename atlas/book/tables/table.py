@@ -83,6 +83,11 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
     return [_number(value, digits, "scientific") for value in values]
 
 
+def columns_of(make: Callable[[], Sequence[Sequence[Any]]], digits: int) -> list[list[Number]]:
+    """Return the columns of the rows that `make` returns, certified as by `certified`, as printed numbers."""
+    return [column(values, digits) for values in zip(*certified(make, digits), strict=True)]
+
+
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
     """Return (unit, columns of `Number`s); if the largest value is beyond 1e-3 to 1e5 a power of 1000 is taken out.
 

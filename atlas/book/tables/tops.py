@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas.book.digits import Number, plain
 from atlas.book.schema import StrictStruct
-from atlas.book.tables.table import Data, Request, certified, column, heads
+from atlas.book.tables.table import Data, Request, bits, column, columns_of, heads
 
 TIMES = np.linspace(0.0, 12.0, 40)
 """Times at which a motion is observed."""
@@ -70,10 +70,9 @@ def tops(request: Request, setup: TopsParameters) -> Data:
         TopMotion((1.0, body.ratio), body.coupling, body.direction, body.omega, body.linear, body.quadratic)
         for body in setup.tops
     ]
-    nutations = certified(
+    columns = columns_of(
         lambda: [(top.period, top.precession_per_period, top.spin_per_period) for top in motions], request.digits
     )
-    columns = [column(values, request.digits) for values in zip(*nutations, strict=True)]
     labels: list[tuple[str | Number, ...]] = [
         (
             top.name,
@@ -303,10 +302,9 @@ def elliptic(request: Request, setup: Family) -> Data:
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 
     motions = [EllipticMotion(setup.inertia, setup.field, z, branch) for z, branch in setup.places]
-    values = certified(
+    columns = columns_of(
         lambda: [(m.v, *m.omega, m.splitting, m.period, m.turn_per_period) for m in motions], request.digits
     )
-    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads("$z$", "$v$", *(rf"$\omega_{i}$" for i in (1, 2, 3)), "$C/D^2$", "$T$", r"$\Theta$", "Motion"),
         tuple(
@@ -327,7 +325,6 @@ def periods(request: Request, setup: Motion) -> Data:
     """
     from flint import fmpq
 
-    from atlas.book.tables.table import bits
     from atlas.motions.torus.certified_torus import Torus
 
     inertia, K, omega = (
@@ -351,10 +348,9 @@ def asymmetric(request: Request, setup: Samples) -> Data:
     from atlas.motions.torus.certified import AsymmetricMotion
 
     motion = AsymmetricMotion(setup.inertia, setup.field, setup.omega)
-    values: list[Any] = certified(
+    columns = columns_of(
         lambda: [(*motion.column(3, t), motion.angular_velocity(t)[2]) for t in setup.times], request.digits
     )
-    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads("$t$", *(rf"$R_{{{i}3}}$" for i in (1, 2, 3)), r"$\Omega_3$"),
         tuple(zip(map(Number.as_given, setup.times), *columns, strict=True)),
