@@ -7,7 +7,7 @@ runs only when its scene is wanted. A name stands for a file in figures/, a path
 import ast
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, get_type_hints
 
-from atlas.errors import AtlasError, nearest
+from atlas.errors import AtlasError, unknown
 from atlas.pictures.parameters import RANGES, fitted
 from atlas.places import folder
 from atlas.sources import syntax_tree
@@ -67,7 +67,7 @@ class Recipe:
 
         for name in parameters:
             if name not in self.parameters:
-                raise _unknown("parameter", name, self.parameters, f"the figure {self.name!r}")
+                raise unknown("parameter", name, self.parameters, f"in the figure {self.name!r}")
         try:
             make, hints = _function(self.source)
             used = {
@@ -249,12 +249,3 @@ def _broken(source: Path, error: Exception) -> AtlasError:
 def _short(source: Path) -> str:
     """Return the name of a recipe's file for messages: "figures/NAME.py", or the bare name of a user's file."""
     return f"figures/{source.name}" if source.parent == folder("figures") else source.name
-
-
-def _unknown(noun: str, name: str, choices: Iterable[str], owner: str) -> AtlasError:
-    """Return, without raising it, an AtlasError for an unknown `name`, with all `choices` and the most similar one.
-
-    `noun` is the kind of the name, `owner` the thing that has none: "no parameter 'x' in the figure 'y'; known: a, b."
-    """
-    options = list(choices)
-    return AtlasError(f"no {noun} {name!r} in {owner}{nearest(name, options)}; known: {', '.join(options) or 'none'}.")

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
-from atlas.errors import AtlasError, nearest
+from atlas.errors import unknown
 from atlas.places import settle_matplotlib
 
 WHITE = "#ffffff"
@@ -201,4 +201,4 @@ def style(role: str) -> Style:
     """Return the `Style` of a role, a key of STYLES. Raises AtlasError for an unknown role."""
     if role in STYLES:
         return STYLES[role]
-    raise AtlasError(f"no style for the role {role!r}{nearest(role, STYLES)}; known: {', '.join(STYLES)}")
+    raise unknown("role", role, STYLES)

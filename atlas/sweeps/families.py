@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.arithmetic.lazy import cached_property
-from atlas.errors import AtlasError, DomainError, nearest
+from atlas.errors import AtlasError, DomainError, unknown
 from atlas.families.family import TIME
 from atlas.motions import register as families
 from atlas.motions.register import Family, Quantity
@@ -175,10 +175,7 @@ class Swept:
         )
         for subject, refused, known_names in lists:
             if refused:
-                raise AtlasError(
-                    f"There is no {subject} {refused[0]!r} here{nearest(refused[0], known_names)}; known: "
-                    f"{', '.join(known_names) or 'none'}."
-                )
+                raise unknown(subject, refused[0], known_names, "here")
         missing_names = [name for name in self.needed if name not in parameters]
         if missing_names:
             raise AtlasError(f"The parameter {missing_names[0]} is missing: give {', '.join(self.needed)}.")

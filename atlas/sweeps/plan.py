@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray, real
 from atlas.arithmetic.uncertainty import concise, in_independent_inputs, is_uncertain, spread
-from atlas.errors import AtlasError, nearest
+from atlas.errors import AtlasError, unknown
 from atlas.families.family import TIME
 from atlas.sweeps.families import FAMILIES, MISSING
 
@@ -76,9 +76,7 @@ class Plan:
         many rows.
         """
         if family not in FAMILIES:
-            raise AtlasError(
-                f"There is no family {family!r} to sweep{nearest(family, FAMILIES)}; known: {', '.join(FAMILIES)}."
-            )
+            raise unknown("family", family, FAMILIES, "to sweep")
         quantities = [quantities] if isinstance(quantities, str) else quantities
         columns_of = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
         quantities = [column for name in quantities for column in columns_of.get(name, (name,))]

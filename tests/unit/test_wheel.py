@@ -91,7 +91,7 @@ def test_the_guides_own_recipe_works_anywhere(run: Run, tmp_path: Path) -> None:
     assert {path.suffix[1:] for path in (tmp_path / "out").glob("my_precession.*")} == kinds
     assert sorted(path.name for path in tmp_path.iterdir()) == ["build", "my_precession.py", "out"]
     assert "field=1,2" in run("figure", RECIPE[1], "--help").stdout
-    assert run("figure", RECIPE[1], "--set", "ratoi=1").stderr.startswith("atlas: no parameter 'ratoi'")
+    assert run("figure", RECIPE[1], "--set", "ratoi=1").stderr.startswith("atlas: there is no parameter 'ratoi'")
     (tmp_path / "ball.py").write_text(RECIPE[2], encoding="utf-8")
     assert run("figure", "ball", "./ball.py").returncode == 2
 
