@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import atlas
 from atlas.book import pandoc
 from atlas.errors import AtlasError
 
@@ -53,6 +54,16 @@ def read(path: Path) -> Bibliography:
         {key: citation[1:-1] for key, citation in zip(keys, words[len(keys) :], strict=True)},  # without its brackets
         dict(zip(entries, html, strict=True)),
     )
+
+
+def software() -> str:
+    """Return the BibTeX entry of this version of the atlas."""
+    return f"""@software{{atlas,
+  author  = {{{{The atlas developers}}}},
+  title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
+  version = {{{atlas.__version__}}},
+}}
+"""
 
 
 def _citation(key: str, mode: str) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from atlas.arithmetic.certified_digits import MARK
+from atlas.book.digits import significant
 from atlas.book.parts import Asked, case_of
 from atlas.book.tables.properties import Thing
 from atlas.book.tables.table import Request, certified, quantity
@@ -286,11 +287,6 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
             entry |= {"sigma": None, "proven_digits": 0, "reason": "the errors of the inputs tell no deviation of it"}
         made[one.key] = entry
     return made
-
-
-def significant(text: str) -> int:
-    """Return the number of significant digits in the text of a number, such as 3 for "-0.0120e5"."""
-    return len(text.partition("e")[0].replace("-", "").replace(".", "").lstrip("0"))
 
 
 def _unit(unit: str, time: str) -> str:

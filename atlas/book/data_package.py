@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from atlas.book.blocks.table import Cell, ColumnView, TableView
-from atlas.book.digits import MINUS, THIN
+from atlas.book.digits import MINUS, THIN, significant
 from atlas.book.document import Document
 from atlas.book.templates import versions
 from atlas.book.texts import citations, title_words
@@ -136,7 +136,7 @@ def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence
     if column.unit is not None:
         field["unit"] = words(texts[column.unit])
     if numbers:
-        field["digits"] = max(digits(value(cell, texts)) for cell in numbers)
+        field["digits"] = max(significant(value(cell, texts)) for cell in numbers)
     return field
 
 
@@ -209,11 +209,6 @@ def value(cell: Cell, texts: Sequence[str]) -> str:
     digits = f"{cell.whole}{cell.fraction}".replace(THIN, "").replace(MINUS, "-")
     power = cell.power.replace(MINUS, "-")
     return "" if digits == "?" else f"{digits}e{power}" if power else digits
-
-
-def digits(number: str) -> int:
-    """Return the count of significant digits in a number's text, 3 for "-0.0120e5"; 0 for zero."""
-    return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
 
 
 def ascii_name(head: str) -> str:

@@ -64,6 +64,11 @@ def room(text: str) -> float:
     return sum({".": 0.5, THIN: 0.5, MINUS: 1.4}.get(character, 1.0) for character in text)
 
 
+def significant(text: str) -> int:
+    """Return the number of significant digits in the text of a number, such as 3 for "-0.0120e5"."""
+    return len(re.sub(r"e.*|[-.]", "", text).lstrip("0"))
+
+
 def plain(value: float) -> str:
     """Return the shortest digits that read back as the float, in ASCII."""
     return repr(float(value)).removesuffix(".0")

@@ -69,8 +69,8 @@ def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
             yield words, request.changed(request.family.name, **shape, ratio=border)
 
 
-def reproduced(request: Asked, motion: Any) -> str:
-    """Return Markdown with the shell command and the lines of Python that print the numbers of `motion`."""
+def reproduced(request: Asked, motion: Any) -> tuple[str, list[str]]:
+    """Return the shell command, and the lines of Python, that print the numbers of this motion."""
     family = request.family
     kernels = family.kernels()
     values = zip(
@@ -81,13 +81,7 @@ def reproduced(request: Asked, motion: Any) -> str:
     lines += [f"print(it.{q.name})" for q in family.quantities if _is_printed(q, motion)]
     command = family.command.name if family.command else family.name
     digits = [] if request.deviations else ["--digits", str(request.digits)]
-    return "\n".join(
-        [
-            "On the command line:", "", "```console",
-            f"$ {shlex.join(['atlas', command, *request.typed, *digits])}", "```", "",
-            "In Python, as doubles next to them:", "", "```python", *lines, "```",
-        ]
-    )  # fmt: skip
+    return shlex.join(["atlas", command, *request.typed, *digits]), lines
 
 
 def _is_printed(quantity: Any, motion: Any) -> bool:

@@ -13,13 +13,13 @@ from itertools import groupby
 from math import ceil
 from typing import Any
 
-import atlas
+from atlas.book.bibliography import software
 from atlas.book.blocks.equation import EquationView
 from atlas.book.blocks.figure import FigureView
 from atlas.book.blocks.prose import ProseView
 from atlas.book.blocks.table import Cell, ColumnView, TableView
-from atlas.book.data_package import ascii_name, digits, unique, value
-from atlas.book.digits import MINUS
+from atlas.book.data_package import ascii_name, unique, value
+from atlas.book.digits import MINUS, significant
 from atlas.book.document import Document
 from atlas.book.templates import templates
 from atlas.book.texts import title_words
@@ -106,7 +106,7 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
                 key = "/".join([table.id.removeprefix("tab-"), name, *final])
                 unit = "" if text is None else markdown[text]
                 cell = f"{table.id.removeprefix('tab-')}-{number}-{place + 1}"
-                yield Numeral(key, cell, digits(row[place]) or ZERO_DIGITS, *_with_unit(row[place], unit))
+                yield Numeral(key, cell, significant(row[place]) or ZERO_DIGITS, *_with_unit(row[place], unit))
 
 
 def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
@@ -137,26 +137,16 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
     """
     name = figure.id.removeprefix("fig-")
     files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
-    kind = "figure*" if any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures) else "figure"
-    graphics = "\n".join(rf"\includegraphics{{{file}}}" for file in files)
-    return (
-        f"\\begin{{{kind}}}[{'tb' if kind == 'figure*' else '!htb'}]\n\\centering\n{graphics}\n"
-        f"\\caption{{{texts[figure.caption]}}}\\label{{{figure.id}}}\n\\end{{{kind}}}\n"
-    )
+    is_wide = any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures)
+    template = templates("latex").get_template("figure.tex")
+    return template.render(id=figure.id, caption=texts[figure.caption], files=files, is_wide=is_wide)
 
 
 def _references(document: Document) -> str:
     """Return the BibTeX source of the report's bibliography, in the terms of old BibTeX, and an entry for the atlas."""
-    key = f"""@software{{atlas,
-  author  = {{{{The atlas developers}}}},
-  title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
-  version = {{{atlas.__version__}}},
-}}
-"""
     protected = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
-    return "\n".join(
-        filter(None, [protected.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), key])
-    )
+    works = protected.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{")
+    return "\n".join(filter(None, [works, software()]))
 
 
 def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
@@ -260,6 +250,16 @@ class Layout:
         """Whether the table takes both columns of the page."""
         return self.letters > TIGHT_COLUMN_LETTERS or any(self.shares)
 
+    @property
+    def is_tight(self) -> bool:
+        """Whether the table is made smaller for its column."""
+        return self.letters > COLUMN_LETTERS and not self.is_wide
+
+    @property
+    def is_long(self) -> bool:
+        """Whether the table goes over several pages."""
+        return self.lines > PAGE_LINES
+
 
 def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
     """Return a table as a LaTeX environment: over two columns if wide, over several pages if long.
@@ -267,29 +267,13 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
     `markdown` and `texts` are the document's texts in Markdown and in LaTeX.
     """
     layout = Layout(table, markdown)
-    caption = rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}"
-    cells = [_head(column, texts, format_) for column, format_ in zip(table.columns, layout.formats, strict=True)]
-    head = [r"\toprule", " & ".join(cells) + r" \\", r"\midrule"]
+    heads = [_head(column, texts, format_) for column, format_ in zip(table.columns, layout.formats, strict=True)]
     rows = [
-        " & ".join(_entry(cell, texts, numeric=x != "l") for cell, x in zip(row, layout.formats, strict=True)) + r" \\"
+        [_entry(cell, texts, numeric=x != "l") for cell, x in zip(row, layout.formats, strict=True)]
         for row in table.rows
     ]
-    note = [rf"\par\smallskip\footnotesize {texts[table.note]}"] if table.note is not None else []
-    if layout.lines > PAGE_LINES:
-        begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{layout.columns}}}", caption + r"\\"]
-        again = [*head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule", r"\endfoot"]
-        return "\n".join([*begin, *again, *rows, r"\end{longtable*}", *note, r"\endgroup", ""])
-    kind, place = ("table*", "[tb]") if layout.is_wide else ("table", "[!htb]")
-    begin = [rf"\begin{{{kind}}}{place}", caption, r"\centering\footnotesize"]
-    tabular, end = [rf"\begin{{tabular}}{{{layout.columns}}}"], [r"\bottomrule", r"\end{tabular}"]
-    if layout.letters > COLUMN_LETTERS and not layout.is_wide:
-        tabular = [r"\setlength{\tabcolsep}{3pt}", NARROW + tabular[0]]
-        end = [end[0], end[1] + "}"]
-    return "\n".join([*begin, *tabular, *head, *rows, *end, *note, rf"\end{{{kind}}}", ""])
-
-
-NARROW = r"\resizebox{\ifdim\width>\columnwidth\columnwidth\else\width\fi}{!}{"
-"""LaTeX commands that shrink a table that is wider than its column."""
+    template = templates("latex").get_template("table.tex")
+    return template.render(table=table, texts=texts, layout=layout, heads=heads, rows=rows)
 
 
 def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:

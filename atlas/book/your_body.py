@@ -15,6 +15,7 @@ from atlas.arithmetic.uncertainty import concise
 from atlas.bodies.formula_shapes import SHAPES
 from atlas.bodies.laboratory import Disturbance, Spinning, disturbances
 from atlas.book import toml
+from atlas.book.bibliography import software
 from atlas.book.blocks.explorer import sliders_of
 from atlas.book.card import ENTRIES, ONE_PERIOD, card, centre_of, has_card, thing_of
 from atlas.book.digits import Number, plain, spaced
@@ -45,13 +46,6 @@ PICTURE = f"{NAME}.py"
 """File of this recipe beside the reports, one for all."""
 OPTION = "\n  "
 """What precedes an option in a file of inputs, so that each has a line of its own."""
-SOFTWARE = """@software{{atlas,
-  author  = {{{{the atlas developers}}}},
-  title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
-  version = {{{version}}},
-}}
-"""
-"""BibTeX of a version of the atlas."""
 LEAST = 1e-4
 """Amplitude over the whole below which a line of a spectrum is not counted, as in its figure."""
 PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stability": "maps", "motion_map": "maps",
@@ -172,8 +166,7 @@ def works() -> str:
     """Return BibTeX text for the paper, where the references have it, and for this version of the atlas."""
     entries = (folder("reports") / "references.bib").read_text(encoding="utf-8")
     paper = re.search(r"@article\{deriglazov2024,.*?\n\}\n", entries, re.DOTALL)
-    version = SOFTWARE.format(version=versions()["atlas"])
-    return f"{paper[0] if paper else ''}\n{version}"
+    return f"{paper[0] if paper else ''}\n{software()}"
 
 
 def files_of(request: Asked) -> dict[str, str]:
@@ -236,7 +229,7 @@ def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
         "explorer": "".join(map(fenced, explorer_of(request, left_out) if "card" in request.parts else ())),
         "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
         "setting": "".join(map(fenced, setting_of(request))),
-        "again": reproduced(request, motion) if "elsewhere" in request.parts else "",
+        "again": reproduced(request, motion) if "elsewhere" in request.parts else None,
         "neighbours": [[words, f"`{other.command}`"] for words, other in near(request)],
     }  # fmt: skip
 

@@ -8,7 +8,7 @@ from typing import Any
 from atlas.arithmetic.certified_inputs import rational
 from atlas.arithmetic.given import exact_number
 from atlas.book.body_and_field import DIMENSIONS, GAUSSIAN_UNITS, BodyAndField
-from atlas.book.digits import MINUS, Number, plain
+from atlas.book.digits import MINUS, Number, plain, significant
 from atlas.book.tables.elementary import NONE
 from atlas.book.tables.table import RATE, Data, Request, certified, heads, quantity
 from atlas.errors import AtlasError, DomainError, unknown
@@ -239,7 +239,7 @@ def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int
     proven = text.removesuffix(MARK)
     if text == "0":
         return Number("0"), "exactly"
-    count = len(re.sub(r"e.*|[-.]", "", proven).lstrip("0"))
+    count = significant(proven)
     return Number(proven), f"{count}{SPACE}digits" + ", no more" * (MARK in text and count < digits)
 
 
