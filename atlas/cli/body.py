@@ -258,10 +258,11 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
     return rotation_of(options["attitude"], "--attitude")
 
 
-def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> str:
+def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str], remedy: str = "") -> str:
     """Return the name of the single given option among `names`. Raises click.UsageError for none and for several.
 
-    `options` are the command's, by name; `subject` says what they give, as "body", in the message.
+    `options` are the command's, by name; `subject` says what they give, as "body", in the message; `remedy` what to
+    give where there is none, by default one of `names`.
     """
     names_given = list(given(options, names))
     if len(names_given) != 1:
@@ -269,7 +270,7 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str]) -> st
         typed_options = " and ".join(f"--{name}" for name in names_given)
         if names_given:
             raise click.UsageError(f"the {subject} is given twice, by {typed_options}: leave one of them out.")
-        raise click.UsageError(f"the {subject} is missing: give one of {option_names}.")
+        raise click.UsageError(f"the {subject} is missing: give {remedy or f'one of {option_names}'}.")
     return names_given[0]
 
 
@@ -394,11 +395,8 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
     Raises click.UsageError when neither or both are given, or an option of the one stands beside the other.
     `options` are the command's, by name.
     """
-    if (options["field"] is None) == (options["magnetic"] is None):
-        if options["field"] is not None:
-            raise click.UsageError("the field is given twice, by --field and --magnetic: leave one of them out.")
-        raise click.UsageError("the field is missing: give B' by --field, or B by --magnetic with --mu, or with --mass "
-                               "and --charge.")  # fmt: skip
+    remedy = "B' by --field, or B by --magnetic with --mu, or with --mass and --charge"
+    one_of(options, "field", ("field", "magnetic"), remedy)
     if options["field"] is not None:
         for name in ("mu", "mass", "charge", "units"):
             if options[name] is not None:
@@ -466,8 +464,6 @@ def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
     are the command's, by name.
     """
     omega, spin = options["omega"], options["spin"]
-    if (needed or spin is not None) and (omega is None) == (spin is None):
-        if spin is not None:
-            raise click.UsageError("the start is given twice, by --omega and --spin: leave one of them out.")
-        raise click.UsageError("the start is missing: give --omega W1 W2 W3 or --spin W3.")
+    if needed or spin is not None:
+        one_of(options, "start", ("omega", "spin"), "--omega W1 W2 W3 or --spin W3")
     return omega if spin is None else (0.0, 0.0, spin)
