@@ -27,17 +27,16 @@ MISSING = "missing"
 class Column:
     """A quantity of a table: how its values are computed, and how they are printed.
 
-    `of` maps a motion (or array of motions) in doubles and the row's parameters by name to the value; `exact` does
-    so for a motion in balls (None: `of` serves). `unit` is text, "" for a pure number. `certified` says whether
-    there are certified digits. `missing` is the reason why the quantity may have no value in a row, whose cell is
-    then NaN or an empty text; "" for a quantity that always has one.
+    `of` maps a motion (or array of motions) and the row's parameters by name to the value; it takes `exact`, which
+    says whether the motion is one in balls, not in doubles. `unit` is text, "" for a pure number. `certified` says
+    whether there are certified digits. `missing` is the reason why the quantity may have no value in a row, whose
+    cell is then NaN or an empty text; "" for a quantity that always has one.
     """
 
-    of: Callable[[Any, Row], Any]
+    of: Callable[..., Any]
     unit: str = ""
     certified: bool = False
     missing: str = ""
-    exact: Callable[[Any, Row], Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -138,7 +137,7 @@ class Swept:
         from flint import arb
 
         try:
-            value = (column.exact or column.of)(motion, row)
+            value = column.of(motion, row, exact=True)
         except DomainError:
             if not column.missing:
                 raise
@@ -190,20 +189,19 @@ def empty(column: NDArray[Any]) -> NDArray[np.bool]:
 
 def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
     """Yield (name, `Column`) for a quantity of the register, or for each of its components if it is a vector."""
-    details = q.unit, q.certified, q.missing
     for i, name in enumerate(q.names):
-        place = i if q.columns else None
-        yield name, Column(partial(_value, q, place, exact=False), *details, partial(_value, q, place, exact=True))
+        yield name, Column(partial(_value, q, i if q.columns else None), q.unit, q.certified, q.missing)
 
 
-def _value(q: Quantity, place: int | None, motion: Any, _: Row, *, exact: bool) -> Any:
+def _value(q: Quantity, place: int | None, motion: Any, _: Row, *, exact: bool = False) -> Any:
     value = q.value(motion, exact=exact)
     if place is None:
         return value
     return value[place] if isinstance(value, tuple | list) else value[..., place]
 
 
-def _at_time(get: Callable[[Any, Any], Any], motion: Any, row: Row) -> Any:
+def _at_time(get: Callable[[Any, Any], Any], motion: Any, row: Row, *, exact: bool = False) -> Any:
+    del exact  # the methods of both have one name
     return get(motion, row["t"])
 
 
