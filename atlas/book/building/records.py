@@ -113,7 +113,7 @@ def _trial() -> dict[str, Data]:
     return {
         "totals": Data(columns, tuple(rows), "The trial in numbers."),
         "slips": Data(
-            heads("What is wrong", "Slips", "Entries"),
+            heads("Slip", "Slips", "Entries"),
             tuple(
                 (
                     grade.capitalize(),
@@ -153,7 +153,7 @@ def _bench() -> dict[str, Data]:
             for method, errors in best.items()
         )
         title = f"Error against horizon: {case}"
-        note = "Of an integrator the best tolerance that came through in time."
+        note = "For an integrator, the best tolerance that finished in time."
         tables[title] = Data(columns, rows, f"{title}.", (note, line))
     return tables
 
@@ -176,9 +176,9 @@ def _stress() -> dict[str, Data]:
     note = (
         f"Of {len(order)} quantities, {len(limits.keys() & order)} with a limit, {above or 'none'} exceeded it. "
         f"Worst of {record['values']:,} values on {len(record['processors'])} kinds of x86 processors, rounded up. "
-        "Half a unit is on record where less was found."
+        "Errors below half a unit are recorded as half a unit."
     )
-    columns = heads("Quantity", ("Worst error", "ulp"), ("Limit", "ulp"), "Met where")
+    columns = heads("Quantity", ("Worst error", "ulp"), ("Limit", "ulp"), "Found at")
     return {"worst errors": Data(columns, tuple(rows), "Worst errors on record.", (note,))}
 
 

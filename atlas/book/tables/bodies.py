@@ -71,8 +71,8 @@ def sizes(setup: SizeParameters) -> Data:
         f"Balls of {setup.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
         f"{two(setup.surface_field).tex()} V m$^{{-1}}$ allows, in {setup.magnet:g} T: charge, charge-to-mass ratio, "
         r"Larmor's frequency and its period; the angle $\delta$ between $\mathbf{m}$ and $\mathbf{B}$ for "
-        f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$; and the temperature whose "
-        "heat turns the ball with $b$.",
+        f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$; and the temperature at "
+        "which heat turns the ball at the rate $b$.",
         ("Two digits of doubles, not proven: the shape of a body changes the first.",),
     )
 
@@ -105,10 +105,9 @@ def radiation(setup: SizeParameters) -> Data:
             ("rotation, electric quadrupole", "years"),
         ),
         tuple(rows),
-        "How long the bodies of @tab:real-sizes would take to radiate their energy away: that of the flight at the "
-        r"cyclotron frequency $2b$; that of the rotation at the rate $b$, once by the moment $\mu\mathbf{m}/2$ that "
-        rf"precesses across the field, once, with $I={RATIO:g}$, by the quadrupole of an axis that goes round a right "
-        "angle off it.",
+        "Times in which the bodies of @tab:real-sizes would radiate their energy: of the flight at the cyclotron "
+        r"frequency $2b$; of the rotation at the rate $b$, by the moment $\mu\mathbf{m}/2$ that precesses across the "
+        rf"field, and, with $I={RATIO:g}$, by the quadrupole of an axis that precesses at a right angle to it.",
         ("Two digits of doubles, not proven.", "Energy over power at the start, with the formulas of the text."),
     )
 
@@ -165,7 +164,7 @@ def charges(request: Request) -> Data:
             "Body", ("$m_0$", "kg"), ("$r$", "m"), (r"$e=\mu m_0$", "C"), (r"$e/4\pi\varepsilon_0r^2$", "V m$^{-1}$")
         ),
         tuple(rows),
-        "The charges of the bodies, and the field of a point charge as large at the distance of the radius.",
+        "The charges of the bodies, and the field of such a point charge at the distance of the radius.",
         ("Two digits of doubles, not proven: the field at the surface is of this order, and depends on the shape.",),
     )
 
@@ -258,8 +257,8 @@ def coats(setup: CoatParameters) -> Data:
         heads("Body", "$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$"),
         tuple(rows),
         r"Bodies whose charge is not spread like their mass, $b=eB/2m_0c$ with the whole charge: gyromagnetic factors "
-        r"across and along the axis, and what stands in @theorem-every-top. For one charge-to-mass ratio throughout "
-        r"both factors are 1, $\kappa=0$ and $A/b^2=I-1$.",
+        r"across and along the axis, and the coefficients of @theorem-every-top. For one charge-to-mass ratio "
+        r"throughout both factors are 1, $\kappa=0$ and $A/b^2=I-1$.",
         ("Three decimals of doubles, not proven; dimensions in the text.",),
     )
 
@@ -295,7 +294,7 @@ def swings(request: Request, setup: DiamagnetismParameters) -> Data:
                 for words in ("charge alone", "magnetised")
                 for head, unit in ((r"$\sqrt{\lvert A\rvert}$", RATE), ("$T$", "s"))
             ),
-            r"quotient of both $\lvert A\rvert$",
+            r"ratio of both $\lvert A\rvert$",
         ),
         tuple(rows),
         r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "

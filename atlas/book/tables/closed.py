@@ -36,20 +36,22 @@ def closed(request: Request, item: Thing) -> Data:
     )
     fractions = list(convergents(value))
     if not fractions:
-        raise DomainError("The turns in one nutation are a whole number, as far as can be told: each one closes.")
+        raise DomainError(
+            "The turns in one nutation are an integer, to the digits computed: the trace closes in each nutation."
+        )
     misses = [quantity(value - fmpq(p, q), 2) for p, q in fractions]
     if elementary:
         return _elementary(item, value, fractions, misses, request.digits)
     period = certified(lambda: exact.period, request.digits)
     times = column([q * period for _, q in fractions], request.digits)
     return Data(
-        heads("Turns", "Nutations", ("Time", item.unit("time")), "Turns a nutation, less the fraction"),
+        heads("Turns", "Nutations", ("Time", item.unit("time")), "Turns per nutation less the fraction"),
         tuple(
             (Number(str(p)), Number(str(q)), time, miss)
             for (p, q), time, miss in zip(fractions, times, misses, strict=True)
         ),
-        f"When the trace of the axis nearly comes back: {quantity(value, request.digits).words()} turns about the "
-        "field in one nutation, and the best fractions of this number.",
+        f"When the trace of the axis nearly closes: {quantity(value, request.digits).words()} turns about the "
+        "field in one nutation, and the best rational approximations of this number.",
     )  # fmt: skip
 
 
@@ -82,7 +84,7 @@ def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: in
             ("Closes after", item.unit("time")), r"$\phi/k$ less the fraction",
         ),
         tuple(rows),
-        rf"The nearest closed motions, @theorem-closed: best fractions of $\phi/k$ = "
+        rf"The nearest closed motions, @theorem-closed: best rational approximations of $\phi/k$ = "
         f"{quantity(value, digits).words()}. "
         "A motion with the fraction $p/q$ comes back after $q$ precessions.",
         ("`Hyperbola.closed(p, q)` makes one; its numbers are rounded from the nearest doubles.",),

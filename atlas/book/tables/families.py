@@ -18,10 +18,9 @@ def quantities() -> Data:
         for place, row in enumerate(_rows(family)):
             rows.append((f"`{family.name}`" if place == 0 else "", *row))
     return Data(
-        heads("Family", "Name", "What it is", "Unit", "Equation", "Error"),
+        heads("Family", "Name", "Meaning", "Unit", "Equation", "Error"),
         tuple(rows),
-        "The families of motions and surfaces: what each is given and what follows from it, by the names of the "
-        "commands and of `atlas sweep`.",
+        "The families of motions and surfaces: inputs and quantities, by their names in commands and `atlas sweep`.",
         (
             (
                 "Errors are the largest that are promised, in units in the last place: of the number itself, of 1 for "
@@ -97,7 +96,7 @@ def roles() -> Data:
     return Data(
         columns,
         tuple((_names(tuple(names)), *look) for look, names in looks.items()),
-        "The roles of layers. What stands in typewriter as a name of Matplotlib's is set by a style sheet, as are all "
-        "texts (`font.family`, `font.size`, `axes.labelsize`), frames, ticks, legends and the colours of maps "
-        "(`image.cmap`); the rest is the atlas's own, in `atlas/pictures/style.py`.",
+        "The roles of layers. A style sheet of Matplotlib sets the properties for which a name of a setting is given "
+        "in typewriter, and all texts (`font.family`, `font.size`, `axes.labelsize`), frames, ticks, legends and the "
+        "colours of maps (`image.cmap`); `atlas/pictures/style.py` sets the others.",
     )

@@ -128,9 +128,9 @@ def lines(setup: Lines) -> Data:
     return Data(
         heads(("Spin", "Hz"), ("Line", "Hz"), "Turns", "across the field", "along it"),
         tuple(rows),
-        f"Lines of the axis of the ball, down to {setup.least:g} of the whole: how far each moves a component of the "
-        "axis to either side, that component across the field which it moves most, and that along the field.",
-        ("Three digits of doubles, not proven, and a dash below a thousandth of the least; of the mean its size.",),
+        f"Lines of the axis of the ball, down to {setup.least:g} of the root mean square: how far each moves the axis "
+        "to either side, in the component across the field that it moves most, and along the field.",
+        ("Three digits of doubles, not proven; a dash below a thousandth of the least; for the mean its magnitude.",),
     )  # fmt: skip
 
 
@@ -165,11 +165,11 @@ def inferred(setup: Watch) -> Data:
         J = np.stack([np.cross(derivative, motion.column(3, t)).ravel() for derivative in scaled], -1) / setup.noise
         columns.append([*_deviations(J)[:4], _deviations(np.delete(J, 2, axis=1))[2]])
     return Data(
-        heads("What", *(f"spin {spin:g} Hz" for spin in setup.spins)),
+        heads("Quantity", *(f"spin {spin:g} Hz" for spin in setup.spins)),
         tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
-        f"Standard deviations that {setup.samples} looks at the axis within {setup.seconds:g} s, each with a noise of "
-        f"{setup.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
-        ("Two digits of doubles, not proven, of first order; a dash for what the axis does not tell by itself.",),
+        f"Smallest standard deviations from {setup.samples} samples of the axis within {setup.seconds:g} s, with noise "
+        f"of {setup.noise:g} in every component; the direction of the field and the start are unknown too.",
+        ("Two digits of doubles, not proven, of first order; a dash where the axis alone does not determine it.",),
     )
 
 
@@ -278,6 +278,8 @@ def fits() -> Data:
             (*kind.split(", "), *(Number(f"{row[name]:{form}}") for name, form in RECORDED.items()))
             for kind, row in record.items()
         ),
-        "Fits of made-up measurements, 100 motions a row, without a start.",
-        ("500 times with an error of 0.01, unless another is said; parameters within one standard error are 68 %.",),
+        "Fits of simulated measurements, 100 motions a row, without start values.",
+        (
+            "500 times with an error of 0.01, unless stated otherwise; 68 % of parameters should lie within one error.",
+        ),
     )

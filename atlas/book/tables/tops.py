@@ -132,9 +132,9 @@ def monodromy(setup: MonodromyParameters) -> Data:
     return Data(
         heads("Top", "$I$", "$M_3$", "$p$", "least $T$", "largest $T$", "matrix", "step", "radius"),
         tuple(rows),
-        r"Rows of the matrix: what $\mathbf{g}_1$, $\mathbf{g}_2$, $\mathbf{g}_3$ have become after one round. With it "
+        r"Rows of the matrix: the periods $\mathbf{g}_1$, $\mathbf{g}_2$, $\mathbf{g}_3$ after one round. Beside it "
         r"the largest change of $\Delta\psi/2\pi$ or $\Delta\chi/2\pi$ from one point to the next, which must be less "
-        "than a half, and the largest radius of the balls that hold them.",
+        "than a half, and the largest radius of their balls.",
         (f"Loops of {setup.points} points, counter-clockwise in the plane of $p$ and $g$.",),
     )
 
@@ -312,7 +312,7 @@ def elliptic(request: Request, setup: Family) -> Data:
             for (z, _), row, m in zip(setup.places, zip(*columns, strict=True), motions, strict=True)
         ),
         rf"Elliptic motions of a body with $I_i={_row(setup.inertia)}$ in $\mathbf{{B}}'={_row(setup.field)}$: the "
-        r"place $(z,v)$, initial angular velocity, what decides on stability, the period $T$ of "
+        r"place $(z,v)$, initial angular velocity, the number that decides stability, the period $T$ of "
         r"$\mathbf{K}$, and the turn $\Theta$ of the body about the field in it.",
     )
 
