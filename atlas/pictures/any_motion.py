@@ -154,7 +154,7 @@ def picture(
         ),
     )  # fmt: skip
     return Scene(
-        caption=rf"(a) From the dot on the third axis $\mathbf{{R}}_3(t)$ keeps between the parallels that it touches, "
+        caption=r"(a) From the dot on, the third axis $\mathbf{R}_3(t)$ moves between the parallels that it touches, "
         rf"{span}, ${upright.letter}$ upright. (b) The angular velocity in the body. {setting[0]}.",
         alt=f"{setting[1]}: a unit sphere with the trace of the third axis {span}, {upright.plain} upright; and "
         "the three components of the angular velocity over time.",

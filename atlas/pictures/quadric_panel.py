@@ -23,16 +23,16 @@ _FLAT = 1e-3
 MAX_ARROW_RATIO = 2.2
 """Largest length of the arrow I^-1 B' over that of B': beside a needle's all else would be small."""
 LEGEND = (
-    r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. The points of the "
-    r"hyperbola $\omega_1=0$ (heavy line) alone are motions; through $-\mathbf{B}'$ go the canonical axes."
+    r"The outer side is blue, the inner amber; hidden parts are dashed. Motions with constant $\Omega_3$ start only from "
+    r"the hyperbola $\omega_1=0$ (heavy line); the canonical axes meet at $-\mathbf{B}'$."
 )
 
 DEGENERATE = {
     "all space": ("all space", r"Without a field $\Omega_3$ of every motion is constant."),
-    "line": ("a line", r"All its points (heavy line) are motions, spins along $\mathbf{B}'$."),
+    "line": ("a line", r"All its points (heavy line) start spins along $\mathbf{B}'$."),
     "plane pair": (
         "a plane pair",
-        r"Parts that a plane hides are dashed. The points of the lines $\omega_1=0$ (heavy) alone are motions.",
+        r"Hidden parts are dashed. Motions with constant $\Omega_3$ start only from the lines $\omega_1=0$ (heavy).",
     ),
 }
 """Quadrics without two sides and without canonical axes: their names, and sentences for captions."""

@@ -136,7 +136,7 @@ def test_two_equal_moments_drift_as_the_symmetric_body() -> None:
         ((I, (0, 0, 0), (0, 1, 0)), {}, "no phases"),
         ((I, B, OMEGA), {"drag": (1e-3, 1e-3)}, "one rate or three"),
         ((I, B, ON_A_CURVE), {}, "no torus wide enough"),
-        ((I, B, OMEGA), {"linear": 1e-3}, "no potential"),
+        ((I, B, OMEGA), {"linear": 1e-3}, "for the potential of a TopMotion"),
         (((1, 1, 1.3), B, OMEGA), {"drag": (1e-3, 2e-3, 0)}, "across the axis"),
     ],
 )
