@@ -23,8 +23,8 @@ _FLAT = 1e-3
 MAX_ARROW_RATIO = 2.2
 """Largest length of the arrow I^-1 B' over that of B': beside a needle's all else would be small."""
 LEGEND = (
-    r"The outer side is blue, the inner amber; hidden parts are dashed. Motions with constant $\Omega_3$ start only from "
-    r"the hyperbola $\omega_1=0$ (heavy line); the canonical axes meet at $-\mathbf{B}'$."
+    r"The outer side is blue, the inner amber; hidden parts are dashed. Motions with constant $\Omega_3$ start only "
+    r"from the hyperbola $\omega_1=0$ (heavy line); the canonical axes meet at $-\mathbf{B}'$."
 )
 
 DEGENERATE = {

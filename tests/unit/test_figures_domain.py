@@ -217,9 +217,9 @@ def test_the_caption_says_where_the_hyperbola_is_straight_lines(
         ("bifurcation", {}, "of the two ovals"),
         ("bifurcation", {"momentum": (0.0,)}, "of the bounded oval"),
         ("quadric", {"field": (0.0, 0.0)}, "is all space for"),
-        ("quadric", {"field": (0.0, 1.0)}, "All its points (heavy line) are motions"),
-        ("quadric", {"field": (1.0, 0.0)}, "Parts that a plane hides are dashed. The points"),
-        ("quadric", {}, "Blue is the outer"),
+        ("quadric", {"field": (0.0, 1.0)}, "All its points (heavy line) start spins"),
+        ("quadric", {"field": (1.0, 0.0)}, "Hidden parts are dashed. Motions"),
+        ("quadric", {}, "The outer side is blue"),
         ("rosettes", {"fractions": ((4, 2),)}, "is $2/1$, back after 1 turn of"),
         (
             "rosettes",
