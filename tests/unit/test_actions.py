@@ -59,7 +59,7 @@ CHANGES = ({"field": 0.5}, {"drag": (0.1, 0.15)}, {"field": 0.3, "drag": (0.2, 0
 
 @pytest.mark.slow
 @pytest.mark.parametrize("change", CHANGES)
-def test_drift_is_that_of_an_integrator_to_the_order_of_the_change(change: Any) -> None:
+def test_drift_agrees_with_an_integrator_to_first_order(change: Any) -> None:
     """Energy, M3 and p after a time 1/e, for a change slow by e: errors of e at most, less for a smaller e."""
     motion, errors = atlas.TopMotion((2.0, 1.5), (0.3, 0.9), (0.6, -0.8), (0.1, 0.2, 1.0), 0.2, -1.0), []
     for e in (0.03, 0.005):

@@ -102,6 +102,6 @@ TIES = (
 
 
 @each(TIES)
-def test_the_ball_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_ball_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Its axis, its frequency, its matrix and its vectors, for a momentum along the field too."""
     agree(tie, floor)

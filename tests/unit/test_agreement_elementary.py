@@ -258,7 +258,7 @@ TIES = (*PRECESSION, *SPECIAL, *ALONE)
 
 
 @each(PRECESSION)
-def test_a_precession_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_a_precession_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Constants, matrix and vectors of the one-parameter family, at rest too."""
     agree(tie, floor)
 
@@ -270,6 +270,6 @@ def test_the_motions_that_equation_71_loses_agree_with_the_ledger(tie: Tie, floo
 
 
 @each(ALONE)
-def test_the_free_body_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_free_body_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Any launch, with omega1 too."""
     agree(tie, floor)

@@ -115,7 +115,7 @@ TIES = (
 
 
 @each(TIES)
-def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_hyperbola_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Its points, where it begins and ends, its frequencies and its stability."""
     agree(tie, floor)
 

@@ -131,7 +131,7 @@ TIES = (
 
 
 @each(TIES)
-def test_the_motion_of_omega3_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_motion_of_omega3_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Its integrals, its cubic and its quartic."""
     agree(tie, floor)
 

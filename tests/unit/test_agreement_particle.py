@@ -234,7 +234,7 @@ TIES = (
 
 @pytest.mark.slow
 @each(TIES)
-def test_the_particle_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_particle_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Its path, the circle and the drift of which it is made, and the path of a point of a body."""
     agree(tie, floor)
 

@@ -67,6 +67,6 @@ TIES = (
 
 
 @each(TIES)
-def test_the_quadric_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_quadric_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     """Shape, frame and residual of any point."""
     agree(tie, floor)

@@ -269,7 +269,7 @@ def test_an_mp4_is_encoded_by_ffmpeg_from_the_frames(tmp_path: Path, monkeypatch
     assert abs(file.stat().st_size / (2 * 4 * width * height) - 1) < 0.05
 
 
-def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_ffmpeg_an_mp4_is_refused_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An mp4 is refused before anything is drawn."""
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(AtlasError, match="ffmpeg, which is not installed"):

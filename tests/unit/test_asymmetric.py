@@ -300,7 +300,7 @@ def test_in_a_period_the_body_turns_by_half_a_turn_at_most(case: tuple[Any, ...]
 
 
 @pytest.mark.slow
-def test_the_unit_of_time_changes_nothing() -> None:
+def test_motions_do_not_depend_on_the_unit_of_time() -> None:
     """All frequencies times 2^k and the time over it: the same matrix, to the bit."""
     motion = quick()
     scaled = Balls(QUICK[0], *([x * 2**300 for x in fractions(v)] for v in QUICK[1:]))

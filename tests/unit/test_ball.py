@@ -33,7 +33,7 @@ def test_gamma_and_k_hat_are_rounded_once(inputs: tuple[float, float, float, flo
 
 
 @pytest.mark.parametrize("inputs", EXTREME)
-def test_every_entry_is_true_to_4_ulp(inputs: tuple[float, float, float, float]) -> None:
+def test_every_entry_has_an_error_below_4_ulp(inputs: tuple[float, float, float, float]) -> None:
     """R of (28) and R^T R are within 4 ulp(1), for phases up to 2^50; and the identity at zero."""
     ball = BallMotion(*inputs[:2], inputs[2:])
     assert np.array_equal(ball.rotation(0.0), np.eye(3))

@@ -260,7 +260,7 @@ def test_the_turn_is_the_dynamic_part_less_the_area_of_the_curve_on_the_sphere()
 
 
 @pytest.mark.slow
-def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
+def test_the_drawn_axis_of_a_flattened_body_agrees_with_the_certified_motion() -> None:
     """R_3 at the last time drawn, seen with the field upright, 1e-8; the first body is symmetric, its zone narrow."""
     panels = recipes.load("flattening").scene(first=(1.0, 0.5), stop=6.0).panels
     sine, cosine = np.array([1.0, 0.5]) / np.hypot(1.0, 0.5)

@@ -74,7 +74,7 @@ def points(rings: list[Ring], corners: int = 5) -> tuple[NDArray[np.float64], ND
 @pytest.mark.parametrize(
     ("name", "dimensions", "rings"), list(rings_of_the_shapes()), ids=lambda x: x if isinstance(x, str) else ""
 )
-def test_a_shape_has_the_moments_of_the_points_it_is_made_of(
+def test_moments_of_a_shape_agree_with_those_of_its_points(
     name: str, dimensions: dict[str, float], rings: list[Ring]
 ) -> None:
     """The formula of each shape agrees with (8) on points that fill it."""

@@ -113,7 +113,7 @@ def _alive(group: int) -> bool:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("loading", [True, False])
-def test_workers_killed_at_random_moments_stop_nothing(
+def test_a_build_survives_workers_killed_at_random(
     undisturbed: dict[str, str], tmp_path: Path, *, loading: bool
 ) -> None:
     """When the processes that draw are killed, the build draws their figures again, and ends in the same bytes."""

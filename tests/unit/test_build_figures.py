@@ -244,7 +244,7 @@ def test_a_figure_that_fails_does_not_stop_the_others(tmp_path: Path, jobs: int)
 
 
 @pytest.mark.slow
-def test_a_worker_that_dies_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_build_survives_a_worker_that_dies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """When a worker is killed, the figures that were not finished are drawn by another."""
     cache, killed = Cache(tmp_path), list[int]()
     builds = [figure("trochoids"), figure("magn"), figure("lssc"), figure("work_precision")]

@@ -150,7 +150,7 @@ def test_the_math_font_holds_radicals_and_all_characters_of_formulas(built: Buil
             assert not uncovered, (path.name, uncovered)
 
 
-def test_a_figure_that_fails_leaves_a_note_and_stops_nothing(built: Built) -> None:
+def test_a_report_with_a_failing_figure_is_built_with_a_note(built: Built) -> None:
     """A particle without charge draws no trochoid: the page says so, the build reports it, the rest is there."""
     assert not built.ok
     ((recipe, reason),) = built.failures

@@ -118,7 +118,7 @@ CASES = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("words", CASES)
-def test_the_numbers_of_a_card_are_those_of_an_integration(words: str) -> None:
+def test_numbers_of_a_card_agree_with_an_integration(words: str) -> None:
     """Long, short, disk, ball, rod, negative charge, SI, Gaussian, near a separatrix, on the curve, free, a top."""
     numbers = card(request_of(words.split())[0])
     for key, value in CASES[words]().items():
@@ -126,7 +126,7 @@ def test_the_numbers_of_a_card_are_those_of_an_integration(words: str) -> None:
 
 
 @pytest.mark.slow
-def test_frequencies_of_the_card_are_those_of_the_motion() -> None:
+def test_frequencies_of_the_card_agree_with_the_motion() -> None:
     """B in the body is a sum of lines at m f1 + n f2, and the axis across B at f3 more; at other places it is not."""
     numbers = card(request_of("--inertia 1 1.5 2.2 --field 0.2 1 0.6 --omega 0.3 0.7 0.2".split())[0])
     f1, f2, f3 = (numbers[key]["value"] for key in ("f1", "f2", "f3"))

@@ -109,7 +109,7 @@ def test_a_threshold_counts_digits(write: Writer, threshold: float) -> None:
 
 
 @pytest.mark.parametrize(("threshold", "fails"), [(0, False), (3, False), (3.02, True), (17, True)])
-def test_the_ends_of_the_threshold_belong_to_it(write: Writer, threshold: float, fails: bool) -> None:
+def test_a_column_passes_thresholds_up_to_its_digits(write: Writer, threshold: float, fails: bool) -> None:
     """R11 off by 2^-10 at t = 0, 3.01 digits, passes 0 and 3 and fails 3.02 and 17; its digits are those of 2^-10."""
     column = check(write(HEAD + "t,R11\n0,1.0009765625\n"), threshold=threshold).columns[0]
     assert (column.fails_at is not None) is fails
@@ -299,7 +299,7 @@ def long_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_the_size_of_the_blocks_changes_nothing(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_grades_do_not_depend_on_the_size_of_blocks(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Digits, failures, drifts and the curve are the same in one block and in blocks of 97 lines."""
     result = check(long_file, threshold=11)
     monkeypatch.setattr(trajectory, "BLOCK", 97)

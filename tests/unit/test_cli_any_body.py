@@ -147,7 +147,7 @@ def test_digits_are_proven_in_any_axes_and_from_any_attitude() -> None:
         assert all(abs(Fraction(x) - y) < Fraction(1, 10**23) for x, y in zip(digits, digits_true, strict=True))
 
 
-def test_an_attitude_is_evaluated_as_it_was_typed() -> None:
+def test_an_attitude_is_evaluated_as_typed() -> None:
     """At t = 1e8 doubles from an attitude whose length is not 1 have the proven digits; matrices stay as they are."""
     words = "motion --inertia 1 1 1.5 --attitude 0.6 0 0 0.8 --field .3 .1 1 --omega .2 .3 1 --times 1e8 --json"
     entries, proven = (numbers(*words.split(), *option)["samples"][0]["R"] for option in ([], ["--digits", "17"]))
@@ -189,7 +189,7 @@ def test_frequencies_or_why_there_are_none() -> None:
 
 
 @pytest.mark.slow
-def test_a_tensor_in_any_axes_is_that_of_its_principal_axes(tmp_path: Path) -> None:
+def test_a_tensor_in_any_axes_agrees_with_its_principal_moments(tmp_path: Path) -> None:
     """Points turned by 30 degrees about z, or their tensor, in a field turned with them: the turned motion."""
     c, s = np.sqrt(3) / 2, 0.5
     P = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

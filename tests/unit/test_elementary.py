@@ -93,7 +93,7 @@ def test_every_case_has_its_name_and_solves_the_equations(case: str) -> None:
 
 
 @pytest.mark.parametrize("inputs", EXTREME)
-def test_vectors_are_true_to_8_ulp_of_their_length(inputs: tuple[float, float, float, float]) -> None:
+def test_vectors_have_errors_below_8_ulp_of_their_length(inputs: tuple[float, float, float, float]) -> None:
     """Omega, K and m are within 8 ulp of their length on extreme inputs and at long times."""
     I, B2, B3, omega2 = inputs
     motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=60)

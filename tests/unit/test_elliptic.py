@@ -188,7 +188,7 @@ def test_a_motion_restarted_from_its_state_continues() -> None:
 
 
 @pytest.mark.parametrize("name", ["unbounded oval", "bounded oval", "two equal moments"])
-def test_a_period_brings_the_field_back_and_turns_the_body_about_it(name: str) -> None:
+def test_after_a_period_the_field_returns_and_the_body_has_turned(name: str) -> None:
     """R(t + T) = R_B(precession) R(t), and not before T."""
     motion = atlas.EllipticMotion(*CASES[name])
     for t in (0.25, 3.5):
@@ -241,7 +241,7 @@ def test_each_kind_has_its_name(case: tuple[object, ...], kind: str) -> None:
             _ = motion.precession_per_period
 
 
-def test_the_period_about_an_axis_is_that_of_a_small_change() -> None:
+def test_the_period_about_an_axis_agrees_with_neighbouring_motions() -> None:
     """Near the field along an axis; about the middle one there is none."""
     motion_still = atlas.EllipticMotion(BODY, (0.0, 0.0, 1.0), 1.7)
     motion_moved = atlas.EllipticMotion(BODY, (0.0, 1e-7, 1.0), 1.7)
@@ -373,7 +373,7 @@ def test_the_splitting_is_the_square_of_the_flow_across(name: str) -> None:
     assert np.sort(np.abs(squares))[:4].max() <= 1e-6 * abs(motion.splitting)
 
 
-def test_for_two_equal_moments_the_splitting_is_that_of_the_paper() -> None:
+def test_for_two_equal_moments_the_splitting_agrees_with_the_paper() -> None:
     """C/D^2 = (1 + z/D)^2 times the squared frequency of nutation of the hyperbola; both signs occur."""
     for ratio, B3, x in ((1.5, 2.0, -1.5), (0.5, 0.125, 0.5), (0.5, 2.0, 1.75)):
         z, omega2 = x * x - 1, x - 1
@@ -423,7 +423,7 @@ def test_impossible_elliptic_motions_are_refused_in_one_line(case: tuple[object,
 
 
 @pytest.mark.parametrize("offset", [1e-1, 1e-3, 1.467799267622e-4, -5.6234132519e-5, -2.6101572156825e-5, 1e-8])
-def test_one_time_near_a_separatrix_is_that_of_many(offset: float) -> None:
+def test_single_times_near_a_separatrix_agree_with_arrays(offset: float) -> None:
     """R(0) is 1 to 8 units of 2^-53, and R at one time that of an array to twice as much."""
     motion = atlas.EllipticMotion((1.0, 2.0, 3.0), (2.0 + offset, 1.0, 3.0), 10.0)
     times = np.array([0.0, 0.3, 2.0, 17.0, 333.0])

@@ -75,7 +75,7 @@ def test_mass_matrix_and_energy_agree_with_the_points(seed: int) -> None:
 
 
 @given(seeds)
-def test_the_torque_is_that_of_the_lorentz_forces(seed: int) -> None:
+def test_the_torque_agrees_with_the_lorentz_forces(seed: int) -> None:
     """The right-hand side of (17) is the sum of [x_N, f_N], since the constraints' forces have no torque."""
     c = Cloud.random(seed)
     m = (c.masses[:, None] * np.cross(c.x, c.v)).sum(axis=0)

@@ -195,7 +195,7 @@ def test_a_body_that_is_nearly_a_ball_has_its_pole() -> None:
             atlas.ElementaryMotion(1 + Fraction(1, 10**20), FIELD, omega2, 0.5)
 
 
-def test_stability_of_a_motion_is_that_of_the_ratio_that_was_given() -> None:
+def test_stability_of_a_motion_is_decided_on_the_given_ratio() -> None:
     """The register takes ratio and field of a motion without rounding, in doubles as in balls."""
     ratio, field = Fraction(11, 7), (Fraction(3, 11), Fraction(1, 30))
     motion, family = atlas.ElementaryMotion(ratio, field, 1.7), FAMILIES["elementary"]

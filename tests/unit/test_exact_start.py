@@ -71,7 +71,7 @@ def balls(ratio: float, field: Any, omega: Any, t: float) -> np.ndarray:
 
 
 @pytest.mark.slow
-def test_an_unstable_start_beside_the_curve_leaves_it() -> None:
+def test_an_unstable_start_beside_the_curve_departs() -> None:
     """R33 at t = 30, 60, 100 is that of Taylor series, of proven digits and of the motion of three moments."""
     m = atlas.motion(RATIO, FIELD, OMEGA)
     three = atlas.AsymmetricMotion((1.0, 1.0, RATIO), FIELD, OMEGA)
@@ -159,7 +159,7 @@ def test_no_class_is_chosen_within_a_tolerance() -> None:
     assert np.abs(motion.rotation(t) - motion_general.rotation(t)).max() <= 16 * EPS
 
 
-def test_a_ball_in_any_field_is_that_of_its_general_motion() -> None:
+def test_a_ball_in_any_field_agrees_with_its_general_motion() -> None:
     """Two turns whose rates are not rounded before they are multiplied by a time."""
     B, w, A = (0.3, -1.1, 2.3), (0.7, 0.2, -0.4), Rotation.random(random_state=4).as_matrix()
     for body in (1.0, (0.7, 0.7, 0.7)):

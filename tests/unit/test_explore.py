@@ -294,7 +294,7 @@ def test_a_name_that_a_page_sends_is_never_a_file(server: Explorer, tmp_path: Pa
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.getuid() != 0 or not which("setpriv"), reason="needs root, to become another user")
-def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
+def test_another_user_of_the_machine_is_refused(tmp_path: Path) -> None:
     """The arguments of all processes, the file that the browser is given, and the socket tell another user nothing.
 
     The server answers while the browser runs, which the variable BROWSER without & waits for.

@@ -34,7 +34,7 @@ def exact_frame(axis: np.ndarray, B: np.ndarray) -> tuple[list[mpmath.matrix], m
 @given(axes, any_vector)
 @example(np.array([0.1, 0.2, 0.3]), np.array([0.1, 0.2, np.nextafter(0.3, 1)]))
 @example(np.array([1.0, 1e-140, 0]), np.array([1e140, 1, 0]))
-def test_the_frame_is_that_of_figure_lssc(axis: np.ndarray, B: np.ndarray) -> None:
+def test_the_laboratory_frame_agrees_with_figure_lssc(axis: np.ndarray, B: np.ndarray) -> None:
     """Axes and components agree with 1500 digits to an ulp of their own, however nearly parallel B and the axis are."""
     frame = LaboratoryFrame(axis, B)
     if frame.alignment not in {"oblique", "perpendicular"}:

@@ -352,7 +352,7 @@ def test_the_third_axis_traces_a_circle_about_the_field() -> None:
     assert np.abs(trace[-1] - trace[0]).max() <= 8 * EPS
 
 
-def test_drawn_angular_velocity_is_that_of_the_paper() -> None:
+def test_drawn_angular_velocity_agrees_with_the_paper() -> None:
     """The three curves are omega2 sin(phi t), omega2 cos(phi t) and omega3, (73)."""
     scene = load("motion").scene(ratio=0.5, field=(1.0, 2.0), omega2=-1.7)
     phi = 2.0 * -1.7 * 0.5 * 0.3 / (0.5 * -0.7)
@@ -499,7 +499,7 @@ def test_a_free_spin_stands_in_the_middle_of_its_window() -> None:
     assert (low + high) / 2 == pytest.approx(0.2, rel=8 * EPS)
 
 
-def test_the_potential_is_that_of_the_cubic() -> None:
+def test_the_potential_agrees_with_the_cubic_force() -> None:
     """V is minus the integral of the cubic (47) from the start on, and the level is the kinetic part of Omega3."""
     omega = (0.3, 0.7, 0.2)
     scene = load("pseudo_oscillator").scene(omega=omega)
@@ -520,7 +520,7 @@ def test_a_nutation_that_is_small_beside_the_spin_is_drawn_without_noise() -> No
     assert -3e-8 < path[:, 1].min() < path[:, 1].max() < 1e-11
 
 
-def test_points_of_the_quadric_leave_it_at_the_rate_of_the_paper() -> None:
+def test_points_of_the_quadric_depart_at_the_rate_of_the_paper() -> None:
     """The starts solve (50), and Omega3 begins with the slope omega1 B2; with omega1 = 0 nothing moves."""
     values = (0.8, -0.4, 0.2)
     panel, _ = load("quadric_leak").scene(ratio=0.5, field=(1.5, 2.0), omega2=0.7, omega1=values).panels

@@ -672,7 +672,7 @@ def test_a_small_nutation_is_never_silent(size: float) -> None:
 
 
 @pytest.mark.slow
-def test_a_hardly_nutating_motion_tells_its_body_or_that_it_does_not() -> None:
+def test_a_small_nutation_is_found_or_reported_as_undetermined() -> None:
     """A nutation of a fourteenth of the noise at 500 times is found by its frequency, among thousands."""
     rng = np.random.default_rng(9)
     t = np.sort(rng.uniform(0, 200, 500))

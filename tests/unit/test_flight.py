@@ -155,7 +155,7 @@ def test_any_body_flies_in_its_field_and_in_no_other(motion: Any) -> None:
         Flight(atlas.ParticleMotion(1.0, FIELD.E, 2 * FIELD.B, [1, 2, 3], [0, 0, 0]), motion, [0.3, -0.1, 0.7])
 
 
-def test_the_field_of_a_turned_body_is_that_of_the_laboratory() -> None:
+def test_the_field_of_a_turned_body_agrees_with_the_laboratory() -> None:
     """Components along the axes of the class, which are as those of the centre's field, are not taken for it."""
     field = Field((0, 1.0, 2.0), mu=2.0)
     motion = atlas.motion(1.3, ATTITUDE.apply((0, 1.0, 2.0)), START, ATTITUDE)

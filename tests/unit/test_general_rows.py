@@ -102,7 +102,7 @@ def test_scalars_of_many_motions_have_the_bits_of_one_by_one(draw: Any) -> None:
     [partial(ordinary, 200, 1), partial(spins, 40), partial(spins, 40, 1e-6), partial(extreme, 1)],
     ids=["ordinary", "along B", "near B", "extreme"],
 )
-def test_matrices_of_many_motions_are_true_to_the_promise(draw: Any) -> None:
+def test_matrices_of_many_motions_keep_the_promised_error(draw: Any) -> None:
     """R, K and Omega at one time each are within 6 ulp of 1, and 12 ulp of the largest rate, of the balls."""
     inputs = draw()
     motion, t = GeneralMotion(*inputs), times(inputs, 2)
@@ -216,7 +216,7 @@ def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytes
 
 
 @pytest.mark.parametrize("power", [-90, 40, 90])
-def test_nothing_depends_on_the_unit(power: int) -> None:
+def test_rows_do_not_depend_on_the_unit(power: int) -> None:
     """Rows whose frequencies are all that small or large have matrices and periods of those near one, to the bit."""
     (I, B, omega), unit = ordinary(40, 11), 2.0**power
     t = times((I, B, omega), 12)

@@ -50,7 +50,7 @@ def tables(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 
 @pytest.mark.usefixtures("tables")
 @pytest.mark.parametrize(("start", "step"), GRIDS)
-def test_the_grid_is_that_of_exact_real_times(start: float, step: float) -> None:
+def test_a_grid_is_accurate_at_exact_times(start: float, step: float) -> None:
     """Each matrix is within 4 ulp(1) of that at start + i step, and orthogonal to that; with tables and without."""
     R = ElementaryMotion(I, (B2, B3), OMEGA2).rotation_grid(start, step, 1000)
     for i in (0, 1, 12, 13, 63, 64, 65, 499, 500, 501, 767, 999):

@@ -20,7 +20,7 @@ FIELDS = [(1.0, 2.0), (-1.0, 2.0), (1.0, -1e-12), (1e-12, 1.0), (1e140, 2e140), 
 
 @pytest.mark.parametrize("ratio", RATIOS)
 @pytest.mark.parametrize("field", FIELDS)
-def test_sampled_points_are_true_to_one_ulp(ratio: float, field: tuple[float, float]) -> None:
+def test_sampled_points_have_errors_below_one_ulp(ratio: float, field: tuple[float, float]) -> None:
     """Each omega3 is within an ulp of (71) at the double omega2, on both branches."""
     omega2, omega3 = Hyperbola(ratio, field).sample(20)
     assert omega2.shape == omega3.shape == (20,)
@@ -93,7 +93,7 @@ def test_stability_is_minus_the_slope_of_the_cubic(ratio: float, field: tuple[fl
         assert curve.stability(omega2) == pytest.approx(-slope, rel=1e-11, abs=1e-12)
 
 
-def test_the_least_stability_is_that_of_the_curve() -> None:
+def test_the_least_stability_agrees_with_a_search_along_the_curve() -> None:
     """It is the least of `stability` at 4001 points, each above it, to 1e-5 of the field squared; zero for a ball."""
     x = np.geomspace(1e-3, 1e3, 4001)
     for ratio in (0.2, 0.9, 1.0, 1.3, 2.0):

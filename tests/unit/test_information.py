@@ -10,7 +10,7 @@ NAMES = ["ratio", "B1", "B2", "B3", "omega1", "omega2", "omega3"]
 T = np.linspace(0.0, 10.0, 101)[1:]
 
 
-def test_deviations_are_those_of_differences_of_the_motion() -> None:
+def test_deviations_agree_with_finite_differences() -> None:
     """Rates in the body, whose derivatives are taken here by moving each input, give the same deviations."""
     inputs, step = np.array([0.7, 0.0, 1.0, 2.0, 0.3, 0.7, 0.2]), 1e-5
 

@@ -38,7 +38,7 @@ def test_computed_values_are_finite_everywhere(place: int, bad: float) -> None:
             inputs.finite(values, "It")
 
 
-def test_an_array_in_which_nothing_is_masked_is_an_array() -> None:
+def test_a_masked_array_without_masked_values_is_accepted() -> None:
     """A mask that covers nothing is let go; one that covers something is refused."""
     assert inputs.real(np.ma.masked_array([1.0, 2.0], [False, False]), "x").tolist() == [1.0, 2.0]
     with pytest.raises(AtlasError, match="without masked entries"):

@@ -213,7 +213,7 @@ def test_deviations_agree_with_a_fit(spin: float) -> None:
     assert (fit_free.params["I3"].stderr is None) == (expected[2] == "")
 
 
-def test_the_precession_beyond_larmors_turn_is_that_of_the_general_motion() -> None:
+def test_the_precession_beyond_larmors_turn_agrees_with_the_general_motion() -> None:
     """By the charge alone; without a susceptibility there is no other, and the charge makes all of it."""
     parameters = {"radii": [1e-6], "spin": 3.0, "inclination": 0.7}
     ((_, larmor, precession, *_),) = cells(table("beyond_larmor", **DESIGN, **parameters))

@@ -225,7 +225,7 @@ def test_a_command_loads_its_listed_modules_alone(room: Room, case: Case) -> Non
 
 
 @pytest.mark.slow
-def test_a_figure_from_the_store_loads_nothing_that_draws(room: Room) -> None:
+def test_a_figure_from_the_store_loads_no_drawing_library(room: Room) -> None:
     """Asked for again, also in another format that is there, a figure is taken as it is."""
     room.run("figure lssc --format svg pdf --out twice", 0)
     assert room.run("figure lssc --format svg --out twice", 0) == {"numpy", "flint", "multiprocessing"}
@@ -257,7 +257,7 @@ def loaded_by(statement: str) -> set[str]:
     return set(result.stdout.splitlines()[-1].split())
 
 
-def test_help_loads_nothing_heavy() -> None:
+def test_help_loads_no_heavy_library() -> None:
     """``--help`` of every command, one after the other in one process, is printed without any library but click."""
     lines = "from atlas.cli.app import atlas\n" + "\n".join(
         f"atlas.main(['{name}', '--help'], standalone_mode=False)" for name in command_line.commands

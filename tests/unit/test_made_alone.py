@@ -54,7 +54,7 @@ def swinging() -> Iterator[SingleTop]:
 
 
 @pytest.mark.slow
-def test_the_further_turn_of_a_top_is_that_of_balls() -> None:
+def test_the_additional_turn_of_a_top_agrees_with_balls() -> None:
     """Its part that is periodic, all through half a period, within 8 ulp of one or of itself, in all its forms."""
     forms = set()
     for motion in swinging():

@@ -57,7 +57,7 @@ def quadrature(name: str, p: float, g: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_lattice_is_that_of_a_quadrature_all_round_the_loop(name: str) -> None:
+def test_the_lattice_agrees_with_a_quadrature_all_round_the_loop(name: str) -> None:
     """Period and angles are those of a quadrature of 20 000 points, but for whole turns, within 1e-9.
 
     Carried on by themselves the angles of the quadrature change by the same whole turns.

@@ -179,7 +179,7 @@ def test_a_motion_in_given_axes_is_copied_and_has_a_repr() -> None:
     ("ratio", "field", "omega"),
     [(1.5, (600.0, 800.0), (3e-13, 1e-13, -2e-13)), (0.5, (1.0, 0.1), (1e-16, -0.5, -0.2))],
 )
-def test_a_start_beside_an_elementary_one_is_not_taken_for_it(ratio: float, field: Any, omega: Any) -> None:
+def test_a_start_near_an_elementary_motion_is_not_elementary(ratio: float, field: Any, omega: Any) -> None:
     """In the axes of its class nothing is rounded: a slow start in a strong field, a push off an unstable motion."""
     motion, true = atlas.motion(ratio, (0.0, *field), omega), atlas.GeneralMotion(ratio, field, omega)
     assert motion.family == "general"

@@ -125,7 +125,7 @@ def test_a_tensor_in_another_order_is_asked_about(entries: str, question: str, m
     assert run("--tensor", *meant.split(), *FREE).exit_code == 0
 
 
-def test_a_tensor_of_no_body_in_any_order_is_refused_as_it_was_typed() -> None:
+def test_a_tensor_of_no_body_in_any_order_is_refused() -> None:
     """No other reading is offered where none is a body."""
     outcome = run("--tensor", "1", "1", "3", "0", "0", "0.1", *FREE)
     assert isinstance(outcome.exception, DomainError)

@@ -302,9 +302,7 @@ def test_a_page_carries_uncertainties(unbuilt: Callable[[str], dict[str, Any]]) 
 @pytest.mark.parametrize(
     ("units", "names"), [("si", "C/kg V/m T m m/s 1"), ("gaussian", "statC/g statV/cm G cm cm/s cm/s")]
 )
-def test_a_point_charge_has_the_units_that_it_was_given_in(
-    unbuilt: Callable[[str], dict[str, Any]], units: str, names: str
-) -> None:
+def test_a_point_charge_keeps_the_given_units(unbuilt: Callable[[str], dict[str, Any]], units: str, names: str) -> None:
     """Each parameter has its own unit, and the velocity in the figure."""
     record = unbuilt(f"particle --mu 5 --electric 0.1 0 0 --magnetic 0 0 2 --velocity 1 0 0 --units {units}")
     table, figure = (block["parameters"] for block in record["pages"][0]["blocks"] if "parameters" in block)
@@ -429,7 +427,7 @@ def test_a_body_without_a_field_is_free_and_its_times_have_a_unit() -> None:
         assert "B" not in scene.caption
 
 
-def test_a_field_at_an_angle_stands_as_it_was_typed() -> None:
+def test_a_field_at_an_angle_is_shown_as_typed() -> None:
     """In the options, and so in the name and the commands, and in words; the components are nowhere but in values."""
     words = "--ratio 1.5 --magnetic 0.8T --angle 30deg --mu 1C/kg --omega2 0.3"
     context = COMMANDS["motion"].make_context("motion", words.split())

@@ -216,7 +216,7 @@ def test_the_unit_of_time_changes_no_bit(power: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["drift", "period", "radius", "axes"])
-def test_quantities_of_a_magnetic_force_are_refused_without_it(name: str) -> None:
+def test_quantities_of_a_magnetic_force_are_refused_without_a_field(name: str) -> None:
     """Without B there is no drift, period, radius or frame: an error, not a NaN."""
     p = ParticleMotion(1, [1, 0, 0], ORIGIN, ORIGIN, ORIGIN)
     assert p.cyclotron_frequency == 0

@@ -50,7 +50,7 @@ def phases_of(f: float) -> Phases:
 
 @settings(max_examples=60)
 @given(st.floats(1e-3, 1e3), st.integers(0, 50), st.integers(0, 2**32))
-def test_cosine_and_sine_are_true_to_four_ulp_up_to_phase_2_to_50(f: float, digits: int, seed: int) -> None:
+def test_cosine_and_sine_have_errors_below_4_ulp_up_to_phase_2_to_50(f: float, digits: int, seed: int) -> None:
     """Cosine and sine of f t are within the proven 8 units of 2^-53 for any |f t| <= 2^50."""
     t = np.random.default_rng(seed).uniform(-1, 1, 20) * 2.0**digits / f
     assert largest_error(phases_of(f), f, t) <= PROVEN

@@ -336,7 +336,7 @@ def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "out of time" in verdict.method
 
 
-def test_sampling_proves_nothing() -> None:
+def test_sampling_is_no_proof() -> None:
     """A sampled claim is supported, with the count."""
     x = sympy.Symbol("x", real=True)
     outcome = decide("x = 2*x - x", Model({"x": x}), sample_only=True)

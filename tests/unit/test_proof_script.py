@@ -83,7 +83,7 @@ def test_without_a_verdict_one_line_says_why_there_is_no_script() -> None:
 
 
 @pytest.mark.parametrize("name", SAMPLE)
-def test_a_recorded_script_is_that_of_the_proof(name: str) -> None:
+def test_a_recorded_script_equals_that_of_the_proof(name: str) -> None:
     """Scripts on the pages were made from the line that is tried now; `atlas verify --record` makes them anew."""
     assert script_of(RECORDED[name]) == SCRIPTS[name]
 

@@ -53,7 +53,7 @@ def test_the_kind_is_decided_on_the_inputs_as_given(ratio: Any, kind: str) -> No
 
 @settings(max_examples=60)
 @given(st.one_of(st.floats(1e-6, 2), st.sampled_from([1 + 2.0**-52, 1 - 2.0**-53])), sides, sides, signs, signs)
-def test_the_scalars_are_true_to_4_ulp(I: float, size: float, tau: float, sign2: float, sign3: float) -> None:
+def test_scalars_have_errors_below_4_ulp(I: float, size: float, tau: float, sign2: float, sign3: float) -> None:
     """The angle beta, a2, a3, the semi-axes and the axes are within 4 ulp of their own size, for B3/B2 to 1e±12."""
     B2, B3 = sign2 * size, sign3 * size * tau
     quadric, true = Quadric(I, (B2, B3)), closed_form.quadric(1.0, I, B2, B3, digits=40)
@@ -74,7 +74,7 @@ def test_extreme_fields_neither_overflow_nor_vanish(scale: float) -> None:
 
 @pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0])
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 2.0), (1.0, -2.0), (-1.0, -2.0)])
-def test_the_canonical_form_is_that_of_the_surface(ratio: float, field: tuple[float, float]) -> None:
+def test_the_canonical_form_describes_the_surface(ratio: float, field: tuple[float, float]) -> None:
     """In the coordinates (53) a point of the surface obeys (54), for fields of any sign."""
     quadric = Quadric(ratio, field)
     B2, B3 = field

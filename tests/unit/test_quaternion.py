@@ -50,7 +50,7 @@ def matrix_of(q: Any) -> Any:
 
 @pytest.mark.slow
 @EVERY
-def test_quaternion_is_that_of_the_matrix_and_follows_the_equation_of_motion(name: str) -> None:
+def test_the_quaternion_agrees_with_the_matrix_and_the_equation_of_motion(name: str) -> None:
     """Within 20 eps of R; and q' = q Omega/2, integrated from t = 0, gives it with its sign after several turns."""
     m = MOTIONS[name]()
     t = np.linspace(-9.0, 14.0, 7 if name == "without a closed form" else 47)

@@ -229,7 +229,7 @@ def test_the_pdf_holds_every_slip_and_names_the_ledger(built: Built) -> None:
     assert text.count("SectionVII") == 1  # in the contents
 
 
-def test_the_order_of_grades_is_that_of_the_trial() -> None:
+def test_grades_are_ordered_as_in_the_trial() -> None:
     """The report names the grades itself, since it does not load the proofs; they are the same."""
     assert trial.GRADES == GRADES
 

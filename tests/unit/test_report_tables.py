@@ -310,7 +310,7 @@ def test_magnetised_bodies_swing_like_pendulums() -> None:
         assert float(row[6].digits) == pytest.approx((float(row[4].digits) / float(row[2].digits)) ** 2, rel=0.03)
 
 
-def test_the_monodromy_of_a_table_is_that_of_its_loop() -> None:
+def test_the_monodromy_of_a_table_agrees_with_its_loop() -> None:
     """A row of the matrix for g3, and a step that tells why."""
     loop = {"name": "top", "ratio": 0.5, "M3": 0.5, "p": 0.5, "linear": 1.0}
     (row,) = compute("monodromy", Request((), {"loops": [loop], "points": 24}, 3)).rows

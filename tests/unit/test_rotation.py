@@ -43,7 +43,7 @@ def errors(R: Any, I: float, B2: float, B3: float, omega2: float, times: list[fl
 
 
 @pytest.mark.parametrize("regime", REGIMES)
-def test_every_entry_is_true_to_4_ulp_at_any_phase(regime: str) -> None:
+def test_every_entry_has_an_error_below_4_ulp_at_any_phase(regime: str) -> None:
     """Entries and orthogonality are within 4 ulp(1) of 40-digit values, for phases up to 2^50."""
     I, B2, B3, omega2 = REGIMES[regime]
     motion = ElementaryMotion(I, (B2, B3), omega2)

@@ -126,7 +126,7 @@ def listed(place: Path, family: str, heading: str, row: str, quantity: str) -> t
         ("", 1, "time"), ("1", 1, "time"),
     ],
 )  # fmt: skip
-def test_a_unit_in_the_heading_of_a_list_is_that_of_its_column(
+def test_a_unit_in_the_heading_of_a_list_applies_to_its_column(
     tmp_path: Path, unit: str, factor: float, time: str
 ) -> None:
     """A rate in Hz is turns a second, and the table is in seconds then; files of the atlas are taken as they are."""
@@ -180,7 +180,7 @@ def test_a_parameter_has_its_name_and_the_unit_of_its_option(tmp_path: Path, wor
 
 
 @pytest.mark.parametrize("place", ["/proc/x.csv", "/proc/y/x.csv"])
-def test_a_place_that_cannot_be_written_is_named_as_it_was_typed(place: str, capsys: Any) -> None:
+def test_an_unwritable_destination_is_named_as_typed(place: str, capsys: Any) -> None:
     """With status 2, and none of the files that a sweep has beside its table."""
     words = f"sweep elementary --set ratio=1.5 B2=1 B3=2 omega2=1 --quantity k --out {place}"
     with pytest.raises(SystemExit) as end:

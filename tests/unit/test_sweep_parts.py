@@ -168,7 +168,7 @@ def test_parts_of_another_sweep_or_another_program_are_not_taken(
     assert (tmp_path / "t.csv").read_bytes() == table_bytes
 
 
-def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_key_of_a_part_depends_on_the_computing_code(monkeypatch: pytest.MonkeyPatch) -> None:
     """A changed kernel changes it, the drawing of a figure does not."""
     read, keys = Path.read_bytes, {run.code.__wrapped__()}
     changed = [

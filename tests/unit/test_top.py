@@ -409,7 +409,7 @@ def test_random_and_extreme_tops_move_as_the_equations_say() -> None:
         np.testing.assert_allclose(nu, integrated(case, times), rtol=0, atol=1e-11, err_msg=name)
 
 
-def test_the_fast_top_of_multibody_codes_is_met_as_closely_as_they_publish_it() -> None:
+def test_the_fast_top_of_multibody_codes_agrees_with_the_published_digits() -> None:
     """The heavy top of Brüls and Cardona (2010) at t = 2 s, as the Kynema project stores it: steps of 2e-6 s, 2e-6 off.
 
     Displacement of the centre of mass and quaternion, from a second-order generalized-alpha method; its axes x, y, z

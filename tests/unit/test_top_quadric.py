@@ -57,7 +57,7 @@ def test_the_unstable_bands_agree_with_the_papers_body() -> None:
 
 
 @pytest.mark.parametrize(("n3", "kind"), [(0.8, "two-sheet hyperboloid"), (-0.8, "one-sheet hyperboloid")])
-def test_lagranges_top_has_two_sheets_while_it_stands_and_one_while_it_hangs(n3: float, kind: str) -> None:
+def test_a_standing_top_has_two_sheets_and_a_hanging_one_has_one(n3: float, kind: str) -> None:
     """A heavy top, the direction up and the body's axis above or below the horizontal; with g = 0 a cone."""
     body = atlas.SymmetricBody(1.0, 0.5)
     top = atlas.TopMotion.heavy(body, 9.81, 0.5, (0.6, n3), (0, 0, 1), mass=2.0)

@@ -98,7 +98,7 @@ def test_a_sleeping_top_falls_over_within_its_band_only(side: str) -> None:
         assert atlas.TopMotion(inertia, coupling, (0, sign), (0, 0, spin), *potential).stable != falls
 
 
-def test_the_band_of_lagranges_top_is_that_of_the_textbook() -> None:
+def test_the_stability_of_lagranges_top_agrees_with_the_textbook() -> None:
     """(I3 omega3)^2 < 4 I2 m g l while it stands; hanging it is stable at any spin."""
     top = atlas.TopMotion.heavy(atlas.SymmetricBody(0.75, 0.5), 4.0, 0.5, (0, 1), (0, 0, 1), mass=1.0)
     assert top.sleeping_bands == {"upright": (-2 * 2**0.5 / 0.5, 2 * 2**0.5 / 0.5), "hanging": None}

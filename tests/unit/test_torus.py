@@ -125,7 +125,7 @@ def test_periods_and_frequencies_belong_together(numbers: dict[str, Any]) -> Non
     assert G[0] - [0, 0, b] == pytest.approx(f, rel=1e-12)
 
 
-def test_the_riemann_matrix_is_that_of_the_motion(numbers: dict[str, Any]) -> None:
+def test_the_riemann_matrix_agrees_with_the_motion(numbers: dict[str, Any]) -> None:
     """Two paths give each entry beside the diagonal, to all digits; it is the one that the kernel sums with."""
     assert "riemann_matrix" not in numbers["not_proved"]
     with mpmath.workdps(60):

@@ -49,7 +49,7 @@ def test_scalars_of_many_motions_have_the_bits_of_one_by_one() -> None:
         assert np.array_equal(getattr(many, name), [getattr(motion, name) for motion in motions_each])
 
 
-def test_matrices_of_many_motions_are_true_to_4_ulp() -> None:
+def test_matrices_of_many_motions_have_errors_below_4_ulp() -> None:
     """At one time each, of any size of phase up to 2^50, every entry is within 4 ulp(1) of the ball."""
     draws = motions(6, seed=2)
     t = moments(draws)

@@ -98,7 +98,7 @@ def test_a_system_is_found_in_any_spelling() -> None:
     assert units.system("GAUSSIAN") is units.GAUSSIAN
 
 
-def test_the_speed_of_light_is_that_of_the_system() -> None:
+def test_the_speed_of_light_follows_the_system_of_units() -> None:
     """In cm/s it stands in the formulas of Gaussian units, and 1 in those of SI."""
     assert (units.SI.c, units.GAUSSIAN.c) == (1.0, 29_979_245_800.0)
 
