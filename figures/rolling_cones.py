@@ -10,7 +10,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
@@ -82,8 +81,11 @@ def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatAr
 
     `t` (N,) are the times.
     """
-    back = Rotation.from_rotvec(np.outer(-motion.phi * t, E3))
-    return rotations_about(O, motion.rotation(t) @ back.as_matrix())
+    spin = motion.phi * t
+    back = np.zeros((len(t), 3, 3))
+    back[:, 0, 0], back[:, 1, 1], back[:, 2, 2] = np.cos(spin), np.cos(spin), 1.0
+    back[:, 0, 1], back[:, 1, 0] = np.sin(spin), -np.sin(spin)
+    return rotations_about(O, motion.rotation(t) @ back)
 
 
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
