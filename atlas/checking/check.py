@@ -88,12 +88,14 @@ class Check:
         none = f"{self._title}: nothing to compare with, so no column is graded"
         lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
         if self.drifts:
-            lines += ["what should not change", table(*self.drift_table(), align_left=True)]
+            lines += ["constants of the motion", table(*self.drift_table(), align_left=True)]
         lines += map(printable, (*self.conventions, *self.notes))
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        return html_table(self._title, *self.column_table()) + html_table("what should not change", *self.drift_table())
+        return html_table(self._title, *self.column_table()) + html_table(
+            "constants of the motion", *self.drift_table()
+        )
 
     def record(self) -> dict[str, Any]:
         """Return the grades as a dict for JSON, with the attributes as keys."""
@@ -124,7 +126,7 @@ class Check:
         They are its symbol, its meaning, its equation, the largest relative deviation, the time of that, and the
         last deviation.
         """
-        heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
+        heading = ["constant", "meaning", "equation", "largest deviation", "at t", "last deviation"]
         rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
         return heading, rows
 

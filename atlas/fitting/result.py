@@ -480,7 +480,7 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
     """
     out = []
     data, wider = problem.data, problem.model.wider
-    cause = "the family is not that of the motion ("
+    cause = "the motion is outside the family ("
     cause += f"family {' or '.join(wider)} is wider; " * bool(wider) + "drag, a second field"
     cause += "; rates that are not along the axes of the body)" if data.kind == "angular_velocity" else ")"
     off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
@@ -503,7 +503,7 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
     lengths = np.linalg.norm(r, axis=1)
     uneven = np.max(lengths) > HEAVY and np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
     if problem.loss == "linear" and uneven and r.size >= MANY:
-        out.append("Some residuals are far larger than most: if they are outliers, loss='soft_l1' (--loss) bears them.")
+        out.append("Some residuals are far larger than most: if they are outliers, use loss='soft_l1' (--loss).")
     correlation = problem.correlation(x)
     if abs(correlation) > SURPRISE / np.sqrt(r.size):
         out.append(

@@ -136,9 +136,9 @@ def gauge(problem: Problem) -> list[str]:
         return []
     if "a1" in hidden:
         return [
-            "The attitude in the laboratory is not seen: B1 to B3 are along the axes that the body has at the epoch."
+            "The attitude in the laboratory is not determined: B1 to B3 are along the axes of the body at the epoch."
         ]
     if problem.data.kind != "axis":
-        words = "The turn of the body about the field is not seen, a3 = 0 at the epoch is a convention; and with "
-        return [words + "all of n, k2, k3 and linear the other way the data are the same."]
-    return ["The angle of the body about its axis is not seen: a3 = 0 at the epoch is a convention."]
+        words = "The angle of the body about the field is not determined: a3 = 0 at the epoch is a convention. With "
+        return [words + "all signs of n, k2, k3 and linear reversed the data are the same."]
+    return ["The angle of the body about its axis is not determined: a3 = 0 at the epoch is a convention."]
