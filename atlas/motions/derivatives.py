@@ -234,8 +234,8 @@ class One:
     def _weighted(self, names: Sequence[str]) -> tuple[Any, ...]:
         """Return derivatives in the inputs behind ``names``, and how the inputs are weighted; cached by ``names``.
 
-        The tuple is (`Varied` evaluator or None, weights (names, inputs), turns (names, 3), spins (names,),
-        prepared data or None); see `Moved`.
+        The tuple is (`Varied` evaluator or None, weights (names, inputs), turns (names, 3), spins (names,), what
+        `Varied.weighted` makes of these or None); see `Moved`.
         """
         key = tuple(names)
         if key not in self._cache:

@@ -48,9 +48,9 @@ def drift(
     motion : GeneralMotion, TopMotion or AsymmetricMotion
         One motion, also from `atlas.motion`.
     t : array_like, shape (m,)
-        Times, ascending from 0.
+        Times, not negative, ascending; the change begins at t = 0.
     field : float
-        Relative growth rate of the field: its strength, and the coupling, are multiplied by 1 + `field` t.
+        Relative growth rate of the field, in 1/time: its strength, and the coupling, are multiplied by 1 + `field` t.
     drag : float, (float, float) or (float, float, float)
         Rates d of the torque -(d_i I_i Omega_i), in 1/time: one number, (d2, d3) of a symmetric body, or one number for
         each principal axis of an `AsymmetricMotion`, in the order of its `own.inertia`.

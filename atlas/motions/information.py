@@ -44,7 +44,8 @@ def expected_errors(motion: Any, names: Sequence[str], t: FloatArray, reading: R
 
     Notes
     -----
-    The Fisher matrix is J^T J / sigma^2 with the derivatives J of the readings. The attitude at t = 0 is found as well.
+    The Fisher matrix is J^T J / sigma^2 with the derivatives J of the readings. Rotations of R(0) are fitted along with
+    the inputs: "a1" to "a3" for "rotation", "a1" and "a2" for "axis", none for "angular_velocity".
     """
     v = motion.sensitivity(t, [*names, *NUISANCES[reading]], "rotation" if reading == "axis" else reading)
     if reading == "axis":

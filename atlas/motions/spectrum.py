@@ -126,7 +126,8 @@ class Wheels(NamedTuple):
     def names(self) -> tuple[str, ...]:
         """Names of the `rates`: "f1", "f2", "f3", "spin" for two phases, else "nutation", "precession", "spin".
 
-        Without phases there is no "nutation".
+        f1, f2 and f3 are `AsymmetricMotion.frequencies`, beside which the rate "spin" is 0. Without phases there is no
+        "nutation".
         """
         return (
             ("f1", "f2", "f3", "spin")

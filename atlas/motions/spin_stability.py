@@ -8,10 +8,11 @@ def spins_on(moments: Sequence[Fraction], field: Sequence[Fraction], omega: Sequ
     """Return whether a spin about a principal axis, along the field if there is one, is linearly stable.
 
     Principal ``moments``, ``field`` B' and ``omega`` are three numbers each along the principal axes; omega has one
-    component that is not zero. With W = Omega + K along axis 3, pushes obey W1' = r1 (W W2 - K K2), W2' = r2 (W W1
-    - K K1), K1' = W K2 - K W2, K2' = K W1 - W K1, where r1 = (I2 - I3)/I1 and r2 = (I3 - I1)/I2. Solutions exp(s t)
-    have s^4 + p s^2 + q = 0: they stay small where both s^2 are negative and different. None at a border, where the
-    linear equations do not decide.
+    component that is not zero. Call its axis the third, K the field's component along it, and W the sum of K and that
+    component. Small components W1, W2 of Omega + K and K1, K2 of the field in the body obey W1' = r1 (W W2 - K K2),
+    W2' = r2 (W W1 - K K1), K1' = W K2 - K W2, K2' = K W1 - W K1, where r1 = (I2 - I3)/I1 and r2 = (I3 - I1)/I2.
+    Solutions exp(s t) have s^4 + p s^2 + q = 0: they stay small where both s^2 are negative and different. None at a
+    border, where the linear equations do not decide.
     """
     axis = next(i for i in range(3) if omega[i])
     I1, I2, I3 = (moments[(axis + i) % 3] for i in (1, 2, 3))

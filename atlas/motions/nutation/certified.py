@@ -68,7 +68,7 @@ class Nutating:
 
     @property
     def precession(self) -> Real:
-        """Rate about the field, in rad/time, of the frame to which the rates of alpha and beta refer.
+        """Rate about the field, in rad/time, of the frame to which the rates of alpha and beta refer, see `Solution`.
 
         Raises NotImplementedError in the base.
         """
@@ -76,7 +76,7 @@ class Nutating:
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the spin in a period is exactly zero, since nu = cos theta swings evenly about zero.
+        """Whether the spin in a period is exactly zero, since nu = cos theta goes to and fro between opposite values.
 
         Raises NotImplementedError in the base.
         """
@@ -129,7 +129,8 @@ class Nutating:
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return (cos, sin) of theta(0)/2, then (cos, sin) of chi(0): four rationals or balls.
 
-        theta is the angle from the field to the axis, chi the angle of spin about the axis.
+        theta is the angle from the field to the axis. chi is the azimuth of the field in the body, from the second
+        axis to the first; it is 0 where the axis is along the field.
         """
         return self.sphere.tilt
 
@@ -269,7 +270,8 @@ class Nutating:
     def rotation(self, t: Any) -> Matrix:
         """Return R(t) at one time, taken exactly, as three rows of balls or rationals; the unit matrix at t = 0.
 
-        It is a product of two rotations where theta is constant and for a ball, else the matrix of (alpha, beta).
+        It is a product of two rotations where theta is constant, for a solid ball (I = 1), and where `is_plane`; else
+        the matrix of (alpha, beta).
         """
         t = rational(t, "the time")
         if t == 0 or self.kind == "at rest":
@@ -284,9 +286,9 @@ class Nutating:
         return self._swung(t, a, b) if self.is_plane else matrix(self.from_frame(a, b))
 
     def _swung(self, t: fmpq, a: acb, b: acb) -> Matrix:
-        """Return R(t), three rows of balls, of a swing in a plane of Larmor's frame, about the vector n across it.
+        """Return R(t), three rows of balls, where `is_plane`: Larmor's rotation after a rotation about a vector n.
 
-        a and b are alpha and beta at time t.
+        n is in the body, across the plane in which the axis swings; a and b are alpha and beta at time t.
         """
         # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
         phase = acb(0, -self.precession * t / 2).exp()

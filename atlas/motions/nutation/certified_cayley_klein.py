@@ -55,8 +55,8 @@ class Lattice:
     def twist(self) -> arb:
         """Rate, in 1/time^2, of a phase that is twist y s, for a zero at s = i y: the effect of exchanged periods.
 
-        It is N pi/(2 half imaginary), N = 2 for an oblique lattice, else 1; 0 except in a hyperbolic form with a finite
-        period.
+        It is N pi over twice the product of `half` and `imaginary`, N = 2 for an oblique lattice, else 1; 0 except in a
+        hyperbolic form with a finite period.
         """
         if self.form != "hyperbolic" or infinite(self.half):
             return arb(0)
@@ -275,9 +275,9 @@ class Solution:
     """All constants of a motion at one precision: ``origin`` is the time since the turning point at t = 0.
 
     `alpha` and `beta` are the Cayley-Klein parameters over one `lattice`. ``precession`` and ``spin`` are the
-    rates, in rad/time, of the frame in which alpha and beta have their own: Larmor's, -b, and (1-I) c3; or the full
-    rates where theta is constant. ``swing`` is the further turn of a top about its axis, a `Swing` or `Crossing`;
-    else None.
+    rates, in rad/time, of the frame in which alpha and beta have their own: for a body in a field -b, b = |B'|, about
+    the field and (1-I) c3 about the axis, c3 the integral of (36) to (41); or the full rates where theta is constant.
+    ``swing`` is the further rotation of a top about its axis, a `Swing` or `Crossing`; else None.
     """
 
     lattice: Lattice

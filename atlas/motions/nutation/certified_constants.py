@@ -212,7 +212,8 @@ class Nutation:
     def _heteroclinic(self) -> Solution:
         """Return the `Solution` between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, no phase but the frame's.
 
-        There c3 = 0 and E' = I b^2, so that field and angular velocity have the same poles, ± b.
+        s is the time since the axis crosses the equator, b = |B'|. There c3 = 0 and E' = I b^2, integrals of (36) to
+        (41), so that field and angular velocity have the same poles, Omega3 = ± b.
         """
         q, frame = self.quartic, arb(self.sphere.frames[1])
         rate = arb(q.leading).sqrt() * abs(self.sphere.poles[1])

@@ -71,7 +71,7 @@ class Variation:
 
 
 def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
-    """Return the `Constants` of the pair (alpha, beta) of a ``solution``, with the ``tilt`` at t = 0.
+    """Return the `Constants` of (alpha, beta) of a ``solution``, with the ``tilt`` at t = 0.
 
     For the tilt see `Nutating.tilt`; ``places`` order the body's axes, the nutating one last. Raises DomainError on a
     separatrix.

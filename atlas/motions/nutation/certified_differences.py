@@ -66,10 +66,11 @@ class Differences:
         raise DomainError("No derivative: inputs on either side of this one start no motion of the family.")
 
     def at(self, t: float) -> tuple[FloatArray, ...]:
-        """Return (v, R dOmega/dp, R e3, its slope) at a time t: (inputs, 3) twice, then (3,) twice; dR/dp = [v]x R.
+        """Return (v, R dOmega/dp, R e3, d(R e3)/dt) at a time t: (inputs, 3) twice, then (3,) twice; dR/dp = [v]x R.
 
-        All are in the laboratory. The steps are made smaller until the differences are accurate; raises DomainError
-        where no step is small enough.
+        All are in the laboratory, the inputs p in the order of ``places``. v is in rad per unit of p, R dOmega/dp in
+        rad/time per unit of p; Omega, along the body's axes, is differentiated before R turns it. The steps are made
+        smaller until the differences are accurate; raises DomainError where no step is small enough.
         """
         time = rational(t)
         for _ in range(MAX_TRIES):

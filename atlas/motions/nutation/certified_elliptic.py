@@ -35,8 +35,9 @@ ROUNDING = fmpq(1, 2**48)
 class EllipticMotion(Nutating):
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3) at t = 0.
 
-    ``inertia`` and ``field`` (1/time) are along the principal axes; z and ``branch`` (1 or -1, the sign of v) are the
-    parameters of the family, see the module. Every value is computed anew at the precision of the moment, see
+    ``inertia`` and ``field`` (1/time) are along the principal axes; z (inertia^2) and ``branch`` (1 or -1, the sign of
+    v) are the parameters of the family: v^2 = prod(z + D/I_i), D = I1 I2 I3. `places` are the indices of the axes, the
+    nutating axis last. Every value is computed anew at the precision of the moment, see
     `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
     """
 
@@ -98,7 +99,10 @@ class EllipticMotion(Nutating):
 
     @property
     def splitting(self) -> fmpq:
-        """Squared frequency C/D^2 of small departures, exact, in 1/time^2, theorem-splitting: negative if unstable."""
+        """Squared frequency C/D^2 of small departures, exact, in 1/time^2, theorem-splitting: negative if unstable.
+
+        For C and D see `atlas.motions.nutation.formula_elliptic.splitting`.
+        """
         square: fmpq = splitting(self.inertia, self.field, self.z)
         return square
 
@@ -106,8 +110,8 @@ class EllipticMotion(Nutating):
     def stability(self) -> str:
         """Name "stable" if all motions that start near stay near the curve of K and M, else "unstable" or "undecided".
 
-        It is decided exactly. At rest and at Omega = -2 K the curve is that of the flow of F, along which
-        neighbours drift slowly.
+        M is II (Omega + K), in the body as K. It is decided exactly. At rest and at Omega = -2 K the curve is that
+        of the flow that the integral F of `invariants` generates, along which neighbours drift slowly.
         """
         C, stays = self.splitting, self._change() >= 0 if self.is_steady else self.kind != "separatrix"
         if self._rests or (C > 0 and stays):
@@ -167,7 +171,7 @@ class EllipticMotion(Nutating):
     def precession(self) -> Real:
         """Rate (E_a - `frame`) b, in rad/time, about the field, of the frame to which rates of alpha and beta refer.
 
-        a is the nutating axis, b the field's magnitude.
+        E_a is the component of `E` along the nutating axis a, the last of `places`; b is the length of `field`.
         """
         return (self.E[self.places[2]] - self.frame) * self.b
 
@@ -216,7 +220,10 @@ class EllipticMotion(Nutating):
 
     @property
     def circled(self) -> int:
-        """Index, 0 to 2, of the axis around which K goes: of the largest or least E; of two equal E the third."""
+        """Index, 0 to 2, of the axis around which K goes: of the largest or least `E`; of two equal E the third.
+
+        For constant K along an axis it is this axis.
+        """
         e, (left, right, nutating) = self._e, self.places
         if len(set(e)) == 2:
             return next(i for i in range(3) if e.count(e[i]) == 1)
@@ -232,7 +239,7 @@ class EllipticMotion(Nutating):
         """Total angle in rad, a ball, by which R turns about B in one period of K.
 
         After a period K, the field along the body's axes, is the same again, and R is this rotation times what it
-        was. Whole turns are those of the nutating axis.
+        was. Whole turns in the angle are counted as the precession of the nutating axis, the last of `places`.
         """
         return super()._angles()[0]
 

@@ -18,11 +18,11 @@ from atlas.motions.nutation.certified_quartic import Quartic, Root, Vector, rati
 
 
 class EllipticQuartic(Quartic):
-    """Quartic Q(u), u = -K_a, of an elliptic motion; see the module.
+    """Quartic Q(u) = (du/dt)^2, u = -K_a, of an elliptic motion, a the nutating axis.
 
-    ``e`` holds e_i = 1/(z I_i + D), and ``K`` the field's components at t = 0, in the order (b, c, a), a the
-    nutating axis. ``square`` is v^2, ``sign`` the sign of v. `N` is K^2, `h` the sum of e_i K_i^2; ``rate`` and
-    `torque` are du/dt at t = 0 and the torque at the poles, both over |v|.
+    ``e`` holds e_i = 1/(z I_i + D), D = I1 I2 I3, and ``K`` the field's components at t = 0, in the order (b, c, a) of
+    the axes. ``square`` is v^2, v^2 = prod(z + D/I_i), ``sign`` the sign of v. `N` is K^2, `h` the sum of e_i K_i^2;
+    ``rate`` and `torque` are du/dt at t = 0 and the torque at the poles, both over |v|.
     """
 
     def __init__(self, e: Vector, K: Vector, square: fmpq, sign: int) -> None:

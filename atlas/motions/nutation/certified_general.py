@@ -87,9 +87,10 @@ class GeneralMotion(Nutating):
 
     @by_precision
     def velocity(self) -> Solution:
-        """The `Solution` of the pair from which Omega follows, at the current working precision.
+        """The `Solution` of the pair alpha, beta of the angular velocity, from which Omega follows: an attribute.
 
-        See `atlas.motions.nutation.certified_spheres`.
+        The pair is of the vector (Omega2, Omega1, -sqrt(I) Omega3), of constant length, as the pair of R is of the
+        field; see `sphere_of_velocity`. It is made at the current working precision.
         """
         sphere = self._velocity_sphere
         if self.is_steady:
@@ -220,9 +221,9 @@ class GeneralMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether nu = K3/b swings evenly about zero, and with it the rate chi' = -p nu/(1 - nu^2) of the spin.
+        """Whether nu = K3/b goes to and fro between opposite values, and so the spin's rate chi' = -p nu/(1 - nu^2).
 
-        p = (M, K)/b; M3 = I c3 is then zero.
+        p = (M, K)/b, b = |K|; M3 = I c3 is then zero.
         """
         q = self.quartic
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
@@ -258,7 +259,7 @@ class Symmetric:
         self._back = [places.index(i) for i in range(3)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows of balls, along the body's axes in their given order."""
+        """Return R(t) as three rows of balls, along the body's axes in their given order; the time is taken exactly."""
         R = self.exact.rotation(t)
         return [[R[i][j] for j in self._back] for i in self._back]
 

@@ -178,10 +178,11 @@ def rational_polynomial(coefficients: Iterable[fmpq]) -> Polynomial:
 class TopQuartic(Quartic):
     """Q of u = -nu of a top, with moments (1, I), coupling (k2, k3), direction (n2, n3), and omega at t = 0.
 
-    ``potential`` is (linear, quadratic); all are over I2. `nu` and `transverse` are cos and sin of theta at t = 0;
-    `M3` is the canonical momentum along the axis, `p` along n, and `a`, `A`, `kappa` are those of the module. `low`
-    and `high` are indices, among the distinct real roots in ascending order, of the two between which u moves; they
-    are equal, the index of a multiple root, where theta is constant.
+    ``potential`` is (linear, quadratic); moments, coupling and potential are over I2. `nu` and `transverse` are cos and
+    sin of theta at t = 0; `M3` is the canonical momentum along the axis, `p` along n. `kappa` is k2 - k3/I, `a` is
+    M3 kappa + linear, `A` is k3^2/I - k2^2 + quadratic, the coefficient of u^4. `low` and `high` are indices, among the
+    distinct real roots in ascending order, of the two between which u moves; they are equal, the index of a multiple
+    root, where theta is constant.
     """
 
     def __init__(self, I: fmpq, coupling: Any, direction: Any, omega: Any, potential: Any) -> None:

@@ -30,11 +30,11 @@ POLES = (-1, 1)
 class Sphere:
     """Sphere on which a vector moves in the body, with its poles -1 (of alpha) and 1 (of beta) as keys.
 
-    The vector is K, a top's b, or (Omega2, Omega1, -sqrt(I) Omega3). At a pole it would be along the axis: `poles`
-    are the values of the quartic's variable u there, `torques` are T with T^2 = -Q(u), `signs` their exact signs,
-    and `frames` the rates of the frame in alpha and beta. `start` is the vector at t = 0, of this `length`.
-    `slopes` are the derivatives of alpha and beta at t = 0, for the one that is zero there. The frame has the rates
-    `precession` about the field and `spin` about the axis, in rad/time.
+    The vector is K, a top's b = R^T n, or (Omega2, Omega1, -sqrt(I) Omega3). At a pole it would be along the axis:
+    `poles` are the values of the quartic's variable u there, `torques` are T with T^2 = -Q(u), `signs` their exact
+    signs, and `frames` the rates, in rad/time, of the phases of alpha and beta that the frame gives. `start` is the
+    vector at t = 0, of this `length`. `slopes` are the derivatives of alpha and beta at t = 0, for the one that is zero
+    there. The frame has the rates `precession` about the field and `spin` about the axis, in rad/time.
     """
 
     start: tuple[Real, Real, Real]

@@ -32,7 +32,7 @@ ROUGH_BITS = 80
 class Swing:
     """Rotation of a top about its axis by kappa times the integral of nu = cos theta, as a function of time.
 
-    The angle, in rad, is kappa (rate t + twist s + 2 at(x)/sqrt(|A|)), x = sqrt(|A|) odd(s)/even(s), with at =
+    The angle, in rad, is kappa (rate t + twist s + 2 at(y)/sqrt(|A|)), y = sqrt(|A|) odd(s)/even(s), with at =
     artanh for A > 0, arctan for A < 0, and 2 odd/even for A = 0. s is the time since a turning point, A (1/time^2)
     the quartic's leading coefficient, kappa is in 1/time, and `rate` and `twist` have no unit. `lattice` has the
     periods, `width` is the distance of the turning points of nu. For A > 0 nu is infinite at s = x + i imaginary,
@@ -84,7 +84,10 @@ class Swing:
         return rough if rough.rel_accuracy_bits() > ROUGH_BITS // 4 else largest_oscillation()
 
     def oscillation(self, s: arb) -> arb:
-        """Return the part of the integral of nu that is no multiple of time, at time s in the period, a ball."""
+        """Return the part of the integral of nu that is no multiple of time, at time s in the period, a ball in time.
+
+        s is the time since the turning point; the factor kappa is left out.
+        """
         return turn_of(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
 
 
@@ -92,9 +95,10 @@ class Swing:
 class Crossing:
     """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n.
 
-    Up to a constant it is kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): the rate is -kappa sense long
-    before s = 0 and kappa sense long after, with no mean. s is the time since the axis crosses the equator,
-    `origin` its value at t = 0; `slope` is in 1/time, `sense` is 1 or -1.
+    The axis tends to -sense n long before s = 0 and to sense n long after. Up to a constant the integral is
+    kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): its rate goes from -kappa sense to kappa sense, with no mean.
+    s is the time since the axis crosses the equator, `origin` its value at t = 0; `slope` is in 1/time, `sense` is 1
+    or -1, the sign of dnu/dt.
     """
 
     kappa: arb
@@ -155,9 +159,10 @@ def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
 
 
 def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
-    """Return the `Crossing` of the motion between n and -n that passes the equator at time -``origin``.
+    """Return the `Crossing` of the motion that tends to n and to -n, in either order, as t goes to -inf and to inf.
 
-    ``quartic`` is that of the top.
+    The axis crosses the equator at time -``origin``; the sign of dnu/dt says which way. ``quartic`` is that of the top;
+    that the motion is of this kind is not checked.
     """
     return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
 

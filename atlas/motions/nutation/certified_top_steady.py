@@ -61,7 +61,10 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
 
 
 def _any_rate(push: Surd) -> list[SteadyPrecession]:
-    """Return [] for nu = M3 = 0, where M3 w = a has no solution w; ``push`` is a. Raises DomainError for a = 0."""
+    """Return [] for nu = M3 = 0, where M3 w = a has no solution w; ``push`` is a. Raises DomainError for a = 0.
+
+    a is that of `TopQuartic`, w the rate of precession plus k2/I2.
+    """
     if push.is_zero:
         raise DomainError("With nu = M3 = a = 0 every rate is one of a steady precession.")
     return []
@@ -105,8 +108,9 @@ def stable(q: TopQuartic) -> bool:
 def sleeping_band(I: fmpq, kappa: fmpq, k3: fmpq, potential: tuple[fmpq, fmpq], side: int) -> tuple[Real, Real] | None:
     """Return (low, high) of omega3, rad/time, between which a top along n (`side` 1) or against n (-1) is unstable.
 
-    None if there is no such omega3. I = I3/I2; kappa, k3 and ``potential``, which is (a0, A), are over I2. The band is
-    (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A) with M3 = I omega3 + side k3.
+    None if there is no such omega3. I = I3/I2; kappa, k3 and ``potential`` are over I2. The potential is (a0, A),
+    a0 its linear coefficient, A that of `TopQuartic`. The band is (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A)
+    with M3 = I omega3 + side k3.
     """
     a0, A = potential
     square = kappa * kappa + side * a0 + A

@@ -42,11 +42,13 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 class CayleyKlein:
     """Constants of alpha and beta of one motion as doubles, from balls at a precision where each is accurate.
 
-    ``solution()`` makes the `Solution` at the current working precision. `values` (4, rows) are the weights of Re
-    alpha, Re beta, Im alpha, Im beta, each sum being over the rows that `functions` fills, up to a common factor;
-    with ``slopes`` eight rows, the last four for the derivatives by time, without the swing of a top. `phases` and
-    `frequencies`, in turns per time, are of the sum and the difference of the phases of alpha and beta, and of the
-    period, if there is one. Raises DomainError where `MAX_BITS` digits do not suffice.
+    ``solution()`` makes the `Solution` at the current working precision. Up to a common factor, alpha and beta are sums
+    of real functions of time, times phases exp(i f t). `functions`, from `atlas.motions.nutation.functions` and made
+    here, writes the functions; `values` (4, rows) are their weights in Re alpha, Re beta, Im alpha, Im beta. With
+    ``slopes`` four more rows are the weights in the derivatives by time, without the part that comes from the rate
+    kappa nu of a top's `swing`. `frequencies`, in turns per unit of time, are a list of two, of the sum and of the
+    difference of the phases of alpha and beta; with a period T a third is 1/T or 1/(2 T). `phases` is the `Phases` of
+    these, which gives the phases at times in rad. Raises DomainError where `MAX_BITS` digits do not suffice.
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
@@ -68,7 +70,8 @@ class CayleyKlein:
     def _in_balls(self, t: fmpq) -> list[float]:
         """Return [Re alpha, Re beta, Im alpha, Im beta] at time t, squares summing to one.
 
-        With slopes the four derivatives by time follow, over the same factor, without the swing of a top.
+        With ``slopes`` the four derivatives by time follow, over the same factor, without the part that comes from the
+        rate of a top's swing.
         """
         precision = self.precision
         while True:
@@ -118,9 +121,9 @@ class CayleyKlein:
 
     @property
     def at_one_time(self) -> bool:
-        """Whether `products_of_one` may evaluate the pair at one time: without `swing`, and away from separatrices.
+        """Whether `products_of_one` may evaluate alpha and beta: without `swing`, and away from separatrices.
 
-        Near them the argument of the hyperbolic functions is large, and a double of it loses digits.
+        Near a separatrix the argument of the hyperbolic functions is large, and a double of it loses digits.
         """
         return not self.swing and isinstance(self.functions, Steady | Trigonometric)
 
@@ -139,10 +142,10 @@ class CayleyKlein:
         return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
 
     def _phases(self) -> Phases:
-        """Return the `Phases` of `frequencies` and `origins`; a hyperbolic form's own is reduced by half turns.
+        """Return the `Phases` of `frequencies` and `origins`; the period's, if hyperbolic, is reduced by half turns.
 
         The hyperbolic functions' argument has a large slope, as has the swing of a top in a slow nutation: so that
-        phase is reduced as if it were long, without any loss.
+        phase is reduced as if the times were long, without any loss.
         """
         hyperbolic = self.periodic and isinstance(self.functions, Hyperbolic)
         rounder = np.array([EVEN, EVEN, ROUNDER])[:, None] if hyperbolic else EVEN
@@ -172,8 +175,8 @@ def _swing(exact: Any) -> Any:
 def _crossed(solution: Solution) -> list[arb] | None:
     """Return the phases at t = 0 of a ``solution`` on the separatrix from n to -n, in turns; None for any other.
 
-    They are a list of two, of the sum and the difference of alpha and beta: zero, and kappa s/2 pi, s the time
-    since the equator.
+    They are a list of two, of the sum and of the difference of the phases of alpha and beta: zero, and kappa s over
+    2 pi, s the time at t = 0 since the axis crossed the equator.
     """
     if not isinstance(solution.swing, ExactCrossing):
         return None
@@ -183,8 +186,8 @@ def _crossed(solution: Solution) -> list[arb] | None:
 def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
     """Return (list of frequencies of a ``solution`` in turns per unit of time, phase of the period at t = 0 in turns).
 
-    The frequencies are of the sum and the difference of the phases of alpha and beta, and, if ``periodic``, of the
-    period; otherwise the phase is 0.
+    The frequencies are of the sum and the difference of the phases of alpha and beta, and, if ``periodic``, 1/T, or
+    1/(2 T) where the functions need half the angle; otherwise the phase is 0.
     """
     pair, swing = (solution.alpha, solution.beta), solution.swing
     rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]

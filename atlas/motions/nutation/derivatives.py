@@ -35,11 +35,12 @@ LOST_TERM_OF_FITS = 2.0**26
 class Weighted:
     """v of N combinations of a pair's P inputs: sums of functions of time with constant weights.
 
-    In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q
-    and along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so
-    from b; a, b are alpha, beta, and a_p, b_p their derivatives. `to_lab` (3, 3) takes vectors into the laboratory,
-    `names` (N, P) are the weights of the inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the
-    laboratory, and about its own, besides.
+    dR/dp = [v]x R for a combination p. In the frame whose third axis is the field, v has the component Im(a_p u* +
+    b_p w*) along the third axis and b_p x - a_p y, the first component plus i times the second, across. a and b are
+    alpha and beta without their phases, a_p and b_p their derivatives, u = 2 a/(|a|^2 + |b|^2), w = 2 b/(|a|^2 +
+    |b|^2), x and y are u and w times exp(i f), f the sum of both phases. `to_lab` (3, 3) takes vectors into the
+    laboratory, `names` (N, P) are the weights of the inputs. Besides, p turns the body about axes of the laboratory
+    by `turns` (N, 3) and about its own axis by `spins` (N,), in rad per unit of p.
     """
 
     def __init__(
@@ -145,7 +146,7 @@ class Weighted:
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
         """Return the factors (3, 4, m) of v, in the laboratory, for Re a_p, Im a_p, Re b_p and Im b_p.
 
-        p, q, u and w are the complex arrays (m,) of the class, a_p and b_p the derivatives of alpha and beta.
+        u and w are the arrays (m,) of the class, p and q its x and y, a_p and b_p the derivatives of alpha and beta.
         """
         ways = np.array([
             [-q.real, q.imag, p.real, -p.imag],
@@ -175,8 +176,8 @@ class Weighted:
     ) -> FloatArray:  # fmt: skip
         """Return the functions of time that `columns` weigh (``level`` 0), or their slopes (1), shape (3, 8, m).
 
-        t are the times, s those in the period and ``count`` the whole periods, (m,) each; ``by_s`` has the
-        derivative of R by s as a vector, ``axis`` the body's axis, (3, m) each, by level.
+        t are the times, s those in the period and ``count`` the whole periods, (m,) each; ``by_s`` has the vector
+        v_s with dR/ds = [v_s]x R, ``axis`` the body's axis in the laboratory, (3, m) each, by level.
         """
         (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
         basis = np.empty((3, 8, t.size))

@@ -26,8 +26,9 @@ class VariedPair:
 
     ``variations`` has a `Variation` for each input, with equal constants. By the inputs (P,) `rates` (P, 2) are the
     derivatives of the sum and difference of the phases' rates, `cells` and `origins` (P,) those of the length of a
-    cell (two periods, or one if hyperbolic) and of the time since the turning point at t = 0. `tables` has for
-    alpha and beta an array of weights: of the function, of its slope, and of its P derivatives.
+    cell (two periods, or one if hyperbolic) and of the time s since the turning point at t = 0. `tables` has for alpha
+    and beta an array of weights (2 + P, functions), see `functions`: of the sum, of its derivative by s, and of its P
+    derivatives in the inputs.
     """
 
     def __init__(self, variations: Sequence[Variation]) -> None:

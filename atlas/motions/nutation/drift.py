@@ -97,7 +97,7 @@ class Drift:
         Returns
         -------
         TopMotion
-            Motion that starts at the least cos theta.
+            Motion that starts at the least cos theta with R(0) = 1. Its time 0 is not t[i], whose phases are left out.
         """
         b, nu = self.bodies[i], float(self.nu[i, 0])
         transverse = float(np.sqrt(max(1 - nu * nu, 0.0)))

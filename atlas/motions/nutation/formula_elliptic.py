@@ -19,8 +19,9 @@ from atlas.arithmetic.numbers import Number, Vector, dot
 def splitting(moments: Vector, K: Vector, z: Number) -> Number:
     """Return C/D^2, the squared frequency of small departures in the flow of H + (z/D) F/2, in 1/time^2.
 
-    ``moments`` are I1, I2, I3, K is the field in the body (1/time), z the motion's parameter; C, D, H, F are those
-    of the module. Negative where neighbours leave the motion.
+    ``moments`` are I1, I2, I3, K is the field in the body (1/time), z the motion's parameter. D = I1 I2 I3 and
+    C = 4 K^2 P + s (P'^2 - 2 P P''), with P(z) = prod(z + D/I_i) and s = sum K_i^2/(z + D/I_i). H and F are those of
+    `EllipticMotion.invariants`. Negative where neighbours leave the motion.
     """
     x = places(moments, z)
     return split(moments, dot(K, K), dot(K, [k / q for k, q in zip(K, x, strict=True)]), z)

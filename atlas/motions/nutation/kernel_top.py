@@ -303,16 +303,19 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         Notes
         -----
-        The rates solve I2 nu w^2 - M3 w + a + A nu = 0 with w = rate + k2/I2. The list is empty where both are
-        complex. One remains where both coincide or nu = 0. A start has omega1 = 0 and omega2 = rate n2/|n|. For an
-        axis along n see `sleeping_bands`.
+        The rates solve I2 nu w^2 - M3 w + a + A nu = 0 with w = rate + k2/I2 and
+
+            M3 = I3 omega3 + k3 nu,    a = M3 (k2/I2 - k3/I3) + linear,    A = k3^2/I3 - k2^2/I2 + quadratic.
+
+        The list is empty where both are complex. One remains where both coincide or nu = 0. A start has omega1 = 0 and
+        omega2 = rate n2/|n|. For an axis along n see `sleeping_bands`.
         """
         balls = enclosed(lambda: [tuple(x) for x in self._twin.steady_precessions], BITS)
         return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in balls]
 
     @property
     def sleeping_bands(self) -> dict[str, tuple[float, float] | None]:
-        """Intervals of omega3 in which the vertical top is unstable, theorem-sleeping-top: M3^2 < 4 (a + A).
+        """Intervals of omega3 in which the vertical top is unstable, theorem-sleeping-top: M3^2 < 4 I2 (a + A).
 
         Returns
         -------
@@ -326,8 +329,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         Notes
         -----
-        "hanging" reverses the sign of a. For Lagrange's top the band is (I3 omega3)^2 < 4 I2 m g l. At its ends see
-        `stable`.
+        M3, a and A are those of `steady_precessions`, with nu = 1, or -1 if hanging. "hanging" reverses the sign of
+        a. For Lagrange's top the band is (I3 omega3)^2 < 4 I2 m g l. At its ends see `stable`.
         """
         balls = enclosed(lambda: list(self._twin.sleeping_bands.items()), BITS)
         return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in balls}

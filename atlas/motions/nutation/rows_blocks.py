@@ -32,14 +32,16 @@ WEIGHT_RADIUS = 2.0**-57
 
 
 class Constants(NamedTuple):
-    """Constants of the Cayley-Klein pairs of m motions, the last axis over motions; see the module for the formula.
+    """Constants of the Cayley-Klein pairs of m motions, the last axis over motions.
 
-    `words` (2, 3, m) are the frequencies l of alpha and beta, and M, in half turns per time, in two words;
-    `frequency_error` (3, m) bounds their errors; `rates` (3, m) are the frequencies in rad/time. `even` and `odd`
-    (MAX_TERMS, 2, m), of which `terms` (m,) matter, are weights, `factor` (2, m) is F, `start` (2, m) are cos and
-    sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos and sin of theta(0); `azimuth` and `sizes`,
-    (2, m) each, are those of the vector, see `Sphere`; `plane` (2, m) are cos and sin of a rotation about e3, see
-    `Roots`. `is_certain` (m,) marks the motions for which all this is accurate.
+    With y = M t + y0, M = pi/T, T the period, alpha (and so beta) is exp(i l t) F times the sum over k = 1, 3, 5,
+    ... of even_k cos k y + i odd_k sin k y. `words` (2, 3, m) are the frequencies l of alpha and beta, and M, in
+    half turns per time, in two words; `frequency_error` (3, m) bounds their errors; `rates` (3, m) are the
+    frequencies in rad/time. `even` and `odd` (MAX_TERMS, 2, m), of which `terms` (m,) matter, are weights, `factor`
+    (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos and
+    sin of theta(0); `azimuth` and `sizes`, (2, m) each, are those of the vector, see `Sphere`; `plane` (2, m) are
+    cos and sin of a rotation about e3, see `Roots`. `is_certain` (m,) marks the motions for which all this is
+    accurate.
     """
 
     words: FloatArray
@@ -62,8 +64,10 @@ class Constants(NamedTuple):
 class Block:
     """A block of m motions: the slice `rows` of all, their `roots`, and scaling `exponents`.
 
-    Frequencies are divided by 2^`exponents`, integers (m,) or 0; `is_similar` (m,) marks the motions whose inputs have
-    similar sizes.
+    The `roots` are made of inputs in a scaled unit, in which frequencies are divided by 2^`exponents`, integers
+    (m,), or 0 where nothing is scaled. So rates in 1/time of the scaled unit are to be multiplied by 2^`exponents`,
+    times divided. `is_similar` is the mask (m,) of motions whose inputs have similar sizes, see
+    `MIN_FREQUENCY_RATIO`.
     """
 
     rows: slice

@@ -33,14 +33,15 @@ PLANE_FACTOR = 1 + 1e-12
 
 @dataclass(frozen=True)
 class EllipticRoots(TurningPoints):
-    """The turning points of u + K_a, with further constants of the sphere of K, for rows (m,); see the module.
+    """The turning points of v = u + K_a, u = -K_a(t), a the nutating axis, with further constants, for rows (m,).
 
-    `turning` is u_t and `w` the square of the other roots in u, `K` the field at t = 0, `axial` K_a and
-    `transverse` its part across a, `b` its length; `v` is the root of the family, `torque` that at both poles,
-    `precession` (E_a - 1) b. `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i
-    and of K_c, c the axis about which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0,
-    `transverse`, `axial`), the third one a, as columns. `top` and `plane` are None, unlike those of `Roots`. Only
-    where the mask `elliptic` holds all this is certain to be a motion of that kind.
+    Q = (du/dt)^2 is even in u. `turning` is its root u_t, where u turns back, and `w` the square of the other
+    roots. `K` is the field at t = 0, `axial` K_a and `transverse` its part across a, `b` its length; `v` is the
+    root of the family, `torque` that at both poles, `precession` (E_a - 1) b. `rates` are E_i - 1, from K to Omega;
+    `sense` are the signs of E_c less the other E_i and of K_c, c the axis about which K goes round; `frame` (3, 3,
+    m) has the axes in which K starts as (0, `transverse`, `axial`), the third one a, as columns. `top` and `plane`
+    are None, unlike those of `Roots`. Only where the mask `elliptic` holds all this is certain to be a motion of
+    that kind.
     """
 
     turning: DoubleDouble
@@ -159,7 +160,7 @@ class Pencil:
         return [-(self.v * y) - ONE for y in self.e]
 
     def is_elliptic(self, w: DoubleDouble) -> Any:
-        """Return a mask (m,) of rows that are certainly elliptic motions, given the w of the module.
+        """Return a mask (m,) of rows that are certainly elliptic motions, given ``w``, see `EllipticRoots`.
 
         False also where rounding leaves the kind open, and near rest.
         """

@@ -45,8 +45,9 @@ class Level:
 class Means:
     """Arithmetic-geometric means of m motions from their turning points: rate M = pi/T, moduli, nome, start.
 
-    T is the period of nutation. `N` and `S` are those of the module, in the scaled unit, `four` is the mask of
-    motions with four real roots of Q, and `levels` are the steps.
+    T is the period of nutation. `N` is sqrt(f(low) f(high))/4 and `S` is -[f0 + f1 (low + high)/2 + f2 low high]/2,
+    in the scaled unit, f being the factor of Q in `TurningPoints`. `four` is the mask of motions with four real
+    roots of Q, and `levels` are the steps.
     """
 
     def __init__(self, roots: TurningPoints) -> None:
@@ -120,8 +121,9 @@ class Means:
     def start(self) -> Circle:
         """(cos, sin) of the phase M t0, (m,) each, t0 the time at t = 0 since the variable of Q was `low`.
 
-        With c of the means, cot(2 M t0) = (c - a g/c)/2 goes from each step to the next. The sine is negative where the
-        variable falls at t = 0.
+        From a `Level` with the means a, g to the next a number c becomes (c - a g/c)/2: where a = g this doubles an
+        angle whose cotangent is c/a. The angles of all steps make M t0. The sine is negative where the variable
+        falls at t = 0.
         """
         r = self.roots
         square, below = r.ends[0].scaled(-2) * r.high, -r.low

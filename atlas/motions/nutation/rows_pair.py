@@ -40,9 +40,9 @@ class Zeros(NamedTuple):
 class Sums(NamedTuple):
     """Weights of cos k y and i sin k y, k = 1, 3, 5, ..., of alpha and beta, and the sums at the start.
 
-    `even` and `odd` are (MAX_TERMS, 2, m), `terms` (m,) is the number of terms that matter, `start` the pair of
-    sums (2, m) over cos and sin at t = 0. `ends` are the sums where Omega3 is `low` and `high`, (2, m) each,
-    without i: those of `even`, and of `odd` with alternating signs.
+    y is M t + y0, see `Constants`. `even` and `odd` are (MAX_TERMS, 2, m), `terms` (m,) is the number of terms that
+    matter, `start` the pair of sums (2, m) over cos and sin at t = 0. `ends` are the sums where Omega3 is `low` and
+    `high`, (2, m) each, without i: those of `even`, and of `odd` with alternating signs.
     """
 
     even: FloatArray
@@ -78,7 +78,8 @@ class SpherePair:
     def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
         """(p^2, p after the first step, p - a after it), each (2, m): starts for integrals of the third kind.
 
-        p is the distance of the module, a the arithmetic mean.
+        p^2 is -f near/(4 far): near and far are the distances of the pole from the turning points, see `Sphere`, f the
+        factor of Q in `TurningPoints` at the one farther away. a is the arithmetic mean.
         """
         m, k = self.means, self.sphere
         r, top = m.roots, m.levels[0]
@@ -121,9 +122,10 @@ class SpherePair:
 
     @cached_property
     def rates(self) -> DoubleDouble:
-        """The frequencies l of alpha and beta, and M, (3, m), in rad/time of the scaled unit.
+        """The frequencies l of alpha and beta, see `Constants`, and M = pi/T, (3, m), in rad/time of the scaled unit.
 
-        Of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error.
+        Of a solid ball (I = 1) that starts at a turning point angle and M cancel, and a sum that is zero has no
+        relative error.
         """
         M, own_rates = self.means.rate, self.angles.scaled(-1)
         pair = self.sphere.frames + own_rates - signed(M, self.zeros.sense)

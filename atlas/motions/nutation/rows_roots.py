@@ -34,8 +34,9 @@ ROUNDING = 2.0**-98
 class TurningPoints:
     """Turning points `low` <= 0 <= `high` of v, valid where `exact`, and the other factor f0 + f1 v + f2 v^2 < 0 of Q.
 
-    `f` are f0, f1, f2; all are arrays (m,). `poles` (2, m) are the v at which nu, the cosine of the angle between
-    axis and field, is -1 and 1; `rate` is dv/dt at v = 0. v and Q are those of the module.
+    v is zero at t = 0: n3 - b nu, see `roots_of`, for elliptic motions see `EllipticRoots`. Q(v) = (dv/dt)^2 is (v
+    - low)(v - high)(f0 + f1 v + f2 v^2), `f` are f0, f1, f2; all are arrays (m,). `poles` (2, m) are the v at which
+    nu, the cosine of the angle between axis and field, is -1 and 1; `rate` is dv/dt at v = 0.
     """
 
     rate: DoubleDouble
@@ -124,7 +125,7 @@ class Roots(TurningPoints):
 
     @cached_property
     def ball(self) -> Any:
-        """Mask (m,) of balls, I = 1; false for tops."""
+        """Mask (m,) of rows with I = 1, solid balls; false for tops."""
         return (self.less.hi == 0) & (self.top is None)
 
     @cached_property

@@ -190,10 +190,10 @@ def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle
 
 
 def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circle:
-    """Return (cos c, sin c/sqrt(|A|)), (m,) each, of the angle c of the module, at which nu is infinite.
+    """Return (cos c, sin c/sqrt(|A|)), (m,) each, of the angle c in the weights of `SwingSums`.
 
-    ``means`` are those of the tops, ``size`` is sqrt(|A|). c is hyperbolic for A < 0: cos^2 + A sin^2 = 1 with the
-    second number as sin.
+    c says at which complex times nu is infinite. ``means`` are those of the tops, ``size`` is sqrt(|A|). c is
+    hyperbolic for A < 0: cos^2 + A sin^2 = 1 with the second number as sin.
     """
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()

@@ -165,8 +165,9 @@ class SingleGeneral(SingleMotion):
     def velocity(self) -> tuple[CayleyKlein, FloatArray, float, float]:
         """The pair of (Omega2, Omega1, -sqrt(I) Omega3), the weights of its products in Omega, and two sizes.
 
+        The pair has alpha and beta as for R, with this vector in the field's place, see `GeneralMotion.velocity`.
         The tuple is (`CayleyKlein`, array (10, 3), sqrt(E'), sqrt(E'/I)): the sizes are the largest that Omega
-        across and along the axis could be, in rad/time.
+        across and along the axis could be, in rad/time; E' is the integral of (36) to (41).
         """
         pair = CayleyKlein(lambda: self.exact.velocity)
         sizes = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
