@@ -785,8 +785,9 @@ class Motion(Shown, Generic[Single]):
 class DoubleTurn(Motion[Rotation]):
     """Motions in elementary functions, R(t) = R_n(k t) R_z(phi t), (85): a turn about a fixed n after one about e3.
 
-    n is a unit vector in the laboratory, k and phi are rates in rad/time. Subclasses give the formulas in `_groups`
-    and the constant vectors in `_vectors`.
+    n is a unit vector in the laboratory, k and phi are rates in rad/time. A subclass with `_inverse` has the transposed
+    matrix instead, R(t) = R_z(-phi t) R_n(-k t). Subclasses give the formulas in `_groups` and the constant vectors in
+    `_vectors`.
     """
 
     _frequencies: slice
@@ -834,7 +835,10 @@ class DoubleTurn(Motion[Rotation]):
         fill_grid(single, start, step, out)
 
     def _wheels(self) -> Wheels:
-        """Return the `Wheels` of one motion: a rotation by k about the axis n, one by phi about e3, and no phases."""
+        """Return the `Wheels` of one motion: a rotation by k about the axis n, one by phi about e3, and no phases.
+
+        With `_inverse` they are by -phi about e3, then by -k about n.
+        """
         single, (L, C), e3 = self._single(), self._sides, np.array([0.0, 0.0, 1.0])
         n = np.array([nearest(x) for x in single.axis])
         k, phi = (nearest(x) for x in single.frequencies)

@@ -184,7 +184,7 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
 def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
     """Return (component along e2, rotation matrix (3, 3) about e3) that turns the vector (K1, K2) onto e2.
 
-    The component is sqrt(K1^2 + K2^2), or K2 with its sign, and the unit matrix, where K1 = 0 already.
+    The component is sqrt(K1^2 + K2^2). Where K1 = 0 already, it is K2 with its sign and the matrix is the unit matrix.
     """
     if K1 == 0:
         return K2, np.eye(3)

@@ -43,7 +43,7 @@ class Evaluation:
     def components(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return rows Re alpha, Re beta, Im alpha, Im beta, (4, m), up to a real factor that they share at each time.
 
-        Where the parameters' table has derivatives, their four rows by time follow, with the same factor: (8, m).
+        If ``parameters`` were made with slopes, the four derivatives by time follow, with the same factor: (8, m).
         `low` (m,) are corrections to the times t (m,), or None.
         """
         if self.parameters.by_balls:
@@ -142,9 +142,10 @@ class Evaluation:
         return half
 
     def _keep(self, half_turns: FloatArray | None) -> None:
-        """Store in `odd` (m,) the sum of the whole turns left out of the phases; its parity is the pair's sign.
+        """Store in `odd` (m,) the sum of the whole turns left out of the phases: an odd sum changes the sign of both.
 
-        ``half_turns`` (n, m) holds integers in the memory of doubles, or is None; without `signed` nothing is stored.
+        Both are alpha and beta. ``half_turns`` (n, m) holds integers in the memory of doubles, or is None; without
+        `signed` nothing is stored.
         """
         if self.signed and half_turns is not None:
             self.odd = half_turns.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)

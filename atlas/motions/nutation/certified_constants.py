@@ -26,8 +26,8 @@ class TurningPoint:
     """A simple turning point u = e of Q, the quartic of nutation, and times that u takes from there.
 
     `roots` are the distinct roots of Q, ``place`` is the index of e among them, and `other_roots` holds the indices
-    of the others, repeated by multiplicity. `quarter_slope` is Q'(e)/4, as a product over these. w is the function
-    of the module.
+    of the others, repeated by multiplicity. `quarter_slope` is Q'(e)/4, as a product over these. A time is found from
+    w = Q'(e)/(4 (u - e)), which is Weierstrass's function of the time less a constant.
     """
 
     def __init__(self, quartic: Quartic, roots: tuple[Root, ...], place: int) -> None:
@@ -173,9 +173,10 @@ class Nutation:
     def _function(self, name: int) -> tuple[Sum, arb, int]:
         """Return (the `Sum` with its zero at the pole ``name``, -1 or 1; the zero's imaginary part y; a sign).
 
-        The sign is that of the torque at the pole, reversed where the zero is reached through the other turning
-        point or was moved by half a period. Where the vector meets the pole the sum is real up to a phase, and the
-        sign is 0.
+        The sign is that of the torque at the pole, reversed where the pole is next to the other turning point but
+        reached through an infinity of u, and again where the zero was moved, see `Sum.shifted`. Where the vector
+        meets the pole the sum is real up to a phase, and the sign is 0, or as for a positive torque where y is half
+        the imaginary period.
         """
         q, pole, sense = self.quartic, self.sphere.poles[name], self.sphere.signs[name]
         # the pole -1 is where Omega3 is highest

@@ -114,7 +114,7 @@ def variations(
 ) -> list[Variation]:
     """Return a `Variation` for the input at each index in `places`; `scales` are sizes of the inputs, not zero.
 
-    ``make`` takes all inputs, ``values`` or values beside these, and returns `Constants`. Where the formulas do not
+    ``make`` takes all inputs, which are ``values`` or near these, and returns `Constants`. Where the formulas do not
     change, each derivative is one forward difference, and a step back in all inputs checks them. Raises DomainError
     where the constants have no derivatives.
     """

@@ -53,8 +53,8 @@ class Differences:
     def _neighbours(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
         """Return triples (motion, weight of the derivative, weight of its change over h) for the input ``place``.
 
-        The motions have that input changed by multiples of h. Raises DomainError where no motions beside this one
-        exist.
+        The motions have that input changed by multiples of h. Raises DomainError where inputs next to this one, on
+        either side, start no motion of the family.
         """
         for steps, weights in SIDES:
             try:

@@ -339,7 +339,7 @@ class EulerTop(EllipticMotion):
     def mode(self) -> str:
         """Axis around which the momentum goes: "long axis" (least moment) or "short axis" (largest moment).
 
-        Otherwise it is "separatrix", "ball" or "at rest".
+        Otherwise it is "separatrix", "ball" (three equal moments) or "at rest".
         """
         if self._rests or len(set(self.inertia)) == 1:
             return "at rest" if self._rests else "ball"

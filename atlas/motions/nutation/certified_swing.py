@@ -170,8 +170,8 @@ def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
 def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
     """Return the sums (O times ``factor``, E) for poles of nu at s = x + i imaginary; ``depth`` is rate x.
 
-    O and E are the odd and even parts of the module's theta function, each a `Sum`; rate and imaginary, half the
-    imaginary period, are those of the ``lattice``.
+    O and E are the odd and even parts, each a `Sum`, of a theta function that is zero where nu is infinite; rate and
+    imaginary, half the imaginary period, are those of the ``lattice``.
     """
     if lattice.form == "trigonometric":
         return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())

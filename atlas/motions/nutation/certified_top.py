@@ -82,20 +82,26 @@ class TopMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the spin in a period is exactly zero: M3 = 0 and nu swings evenly, so that chi' is odd in nu."""
+        """Whether the spin in a period is exactly zero: M3 = 0 and nu swings evenly, see `_is_even`.
+
+        The spin's rate chi' is then odd in nu.
+        """
         return self.quartic.M3.is_zero and self._is_even
 
     @property
     def precesses_evenly(self) -> bool:
         """Whether precession in a period is exactly -k2/I2 times the period: p = 0 and nu swings evenly.
 
-        The rest of the rate is then odd in nu, with mean zero.
+        For the latter see `_is_even`. The rest of the rate is then odd in nu, with mean zero.
         """
         return self.quartic.p.is_zero and self._is_even
 
     @property
     def _is_even(self) -> bool:
-        """Whether nu swings evenly about zero: potential and (p - M3 nu)^2 are even in nu, and nu passes zero."""
+        """Whether nu goes to and fro between opposite values.
+
+        Then potential and (p - M3 nu)^2 are even in nu, and nu passes zero.
+        """
         q = self.quartic
         even = q.a.is_zero and (q.M3.is_zero or q.p.is_zero) and not q.is_constant
         return even and q.low + q.high == sum(r.is_real for r in q.roots()) - 1

@@ -134,7 +134,7 @@ class CayleyKlein:
             return self.periodic and self._solution().alternates
 
     def _are_lost(self, values: list[list[acb]]) -> bool:
-        """Whether alpha or beta is nonzero but too small for a float beside the other.
+        """Whether alpha or beta is nonzero but too small for a float compared with the other.
 
         ``values`` (2, rows) are their exact weights.
         """
@@ -237,7 +237,7 @@ def _radius(x: arb) -> float:
 
 
 def _is_known(x: acb, largest: arb) -> bool:
-    """Whether a weight x is accurate relative to itself, or too small beside the ``largest`` to matter."""
+    """Whether a weight x is accurate relative to itself, or negligible compared with the ``largest``."""
     radius = max(_radius(x.real), _radius(x.imag))
     return radius <= WEIGHT_RADIUS * float(abs(x).mid()) or radius <= WEIGHT_RADIUS**2 * float(largest)
 

@@ -164,8 +164,8 @@ class MotionsAtTimes:
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
         """Return the `CayleyKleinAtTimes` of the selected motions, from constants of all.
 
-        `extreme` becomes the indices that need the scalar path. ``swings`` are left out where no selected motion is
-        twisted.
+        `extreme` becomes the indices that need the scalar path. ``swings`` are left out where no selected motion has a
+        rotation by the integral of nu, see `Swings.twisted`.
         """
         selected = self._selected(swings) if swings and swings.twisted[self._index].any() else None
         pair = CayleyKleinAtTimes(self._selected(constants), self._times, selected)

@@ -309,9 +309,10 @@ def _scalars(block: Block) -> dict[str, Rounded]:
 
 
 class Axes(NamedTuple):
-    """Axes of the pair, and the factors from K to Omega, of m elliptic motions.
+    """Axes in which alpha and beta are given, and the factors from K to Omega, of m elliptic motions.
 
-    `frames` (3, 3, m) has the axes in the body as columns, `rates` (3, m) are E - 1.
+    `frames` (3, 3, m) has the axes in the body as columns, the nutating axis third; `rates` (3, m) are E_i - 1
+    along the principal axes.
     """
 
     frames: FloatArray
@@ -341,7 +342,7 @@ class EllipticAtTimes(MotionsAtTimes):
         return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
-        """Write R of each motion at its time into ``out`` (m, 3, 3), turned from the axes of the pair to the body's.
+        """Write R of each motion at its time into ``out`` (m, 3, 3), along the body's principal axes.
 
         The argument t is not used: the times are those of this object.
         """

@@ -171,13 +171,14 @@ def roots_of(
 ) -> Roots:
     """Return the `Roots` of bodies in a field n = (B2, B3), or of tops in the direction n, arrays (m,).
 
-    In v = n3 - b nu, Omega3 - omega3 for a body in a field,
+    In v = n3 - b nu, b = |n|, which is Omega3 - omega3 for a body in a field,
 
         Q(v) = (n2^2 + 2 n3 v - v^2)(g + 2 c v - A v^2) - (n2 M2 + M3 v)^2,    g = omega1^2 + M2^2,  c = a + A n3,
 
-    where the terms of a rest in the field do not cancel. A = 0 leaves a cubic, whose fourth root is not asked for
-    anywhere. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K); ``top`` holds the potential of
-    tops, ``plane`` is kept in the result.
+    in units of I2, M2 and M3 being the canonical momenta along e2 and e3 at t = 0. A body in a field has a = 0 and
+    A = I - 1; for tops see `Top`. No coefficient cancels for a body at rest in the field. A = 0 leaves a cubic,
+    whose fourth root is not needed. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K);
+    ``top`` holds the potential of tops, ``plane`` is kept in the result.
 
         >>> I2, I3, B2, B3, *omega = (DoubleDouble(np.array([x])) for x in (1.0, 1.5, 1.0, 2.0, 0.3, 0.7, 0.2))
         >>> found = roots_of(I2, I3, (B2, B3), omega)

@@ -41,11 +41,12 @@ LAST = float(np.finfo(np.longdouble).eps)
 
 
 class SwingSums(NamedTuple):
-    """Theta sums E and O of m tops, see the module's head: `even` weighs cos 2 n y in E, `odd` sin 2 n y in O.
+    """Theta sums E and O of m tops: `even` are the weights of cos 2 n y in E, `odd` those of sin 2 n y in O.
 
-    Both are (MAX_TERMS, m); y is M t less its value where nu is largest, M half a turn over the period. `rate` (m,)
-    is the mean of b nu over time, nu being cos theta and b the length of n; `w_error` (m,) bounds the relative
-    error of the weights, inf where more terms would matter.
+    The integral of nu is a multiple of time plus (2/sqrt(|A|)) at(sqrt(|A|) O/E), at = artanh for A > 0, arctan for
+    A < 0, and 2 O/E for A = 0. Both arrays are (MAX_TERMS, m); y is M t less its value where nu is largest, M half
+    a turn over the period. `rate` (m,) is the mean of b nu over time, nu being cos theta and b the length of n;
+    `w_error` (m,) bounds the relative error of the weights, inf where more terms would matter.
     """
 
     rate: DoubleDouble
